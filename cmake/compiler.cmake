@@ -1,0 +1,34 @@
+# Flags shared by every target, as one interface target. One -march for all units: mixing them breaks Eigen.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+add_library(fluidtex_flags INTERFACE)
+target_include_directories(fluidtex_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(fluidtex_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow
+  -fno-math-errno -ffp-contract=fast
+  $<IF:$<BOOL:${FLUIDTEX_NATIVE}>,-march=native,-march=x86-64-v3>)
+
+find_program(MOLD_PROGRAM mold)
+if(MOLD_PROGRAM)
+  target_link_options(fluidtex_flags INTERFACE -fuse-ld=mold)
+endif()
+
+if(FLUIDTEX_SANITIZE)
+  target_compile_options(fluidtex_flags INTERFACE -fsanitize=${FLUIDTEX_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(fluidtex_flags INTERFACE -fsanitize=${FLUIDTEX_SANITIZE})
+endif()
+
+# fluidtex_room(NAME SOURCES... ): one static library per top-level folder.
+function(fluidtex_room name)
+  add_library(${name} STATIC ${ARGN})
+  add_library(fluidtex::${name} ALIAS ${name})
+  target_link_libraries(${name} PUBLIC fluidtex_flags)
+endfunction()

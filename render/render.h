@@ -1,0 +1,41 @@
+// A path tracer for textured liquid: diffuse vertex colours under a clear coat, sun and sky.
+#pragma once
+
+#include "render/options.h"
+#include "texture/surface.h"
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+namespace fluidtex::render {
+
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<float> rgb;  // height x width x 3, linear, rows from the top
+};
+
+// A solid of the scene, drawn matt in one colour.
+struct Solid {
+  std::vector<texture::Vec3f> positions;
+  std::vector<texture::Vec3I> triangles;
+  Vec3d color;  // linear
+};
+
+struct View {
+  Vec3d domainSize;       // the domain is [0, domainSize]; tank and ground are built around it
+  double progress = 0.0;  // 0 at the first, 1 at the last frame of the animation: where a turning camera stands
+  int frame = 1;          // keys the random numbers
+};
+
+// Same input, same bytes, on any number of threads. An empty surface gives a picture of the surroundings.
+Picture render(const texture::TexturedSurface& surface, const std::vector<Solid>& solids, const Options& options, const View& view,
+               const std::function<void(double)>& progress = {});
+
+// sRGB, 8 bits, PNG. Throws std::runtime_error that names the file. The caller gives a temporary name and renames.
+void writePng(const Picture& picture, const std::filesystem::path& file);
+
+// H.264, yuv420p, bt709 from frames first..last named FOLDER/%04d.png. Throws std::runtime_error with ffmpeg's last words.
+void writeVideo(const std::filesystem::path& folder, int first, int last, double frameRate, const std::filesystem::path& file);
+
+}  // namespace fluidtex::render

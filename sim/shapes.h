@@ -1,0 +1,36 @@
+// Shapes as signed distances on a grid, and as triangles for drawing.
+#pragma once
+
+#include "sim/options.h"
+
+#include <openvdb/openvdb.h>
+
+#include <memory>
+
+namespace fluidtex::sim {
+
+struct TriangleMesh {
+  std::vector<openvdb::Vec3f> positions;     // #V, metres
+  std::vector<openvdb::Vec3I> triangles;     // #T, counter-clockwise from outside
+};
+
+// Reads OBJ, PLY or STL, polygons split into triangles. Throws std::runtime_error that names the file and what is wrong
+// (missing, unreadable, no faces, not closed).
+TriangleMesh readMesh(const MeshShape& shape);
+
+// Signed distance to the shape in metres, negative inside, exact for single shapes and a lower bound in magnitude
+// for unions and differences near their creases. Evaluated at world positions; meshes are turned into a level set once.
+class ShapeDistance {
+ public:
+  ShapeDistance(const Shape& shape, double voxelSize);
+  double operator()(const Vec3d& x) const;
+
+ private:
+  struct Node;
+  std::shared_ptr<const Node> m_root;
+};
+
+// The shape clipped to the domain, as triangles for drawing.
+TriangleMesh triangulate(const Shape& shape, const Vec3d& domainSize, double voxelSize);
+
+}  // namespace fluidtex::sim

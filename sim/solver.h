@@ -1,0 +1,50 @@
+// Free-surface liquid on a MAC grid: particle-free level set, face velocities, pressure by projection.
+#pragma once
+
+#include "sim/frame.h"
+#include "sim/options.h"
+
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+
+namespace fluidtex::sim {
+
+// All that the next step needs; writing and reading it back continues bit for bit.
+struct State {
+  int frame = 0;      // last finished frame, 0 before the first
+  double time = 0.0;  // s
+  openvdb::FloatGrid::Ptr phi;      // liquid, narrow band, metres, negative inside
+  openvdb::FloatGrid::Ptr u, v, w;  // face velocities, m/s, of one topology; transforms as in Substep
+  // Bodies of Options::liquid that have been put in already, by index.
+  std::vector<bool> poured;
+};
+
+// Thrown when a step cannot be made right (the pressure solve does not converge even after halving the step,
+// a velocity is not finite); the message says what happened, at which time, and what may help.
+struct SolverError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class Solver {
+ public:
+  explicit Solver(const Options& options);
+  Solver(const Options& options, State state);  // continues from a restored state
+
+  // The first call gives the initial state (frame 1, no substeps); each further call advances by one frame time.
+  // `progress`, where given, is called with the share of the frame done, 0..1.
+  Frame next(const std::function<void(double)>& progress = {});
+
+  const State& state() const { return m_state; }
+
+ private:
+  Options m_options;
+  State m_state;
+};
+
+// The state as one .vdb file, uncompressed so that every value returns bit for bit.
+// Throws openvdb::IoError when the file cannot be written or read.
+void writeState(const State& state, const std::filesystem::path& file);
+State readState(const std::filesystem::path& file);
+
+}  // namespace fluidtex::sim

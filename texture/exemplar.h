@@ -1,0 +1,44 @@
+// The example image, prepared once: levels of detail, channels to match by, colours to look up.
+#pragma once
+
+#include "texture/options.h"
+#include "texture/surface.h"
+
+#include <stdexcept>
+
+namespace fluidtex::texture {
+
+struct Image {
+  int width = 0, height = 0, channels = 0;
+  std::vector<float> data;  // height x width x channels, rows from the top
+  float* at(int x, int y) { return data.data() + (std::size_t(y) * width + x) * channels; }
+  const float* at(int x, int y) const { return data.data() + (std::size_t(y) * width + x) * channels; }
+};
+
+// Bilinear, texel centres at integers; outside it is clamped, or wrapped where `toroidal`. Writes image.channels values.
+void sampleBilinear(const Image& image, bool toroidal, const Vec2f& texel, float* out);
+
+struct Exemplar {
+  bool toroidal = false;
+  // Linear RGBA at full size, straight alpha; what the colour of a vertex is looked up in.
+  Image color;
+  // match[L]: what windows are compared and averaged by, reduced by 2^L: sRGB-encoded premultiplied R, G, B, (A where the
+  // image has alpha that varies,) then the feature-distance and gradient channels, each multiplied by the square root of its weight.
+  std::vector<Image> match;
+  int colorChannels = 3;  // of match: 3 or 4, the first ones
+};
+
+// The input is wrong; the message is one sentence that names the file.
+struct ExemplarError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Reads an image (8- or 16-bit, float; grey, RGB, RGBA, CMYK turned into RGB) and prepares `levels` levels.
+// Throws ExemplarError: missing, not an image, smaller than the largest window (at the coarsest level that window is
+// shortened where the image has become too small), fully transparent, values that are not finite.
+Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels);
+
+// The same from pixels in memory (linear RGBA).
+Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels);
+
+}  // namespace fluidtex::texture

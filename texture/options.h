@@ -1,0 +1,60 @@
+// Settings of surface preparation and synthesis: what a scene file says about the texture.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fluidtex::texture {
+
+enum class Method {
+  coordinates,  // ours: every vertex carries where in the exemplar it came from; colour is looked up afresh
+  kwatra07,     // the paper's own: colours are carried and averaged [Kwatra07 sec. V-B]
+};
+
+enum class Points {
+  seeds,   // the last frame's points moved with the flow, thinned and filled
+  random,  // drawn anew on each frame, the paper's way
+};
+
+struct SurfaceOptions {
+  Points points = Points::seeds;
+  int levels = 3;                 // of the hierarchy on the first frame that has a surface
+  int repulsionSweeps = 30;       // on the first frame and for random points; seeds need a quarter of them
+  std::uint64_t seed = 1;
+};
+
+struct SynthesisOptions {
+  Method method = Method::coordinates;
+  std::vector<int> windows{33, 17, 9};       // exemplar pixels, odd, falling
+  std::vector<int> firstIterations{4, 4, 5};  // a window, on the first frame
+  std::vector<int> laterIterations{1, 1, 1};  // a window, on each later frame
+  double robustExponent = 0.8;    // r of |s_p - z_p|^r; 2 gives the plain squares of [Kwatra07]
+  double softConstraint = 0.1;    // f: weight of the carried colour where it has mean gradient, 1 = all windows together
+  double histogram = 3.0;         // strength of the histogram weights [Kopf07]
+  double usage = 0.4;             // penalty on parts of the exemplar used more than the mean
+  double core = 0.2;              // weight of a window's centre when its texels are copied
+  double featureWeight = 0.3;     // of the signed feature distance channel, squared distance, colour = 1
+  double gradientWeight = 0.3;    // of the gradient energy channel
+  double keepStretch = 1.35;      // carried texture that is coherent and stretched less than this is kept
+  std::uint64_t seed = 1;
+};
+
+struct ExemplarOptions {
+  std::filesystem::path file;
+  bool toroidal = false;          // its left edge continues at its right, its top at its bottom
+};
+
+struct Options {
+  ExemplarOptions exemplar;
+  // Distance of neighbouring points, metres: one exemplar pixel. 0: chosen so that the first frame that has a surface
+  // gets `points` points.
+  double spacing = 0.0;
+  int points = 40000;
+  SurfaceOptions surface;
+  SynthesisOptions synthesis;
+};
+
+}  // namespace fluidtex::texture

@@ -1,0 +1,28 @@
+// Transport [Kwatra07 sec. VI]: brings the texture of the last frame's surface onto a new one.
+#pragma once
+
+#include "sim/frame.h"
+#include "texture/surface.h"
+
+namespace fluidtex::transport {
+
+// The points of the last surface moved forward with the flow over all substeps: seeds for the next surface.
+std::vector<texture::Vec3f> moved(const std::vector<texture::Vec3f>& positions, const sim::Frame& frame);
+
+// Velocity at world positions at the end of the frame (last substep), m/s; zero where no velocity is known.
+std::vector<texture::Vec3f> velocityAt(const std::vector<texture::Vec3f>& positions, const sim::Frame& frame);
+
+// 1 where a position is nearer to a solid than half a voxel, else 0.
+std::vector<std::uint8_t> contactAt(const std::vector<texture::Vec3f>& positions, const sim::Frame& frame);
+
+// Each vertex of surface.levels[0] is traced back through the substeps' velocities (third-order Runge-Kutta), together with
+// the gradient of that map; lands on the closest point of `previous`; and picks up what is there:
+//  - exemplar coordinate: the nearest corner's plus its gradient times the offset, never averaged across a jump;
+//    its gradient deformed by the flow;
+//  - colour and age by barycentric interpolation;
+//  - orientation, interpolated and turned with the flow by equation (4), tangent to the new surface.
+// trust falls with the distance of the traced point from the old surface and with missing velocity.
+// previous empty (the first frame with a surface): an empty result.
+texture::Carried carry(const texture::TexturedSurface& previous, const sim::Frame& frame, const texture::SurfaceMesh& next);
+
+}  // namespace fluidtex::transport
