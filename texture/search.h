@@ -97,9 +97,10 @@ float windowDistance(const SearchTable& table, const WindowQuery& query, Vec2i c
 // no pixel is missing). Returns how many were found. Ties go to the smaller row, then column.
 int searchTree(const SearchTable& table, WindowQuery& query, int probes, std::span<Match> best);
 
-// The k windows that look like the one at `center` (any valid centre; that of the tree's nearest centre where
-// stride > 1), the most similar first, moved by the same remainder. Empty where the table has no lists.
-std::span<const Vec2i> similarWindows(const SearchTable& table, Vec2i center);
+// Writes the k windows that look like the one at `center` (any valid centre), the most similar first, and
+// returns how many: the smaller of k and out.size(). Where stride > 1 they are those of the nearest centre of
+// the tree, moved along.
+int similarWindows(const SearchTable& table, Vec2i center, std::span<Vec2i> out);
 
 // The nearest of the candidates and, with probes > 0, of the tree's best `keep` windows, all compared by
 // windowDistance. Candidates are made valid first. Never farther than the first candidate; a tie goes to the
