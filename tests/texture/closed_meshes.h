@@ -104,8 +104,7 @@ inline SurfaceMesh boxMesh(const openvdb::Vec3d& lower, const openvdb::Vec3d& up
   const auto vertex = [&](const std::array<int, 3>& ijk, const Vec3f& normal) {
     const auto [it, fresh] = known.try_emplace(ijk, std::uint32_t(mesh.positions.size()));
     if (fresh) {
-      const openvdb::Vec3d share(double(ijk[0]) / cells[0], double(ijk[1]) / cells[1],
-                                 double(ijk[2]) / cells[2]);
+      const openvdb::Vec3d share = openvdb::Vec3d(ijk[0], ijk[1], ijk[2]) / openvdb::Vec3d(cells);
       mesh.positions.emplace_back(lower + (upper - lower) * share);
       mesh.normals.emplace_back(0, 0, 0);
     }
