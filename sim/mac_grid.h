@@ -1,0 +1,57 @@
+// Where samples sit, and how kernels read them: the marker-and-cell (staggered) grid on OpenVDB trees.
+//
+// Cell (i,j,k) is the cube [i h, (i+1) h] x ...; its centre, where phi sits, is ((i+1/2) h, ...).
+// u(i,j,k) sits in the middle of that cell's lower x face, (i h, (j+1/2) h, (k+1/2) h); v and w likewise.
+// The domain is [0, size]; its six faces are walls. Cells with an index below 0 or beyond cellCount() lie in
+// the walls; a few layers of them hold values so that stencils need no special cases.
+#pragma once
+
+#include "sim/options.h"
+
+#include <openvdb/openvdb.h>
+
+#include <array>
+#include <vector>
+
+namespace fluidtex::sim {
+
+using openvdb::Coord;
+using openvdb::FloatGrid;
+using FloatTree = FloatGrid::TreeType;
+using FloatLeaf = FloatTree::LeafNodeType;
+
+inline constexpr int kLeafDim = FloatLeaf::DIM;    // 8
+inline constexpr int kLeafSize = FloatLeaf::SIZE;  // 512, z fastest: offset = 64 i + 8 j + k
+
+// Index to world for cell centres, and for the lower faces normal to `axis` (0, 1, 2).
+openvdb::math::Transform::Ptr cellTransform(double h);
+openvdb::math::Transform::Ptr faceTransform(double h, int axis);
+
+// Cells along each axis: the fewest that cover the domain.
+Coord cellCount(const Vec3d& size, double h);
+
+// Face velocities in m/s; three grids of one topology, background 0.
+struct Velocity {
+  std::array<FloatGrid::Ptr, 3> component;  // u, v, w
+};
+
+// Empty grids with the transforms above. phi is marked as a level set.
+FloatGrid::Ptr makePhi(double h, double background);
+Velocity makeVelocity(double h);
+
+// Empty trees get the topology of `like` (leaves, active voxels), and value 0 there.
+Velocity makeVelocity(double h, const FloatTree& like);
+
+// The leaves of a tree in the tree's own order, which depends on their coordinates only.
+std::vector<FloatLeaf*> leavesOf(FloatTree& tree);
+std::vector<const FloatLeaf*> leavesOf(const FloatTree& tree);
+
+// Copies the values of the box [origin - halo, origin + 8 + halo) into `out`, (8 + 2 halo)^3 floats, z
+// fastest. origin: of a leaf; missing leaves give the tree's value there (background, tile). halo at most 8.
+// crossOnly: leaves out the parts of the box that are off the origin's leaf along more than one axis.
+void gather(const FloatTree& tree, const Coord& origin, int halo, float* out, bool crossOnly = false);
+
+// Largest |component| over the active values; infinity when one is not finite.
+double maxAbs(const Velocity& velocity);
+
+}  // namespace fluidtex::sim
