@@ -1,0 +1,53 @@
+// Pressure that makes the liquid's velocity free of divergence, and the velocity after it.
+#pragma once
+
+#include "sim/solids.h"
+
+#include <openvdb/openvdb.h>
+
+#include <cstdint>
+
+namespace fluidtex::sim {
+
+struct PressureOptions {
+  double tolerance = 1e-6;  // of the residual's 2-norm, relative to the right-hand side's
+  int maxIterations = 200;  // of each solve
+  // Liquid at a solid whose pressure falls below -suction (Pa) lets go of it. A tenth of a cell's weight per
+  // area, 0.1 density |g| h, keeps still water calm.
+  double suction = 0.0;
+  int maxSeparationPasses = 4;  // solves after the first; 0: liquid never lets go
+  bool keepPressure = false;    // fill Projection::pressure
+};
+
+struct PressureReport {
+  bool converged = false;
+  int iterations = 0;      // of all solves together
+  double residual = 0.0;   // relative 2-norm at the end
+  std::int64_t cells = 0;  // unknowns
+  int separationPasses = 0;
+};
+
+struct Projection {
+  PressureReport report;
+  // Faces whose velocity is now right: open faces that touch liquid, and closed ones that touch liquid and
+  // lie square to the solid (0 there, or the speed at which liquid leaves it). All others are for the caller
+  // to extrapolate.
+  FaceMasks valid;
+  openvdb::MaskGrid::Ptr separating;  // cells of liquid that leave a solid
+  openvdb::DoubleGrid::Ptr
+      pressure;  // Pa at the centres of liquid cells, active there; null unless asked for
+};
+
+// Projects u, v, w (m/s) onto fields free of divergence in the liquid (cells with phi < 0 that have an open
+// face). phi in metres, at cell centres, of the index space of solid.phi; it must be valid one cell around
+// the liquid, inside solids too. Pressure is 0 at the surface, whose place between two cell centres is taken
+// from phi (second order); solids are walls without friction, known by their open face areas, and liquid may
+// leave them (see PressureOptions). dt in s, density in kg/m3. Faces are written, and made active, where
+// Projection::valid says; the rest stays as it was. The same bytes on any number of threads. Does not throw
+// when it fails to converge: the report says so. Sources: Gibou, Fedkiw, Cheng, Kang 2002 (surface); Ng, Min,
+// Gibou 2009 (solids); Batty, Bertails, Bridson 2007, section 5 (separation).
+[[nodiscard]] Projection project(openvdb::FloatGrid& u, openvdb::FloatGrid& v, openvdb::FloatGrid& w,
+                                 const openvdb::FloatGrid& phi, const SolidField& solid, double dt,
+                                 double density, const PressureOptions& options = {});
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,75 @@
+// Static solids and the walls of the domain: who is there at a time, how far away, and how much of each face
+// is open.
+#pragma once
+
+#include "sim/options.h"
+#include "sim/shapes.h"
+
+#include <openvdb/openvdb.h>
+
+#include <memory>
+#include <vector>
+
+namespace fluidtex::sim {
+
+// What the solver needs to know about a set of solids. Cell (i,j,k) of the domain has 0 <= i < cells.x() and
+// so on, its centre at ((i+1/2) h, (j+1/2) h, (k+1/2) h). Everything outside the domain is solid.
+struct SolidField {
+  double voxelSize = 0.0;   // h, metres
+  openvdb::Coord cells{0};  // of the domain along each axis; a last layer may be cut by the domain's wall
+  // Signed distance at cell centres in metres, negative inside solids and outside the domain. Active within 3
+  // voxels of a boundary, elsewhere the inactive values +-3 h. Right up to 8 cells outside the domain;
+  // beyond, background.
+  openvdb::FloatGrid::Ptr phi;
+  // Open share of each face's area, 0 (closed) to 1; the index of a face as in Substep: (i,j,k) of openU is
+  // the lower x face of cell (i,j,k). Background 0; tiles of 1 where all is open; every face that is not
+  // closed is active.
+  openvdb::FloatGrid::Ptr openU, openV, openW;
+};
+
+// Open share of a square face from the solid's signed distance at its corners, taken linear along the edges
+// (marching squares): d00, d10, d11, d01 in order around the face, positive where open.
+// Ng, Min, Gibou, "An efficient fluid-solid coupling algorithm for single-phase flows", 2009.
+double openAreaFraction(double d00, double d10, double d11, double d01);
+
+// Solids of a scene over time. A mesh is read once, when constructed (throws as readMesh does).
+class Solids {
+ public:
+  explicit Solids(const Options& options);
+
+  // Indices into Options::solids of those that exist at time t (from <= t < until).
+  std::vector<std::size_t> active(double t) const;
+
+  // The first time after t at which the set changes; kForever where it never does again.
+  double nextChange(double t) const;
+
+  // Signed distance at world position x to the active solids and the domain's walls, metres, negative inside.
+  double distance(const Vec3d& x, double t) const;
+
+  // Distances and open faces at time t; kept, and made anew only when the set has changed since the last
+  // call.
+  std::shared_ptr<const SolidField> at(double t);
+
+ private:
+  double distanceTo(const std::vector<std::size_t>& active, const Vec3d& x) const;
+
+  Options m_options;
+  std::vector<ShapeDistance> m_shapes;  // one for each of Options::solids
+  std::vector<std::size_t> m_cachedSet;
+  std::shared_ptr<const SolidField> m_cached;
+};
+
+// Which faces a projection has given a value; indices as those of u, v, w.
+struct FaceMasks {
+  openvdb::MaskGrid::Ptr u, v, w;
+};
+
+// After extrapolation: takes the normal component out of the velocity at closed faces (those not in `valid`),
+// so that liquid slides along solids and does not enter them. Beside cells active in `separating` (liquid
+// that leaves a wall) and where no liquid touches, only motion into the solid is taken out. Touches active
+// faces only.
+void constrainToSolids(openvdb::FloatGrid& u, openvdb::FloatGrid& v, openvdb::FloatGrid& w,
+                       const openvdb::FloatGrid& phi, const SolidField& solid, const FaceMasks& valid,
+                       const openvdb::MaskGrid& separating);
+
+}  // namespace fluidtex::sim
