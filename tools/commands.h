@@ -1,0 +1,26 @@
+// The subcommands of the program; each adds itself to the command line and does its work when it was chosen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fluidtex::tools {
+
+enum ExitCode { kDone = 0, kInputWrong = 1, kFailed = 2, kInterrupted = 130 };
+
+// What every subcommand that takes a scene understands.
+struct CommonOptions {
+  std::filesystem::path scene, out, exemplar;
+  std::string frames, quality = "default";
+  std::vector<std::string> set;
+  int threads = 0;  // 0: one a core
+  bool resume = false, noRender = false, quiet = false, verbose = false;
+};
+
+void addRun(CLI::App& app, int& exitCode);
+void addCheck(CLI::App& app, int& exitCode);
+
+}  // namespace fluidtex::tools

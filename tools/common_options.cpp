@@ -1,0 +1,92 @@
+#include "tools/common_options.h"
+
+#include "sim/solver.h"
+#include "texture/exemplar.h"
+#include "tools/frame_loop.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <charconv>
+#include <cstdio>
+
+namespace fluidtex::tools {
+namespace {
+
+int parseNumber(std::string_view text, const std::string& whole) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || number < 1)
+    throw UsageError(fmt::format("--frames {}: is no range of frames; write FIRST:LAST, numbered from 1, such as 1:24", whole));
+  return number;
+}
+
+int fault(const std::string& sentence, ExitCode code) {
+  fmt::print(stderr, "error: {}\n", sentence);
+  if (spdlog::default_logger()) spdlog::error("{}", sentence);
+  return code;
+}
+
+}  // namespace
+
+void addSceneOptions(CLI::App& command, CommonOptions& options) {
+  command.add_option("scene", options.scene, "Scene file")->required()->type_name("SCENE");
+  command.add_option("--out", options.out, "Folder for the results (default: out/SCENE_NAME)")->type_name("DIR");
+  command.add_option("--frames", options.frames, "First and last frame, numbered from 1; earlier frames are computed, not written")
+      ->type_name("A:B");
+  command.add_option("--threads", options.threads, "How many threads (default: one a core)")->check(CLI::Range(1, 4096))->type_name("N");
+  command.add_option("--quality", options.quality, "preview, default or final: settings of the scene's own [quality] tables")
+      ->check(CLI::IsMember({"preview", "default", "final"}))
+      ->type_name("NAME");
+  command.add_option("--exemplar", options.exemplar, "Image to grow the texture from, instead of the scene's")->type_name("IMAGE");
+  command.add_option("--set", options.set, "Sets any key of the scene, dotted; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_flag("--quiet", options.quiet, "No progress, only errors");
+  command.add_flag("--verbose", options.verbose, "More in the log");
+}
+
+scenes::Scene loadScene(const CommonOptions& options) {
+  scenes::Overrides overrides;
+  if (options.quality == "preview") overrides.quality = scenes::Quality::preview;
+  if (options.quality == "final") overrides.quality = scenes::Quality::final;
+  overrides.set = options.set;
+  overrides.exemplar = options.exemplar;
+  return scenes::loadScene(options.scene, overrides);
+}
+
+void parseFrames(const std::string& text, int frames, int& first, int& last) {
+  first = 1;
+  last = frames;
+  if (text.empty()) return;
+  const std::size_t colon = text.find(':');
+  first = parseNumber(text.substr(0, colon), text);
+  if (colon == std::string::npos)
+    last = first;
+  else if (colon + 1 < text.size())
+    last = parseNumber(text.substr(colon + 1), text);
+  if (last < first) throw UsageError(fmt::format("--frames {}: ends before it begins", text));
+  if (last > frames) throw UsageError(fmt::format("--frames {}: the scene has {} frames", text, frames));
+}
+
+int guarded(const std::function<void()>& body) {
+  try {
+    body();
+    return kDone;
+  } catch (const scenes::SceneError& error) {
+    for (const std::string& line : error.faults) fmt::print(stderr, "{}\n", line);
+    return kInputWrong;
+  } catch (const texture::ExemplarError& error) {
+    return fault(error.what(), kInputWrong);
+  } catch (const UsageError& error) {
+    return fault(error.what(), kInputWrong);
+  } catch (const Interrupted& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return kInterrupted;
+  } catch (const std::exception& error) {
+    return fault(error.what(), kFailed);
+  }
+}
+
+}  // namespace fluidtex::tools

@@ -1,0 +1,243 @@
+#include "tools/frame_loop.h"
+
+#include "render/render.h"
+#include "sim/shapes.h"
+#include "sim/solver.h"
+#include "texture/orient.h"
+#include "texture/prepare.h"
+#include "texture/synthesize.h"
+#include "tools/atomic_file.h"
+#include "tools/ply.h"
+#include "tools/progress.h"
+#include "tools/report.h"
+#include "tools/state.h"
+#include "transport/carry.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+namespace fluidtex::tools {
+namespace fs = std::filesystem;
+namespace {
+
+// Adds the wall time of its own life to a stage.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : m_seconds(seconds) {}
+  ~Stopwatch() { m_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& m_seconds;
+  std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
+};
+
+// A finished frame: the motion, the surface that came out, what it took.
+struct FrameResult {
+  sim::Frame motion;
+  texture::TexturedSurface surface;
+  texture::SynthesisStats synthesis;
+  StageSeconds seconds;
+};
+
+std::string numbered(int frame) { return fmt::format("{:04}", frame); }
+
+std::vector<texture::Vec3f> seedsFor(const texture::TexturedSurface& last, const sim::Frame& frame,
+                                     const texture::SurfaceOptions& options) {
+  if (options.points == texture::Points::random) return {};
+  return transport::moved(last.positions, frame);
+}
+
+class FrameLoop {
+ public:
+  FrameLoop(const scenes::Scene& scene, const RunOptions& options, const std::atomic<bool>& stop)
+      : m_scene(scene),
+        m_options(options),
+        m_stop(stop),
+        m_last(options.lastFrame > 0 ? options.lastFrame : scene.frames),
+        m_synthesizer(texture::makeSynthesizer(
+            texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis, scene.texture.surface.levels),
+            scene.texture.synthesis)) {
+    m_surface.spacing = scene.texture.spacing;
+    m_report.scene = scene.resolved;
+    m_report.seed = scene.seed;
+    m_report.threads = options.threads;
+  }
+
+  void run() {
+    if (m_options.resume)
+      continueFromState();
+    else
+      clearEarlierRun();
+    if (!m_solver) m_solver = std::make_unique<sim::Solver>(m_scene.sim);
+    const int first = m_solver->state().frame + 1;
+    spdlog::info("{}: frames {} to {}, {} threads", m_scene.name, first, m_last, m_options.threads);
+    Progress progress(first, m_last, m_options.quiet);
+    m_progress = &progress;
+    for (int frame = first; frame <= m_last; ++frame) oneFrame();
+    m_progress = nullptr;
+    finish();
+  }
+
+ private:
+  void oneFrame() {
+    FrameResult result = computeFrame();
+    if (result.motion.index >= m_options.firstFrame) writeResults(result);
+    m_surface = std::move(result.surface);
+    m_report.frames.push_back(frameRecord(result.motion, m_surface, result.synthesis, result.seconds));
+    const std::string report = toJson(m_report);
+    saveState({m_solver->state(), m_surface, report}, m_options.out / "state");
+    writeTextAtomically(m_options.out / "run.json", report);
+    const StageSeconds& s = result.seconds;
+    const std::string summary = fmt::format(
+        "{} substeps, {:.4g} m3, {} points; simulate {:.2f} s, prepare {:.2f}, transport {:.2f}, synthesize {:.2f}, render {:.2f}, write {:.2f}",
+        result.motion.substeps.size(), result.motion.stats.volume, m_surface.positions.size(), s.simulate, s.prepare, s.transport,
+        s.synthesize, s.render, s.write);
+    spdlog::info("frame {}: {}", result.motion.index, summary);
+    m_progress->frameDone(result.motion.index, summary);
+  }
+
+  // sim -> surface -> transport -> orientation -> synthesis: docs/architecture.md, "The way of one frame".
+  FrameResult computeFrame() {
+    FrameResult result;
+    StageSeconds& seconds = result.seconds;
+    {
+      Stopwatch watch(seconds.simulate);
+      result.motion = m_solver->next(reporter("simulate"));
+    }
+    const sim::Frame& motion = result.motion;
+    const texture::SurfaceOptions& surfaceOptions = m_scene.texture.surface;
+    texture::Surface surface;
+    {
+      Stopwatch watch(seconds.prepare);
+      reporter("prepare")(0.0);
+      if (m_surface.spacing <= 0.0) m_surface.spacing = texture::spacingForPoints(*motion.surfacePhi, m_scene.texture.points);
+      if (m_surface.spacing > 0.0)
+        surface = texture::prepareSurface(*motion.surfacePhi, m_surface.spacing, seedsFor(m_surface, motion, surfaceOptions),
+                                          m_surface.empty() ? surfaceOptions.levels : 1, surfaceOptions);
+    }
+    if (surface.empty()) {
+      result.surface.spacing = m_surface.spacing;
+      return result;
+    }
+    texture::Carried carried;
+    {
+      Stopwatch watch(seconds.transport);
+      reporter("transport")(0.0);
+      carried = transport::carry(m_surface, motion, surface.levels[0]);
+    }
+    {
+      Stopwatch watch(seconds.prepare);
+      texture::orient(surface, carried);
+    }
+    {
+      Stopwatch watch(seconds.synthesize);
+      result.surface =
+          texture::synthesize(m_synthesizer, std::move(surface), carried, motion.index, 1.0 / m_scene.sim.frameRate,
+                              result.synthesis, reporter("synthesize"));
+    }
+    {
+      Stopwatch watch(seconds.transport);
+      result.surface.velocity = transport::velocityAt(result.surface.positions, motion);
+      result.surface.contact = transport::contactAt(result.surface.positions, motion);
+    }
+    return result;
+  }
+
+  void writeResults(FrameResult& result) {
+    const std::string name = numbered(result.motion.index);
+    if (m_options.render) {
+      render::Picture picture;
+      {
+        Stopwatch watch(result.seconds.render);
+        const double progress = m_scene.frames > 1 ? double(result.motion.index - 1) / (m_scene.frames - 1) : 0.0;
+        picture = render::render(result.surface, visibleSolids(result.motion.time), m_scene.render,
+                                 {m_scene.sim.size, progress, result.motion.index}, reporter("render"));
+      }
+      Stopwatch watch(result.seconds.write);
+      writeAtomically(m_options.out / "frames" / (name + ".png"), [&](const fs::path& file) { writePng(picture, file); });
+    }
+    Stopwatch watch(result.seconds.write);
+    writeAtomically(m_options.out / "surface" / (name + ".ply"), [&](const fs::path& file) { writePly(result.surface, file); });
+  }
+
+  std::vector<render::Solid> visibleSolids(double time) {
+    if (m_solids.empty())
+      for (const sim::Solid& solid : m_scene.sim.solids) {
+        sim::TriangleMesh mesh;
+        if (solid.visible) mesh = sim::triangulate(solid.shape, m_scene.sim.size, m_scene.sim.voxelSize());
+        m_solids.push_back({std::move(mesh.positions), std::move(mesh.triangles), solid.color});
+      }
+    std::vector<render::Solid> visible;
+    for (std::size_t i = 0; i < m_solids.size(); ++i) {
+      const sim::Solid& solid = m_scene.sim.solids[i];
+      if (solid.visible && solid.from <= time && time < solid.until) visible.push_back(m_solids[i]);
+    }
+    return visible;
+  }
+
+  void finish() {
+    if (m_options.render && m_last >= m_options.firstFrame)
+      writeAtomically(m_options.out / (m_scene.name + ".mp4"), [&](const fs::path& file) {
+        render::writeVideo(m_options.out / "frames", m_options.firstFrame, m_last, m_scene.sim.frameRate, file);
+      });
+    if (!m_options.quiet) fmt::print(stderr, "done: {}\n", m_options.out.string());
+  }
+
+  void continueFromState() {
+    for (const char* folder : {"", "frames", "surface", "state"}) removeTemporaries(m_options.out / folder);
+    std::optional<RunState> state = loadState(m_options.out / "state");
+    if (!state) return;
+    m_report.frames = parseReport(state->report).frames;
+    const std::string difference = sceneDifference(parseReport(state->report).scene, m_scene.resolved);
+    if (!difference.empty())
+      throw UsageError(fmt::format("{}: was made by other settings: {}; run without --resume to start anew",
+                                   m_options.out.string(), difference));
+    m_surface = std::move(state->surface);
+    m_solver = std::make_unique<sim::Solver>(m_scene.sim, std::move(state->solver));
+  }
+
+  // Only what a run itself writes is removed; the user's own files in the folder stay.
+  void clearEarlierRun() {
+    fs::create_directories(m_options.out);
+    fs::remove_all(m_options.out / "state");
+    fs::remove(m_options.out / "run.json");
+    fs::remove(m_options.out / (m_scene.name + ".mp4"));
+    for (const auto& [folder, extension] : {std::pair{"frames", ".png"}, std::pair{"surface", ".ply"}}) {
+      removeTemporaries(m_options.out / folder);
+      for (int frame = 1; fs::remove(m_options.out / folder / (numbered(frame) + extension)) || frame < m_last; ++frame) {
+      }
+    }
+  }
+
+  std::function<void(double)> reporter(const char* stage) {
+    return [this, stage](double part) {
+      if (m_stop) throw Interrupted();
+      m_progress->update(m_solver->state().frame + (std::string_view(stage) == "simulate" ? 1 : 0), stage, part);
+    };
+  }
+
+  const scenes::Scene& m_scene;
+  const RunOptions& m_options;
+  const std::atomic<bool>& m_stop;
+  int m_last;
+  texture::Synthesizer m_synthesizer;
+  std::unique_ptr<sim::Solver> m_solver;
+  texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
+  std::vector<render::Solid> m_solids;
+  Report m_report;
+  Progress* m_progress = nullptr;
+};
+
+}  // namespace
+
+void runScene(const scenes::Scene& scene, const RunOptions& options, const std::atomic<bool>& stop) {
+  FrameLoop(scene, options, stop).run();
+}
+
+}  // namespace fluidtex::tools

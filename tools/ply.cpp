@@ -1,0 +1,89 @@
+#include "tools/ply.h"
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+namespace fluidtex::tools {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "PLY bytes are written as they lie in memory");
+
+std::uint8_t toByte(float value) { return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f))); }
+
+std::uint8_t encodeSrgb(float linear) {
+  const float c = std::clamp(linear, 0.0f, 1.0f);
+  return toByte(c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f);
+}
+
+std::string header(const texture::TexturedSurface& surface) {
+  std::string text = "ply\nformat binary_little_endian 1.0\ncomment fluidtex, metres, Z up\n";
+  text += "element vertex " + std::to_string(surface.positions.size()) + "\n";
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) text += std::string("property float ") + name + "\n";
+  for (const char* name : {"red", "green", "blue", "alpha"}) text += std::string("property uchar ") + name + "\n";
+  for (const char* name : {"s", "t", "dx", "dy", "dz", "bx", "by", "bz", "vx", "vy", "vz", "trust", "age"})
+    text += std::string("property float ") + name + "\n";
+  text += "property uchar contact\n";
+  for (const auto& [name, values] : surface.maps) text += "property float " + name + "\n";
+  text += "element face " + std::to_string(surface.triangles.size()) + "\n";
+  text += "property list uchar int vertex_indices\nend_header\n";
+  return text;
+}
+
+class Bytes {
+ public:
+  template <typename T>
+  void put(const T& value) {
+    const auto* bytes = reinterpret_cast<const char*>(&value);
+    m_data.insert(m_data.end(), bytes, bytes + sizeof(T));
+  }
+  void put(const texture::Vec3f& v) {
+    put(v.x());
+    put(v.y());
+    put(v.z());
+  }
+  const std::vector<char>& data() const { return m_data; }
+
+ private:
+  std::vector<char> m_data;
+};
+
+}  // namespace
+
+void writePly(const texture::TexturedSurface& surface, const std::filesystem::path& file) {
+  Bytes bytes;
+  const float width = static_cast<float>(std::max(surface.exemplarWidth, 1));
+  const float height = static_cast<float>(std::max(surface.exemplarHeight, 1));
+  for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+    bytes.put(surface.positions[v]);
+    bytes.put(surface.normals[v]);
+    const auto& color = surface.color[v];
+    for (int c = 0; c < 3; ++c) bytes.put(encodeSrgb(color[c]));
+    bytes.put(toByte(color[3]));
+    bytes.put((surface.coordinate[v].x() + 0.5f) / width);
+    bytes.put((surface.coordinate[v].y() + 0.5f) / height);
+    bytes.put(surface.orientation[v]);
+    bytes.put(surface.previousPosition[v]);
+    bytes.put(surface.velocity[v]);
+    bytes.put(surface.trust[v]);
+    bytes.put(surface.age[v]);
+    bytes.put(surface.contact[v]);
+    for (const auto& [name, values] : surface.maps) bytes.put(values[v]);
+  }
+  for (const auto& triangle : surface.triangles) {
+    bytes.put(std::uint8_t{3});
+    for (int c = 0; c < 3; ++c) bytes.put(static_cast<std::int32_t>(triangle[c]));
+  }
+  const std::string head = header(surface);
+  std::ofstream out(file, std::ios::binary);
+  out.write(head.data(), static_cast<std::streamsize>(head.size()));
+  out.write(bytes.data().data(), static_cast<std::streamsize>(bytes.data().size()));
+  out.close();
+  if (!out) throw std::system_error(errno, std::generic_category(), file.string() + ": cannot write");
+}
+
+}  // namespace fluidtex::tools

@@ -1,0 +1,34 @@
+// How far a run is: a bar that redraws itself on a terminal, one plain line a frame elsewhere.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace fluidtex::tools {
+
+class Progress {
+ public:
+  // Frames first..last are still to be made. `quiet`: says nothing at all.
+  Progress(int first, int last, bool quiet);
+  ~Progress();
+
+  // Stage `stage` of frame `frame` is done to the share `part`, 0..1. Redraws at most ten times a second.
+  void update(int frame, const std::string& stage, double part = 0.0);
+  // The frame is done; `summary` says what it took, in a few words.
+  void frameDone(int frame, const std::string& summary);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void clearLine();
+  std::string timeLeft() const;
+
+  int m_first, m_last;
+  bool m_quiet, m_terminal;
+  int m_done = 0;
+  Clock::time_point m_start, m_drawn;
+};
+
+// "45 s", "3 min 20 s", "2 h 5 min".
+std::string humanDuration(double seconds);
+
+}  // namespace fluidtex::tools

@@ -1,0 +1,64 @@
+// fluidtex run SCENE: simulate, texture, render and write, frame by frame, in memory.
+#include "tools/common_options.h"
+#include "tools/frame_loop.h"
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/spdlog.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <csignal>
+#include <memory>
+
+namespace fluidtex::tools {
+namespace {
+
+std::atomic<bool> stopRequested{false};
+
+// The first Ctrl-C stops at the next safe point; a second one ends the program at once, which loses nothing either.
+void onInterrupt(int) {
+  stopRequested = true;
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+void logTo(const std::filesystem::path& file, bool append, bool verbose) {
+  std::filesystem::create_directories(file.parent_path());
+  auto logger = std::make_shared<spdlog::logger>("fluidtex", std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), !append));
+  logger->set_level(verbose ? spdlog::level::debug : spdlog::level::info);
+  logger->flush_on(spdlog::level::info);
+  spdlog::set_default_logger(logger);
+}
+
+void run(const CommonOptions& options) {
+  const scenes::Scene scene = loadScene(options);
+  RunOptions run;
+  run.out = options.out.empty() ? std::filesystem::path("out") / scene.name : options.out;
+  parseFrames(options.frames, scene.frames, run.firstFrame, run.lastFrame);
+  run.resume = options.resume;
+  run.render = !options.noRender;
+  run.quiet = options.quiet;
+  run.threads = options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(run.threads));
+  logTo(run.out / "log.txt", options.resume, options.verbose);
+  std::signal(SIGINT, onInterrupt);
+  std::signal(SIGTERM, onInterrupt);
+  runScene(scene, run, stopRequested);
+}
+
+}  // namespace
+
+void addRun(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand("run", "Simulate, texture, render and write, frame by frame");
+  auto options = std::make_shared<CommonOptions>();
+  addSceneOptions(*command, *options);
+  command->add_flag("--resume", options->resume, "Go on from the last frame that an earlier, unfinished run has left in the folder");
+  command->add_flag("--no-render", options->noRender, "Write surfaces only, no pictures and no video");
+  command->footer(
+      "Example:\n"
+      "  fluidtex run scenes/dam_break.toml --quality preview --exemplar bark.jpg --set texture.points=20000 --out out/bark");
+  command->callback([options, &exitCode] { exitCode = guarded([&] { run(*options); }); });
+}
+
+}  // namespace fluidtex::tools
