@@ -52,8 +52,8 @@ TEST_CASE("fluidtex run: writes every file of a run, and run.json with every fra
   CHECK(last.at("substeps").get<int>() >= 1);
   CHECK(last.at("time").get<double>() == Approx(4.0 / 24));
   CHECK(first.at("vertices").get<double>() == Approx(3000).epsilon(0.05));
-  // A tank part filled, and a ball: 0.4 x 0.6 x 0.3 + 4/3 pi 0.15^3 cubic metres.
-  CHECK(first.at("volume").get<double>() == Approx(0.072 + 0.01414).epsilon(0.05));
+  // A tank part filled, and a ball: 0.4 x 0.625 x 0.3 + 4/3 pi 0.15^3 cubic metres.
+  CHECK(first.at("volume").get<double>() == Approx(0.075 + 0.01414).epsilon(0.05));
   CHECK(last.at("volume").get<double>() == Approx(first.at("volume").get<double>()).epsilon(0.1));
   CHECK(last.at("renewed").get<double>() < 0.9);
   CHECK(json.at("scene").at("seed") == 7);
@@ -146,5 +146,5 @@ TEST_CASE("fluidtex: version, help with an example for each subcommand, and the 
   const Finished plan = runProgram({"check", kScene});
   INFO(plan.output);
   CHECK(plan.exitCode == 0);
-  CHECK_THAT(plan.output, Catch::Contains("24 x 14 x 14 cells") && Catch::Contains("3000 on the first surface"));
+  CHECK_THAT(plan.output, Catch::Contains("24 x 15 x 15 cells") && Catch::Contains("3000 on the first surface"));
 }
