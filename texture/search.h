@@ -39,8 +39,8 @@ struct SearchTable {
   int channels = 0;
   bool toroidal = false;
   int width = 0, height = 0;  // of the image
-  int margin = 0;  // pixels that `padded` has more on every side: window / 2 where toroidal, else 0
-  Image padded;    // the image, continued on every side by `margin` pixels
+  int margin = 0;             // window / 2 where toroidal, else 0
+  Image padded;  // the image, continued on every side by `margin` pixels; eight more floats follow its last
   std::vector<float> falloff;  // window^2, row-major, sums to 1
   WindowBasis basis;
   WindowTree tree;
@@ -71,17 +71,19 @@ struct WindowQuery {
   // ones.
   std::vector<float> mask;
 
-  // Made by prepareQuery().
-  std::vector<float> weight;      // fall-off times mask over its sum, once a channel: window^2 x channels
-  std::vector<float> descriptor;  // kDescriptorSize, once described
-  bool described = false;
+  // Made by prepareQuery(). Rows are filled up to a multiple of eight floats, with weight 0.
+  std::vector<float> rows;    // the pixels, 0 where missing
+  std::vector<float> weight;  // fall-off times mask over its sum, once a channel
+  bool anyMissing = false;
 
-  std::vector<float> filled;  // working memory
+  // Made by describeQuery().
+  bool described = false;
+  std::vector<float> descriptor;  // kDescriptorSize
+  std::vector<float> filled;      // the pixels with the missing ones filled
   TreeSearch search;
 };
 
-// To be called after pixels or mask have changed and before the functions below. Missing pixels are filled
-// for the descriptor with the weighted mean of the others, then once with what the basis makes of that.
+// To be called after pixels or mask have changed and before the functions below.
 void prepareQuery(const SearchTable& table, WindowQuery& query);
 
 // The nearest valid centre: wrapped where toroidal, else clamped.
@@ -91,6 +93,10 @@ Vec2i validCenter(const SearchTable& table, Vec2i center);
 // early and returns some value above bound.
 float windowDistance(const SearchTable& table, const WindowQuery& query, Vec2i center,
                      float bound = std::numeric_limits<float>::max());
+
+// The query's descriptor. Missing pixels are filled with the weighted mean of the others, then once with what
+// the basis makes of that.
+std::span<const float> describeQuery(const SearchTable& table, WindowQuery& query);
 
 // The `best.size()` windows nearest by descriptor among the `probes` leaves whose means are nearest to the
 // query, ascending; Match::distance is the distance of the descriptors, a lower bound of the windows' (where
@@ -104,7 +110,7 @@ int similarWindows(const SearchTable& table, Vec2i center, std::span<Vec2i> out)
 
 // The nearest of the candidates and, with probes > 0, of the tree's best `keep` windows, all compared by
 // windowDistance. Candidates are made valid first. Never farther than the first candidate; a tie goes to the
-// earlier one. With neither candidates nor probes: a default Match.
+// earlier one. With neither candidates nor probes: the first valid centre at the largest distance.
 Match nearestWindow(const SearchTable& table, WindowQuery& query, std::span<const Vec2i> candidates,
                     int probes, int keep = 8);
 

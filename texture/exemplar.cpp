@@ -1,0 +1,132 @@
+#include "texture/exemplar.h"
+
+#include "texture/channels.h"
+#include "texture/read_image.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::texture {
+namespace {
+
+// The encoded premultiplied colours of one level, from linear premultiplied RGBA.
+Image encodedColors(const Image& premultiplied, int channels) {
+  Image result{premultiplied.width, premultiplied.height, channels, {}};
+  result.data.resize(std::size_t(result.width) * std::size_t(result.height) * std::size_t(channels));
+  tbb::parallel_for(0, result.height, [&](int y) {
+    for (int x = 0; x < result.width; ++x) {
+      const float* in = premultiplied.at(x, y);
+      float* out = result.at(x, y);
+      for (int c = 0; c < 3; ++c) out[c] = encodeSrgb(in[c]);
+      if (channels > 3) out[3] = in[3];
+    }
+  });
+  return result;
+}
+
+// `image` with one more channel, scaled.
+Image withChannel(const Image& image, const Image& channel, float scale) {
+  Image result{image.width, image.height, image.channels + 1, {}};
+  result.data.reserve(image.data.size() + channel.data.size());
+  for (std::size_t i = 0; i < channel.data.size(); ++i) {
+    const auto pixel = image.data.begin() + std::ptrdiff_t(i) * image.channels;
+    result.data.insert(result.data.end(), pixel, pixel + image.channels);
+    result.data.push_back(channel.data[i] * scale);
+  }
+  return result;
+}
+
+void check(const Image& color, const SynthesisOptions& synthesis, const std::string& name) {
+  if (color.channels != 4 || color.width < 1 || color.height < 1 ||
+      color.data.size() != std::size_t(color.width) * std::size_t(color.height) * 4)
+    throw std::invalid_argument("makeExemplar: the image must be RGBA and hold all its pixels");
+  int window = 1;
+  for (const int w : synthesis.windows) window = std::max(window, w);
+  if (std::min(color.width, color.height) < window)
+    throw ExemplarError(name + " is too small: it has " + std::to_string(color.width) + " x " +
+                        std::to_string(color.height) + " pixels, and the largest window needs " +
+                        std::to_string(window) + " x " + std::to_string(window) + ".");
+  bool visible = false;
+  for (std::size_t i = 0; i < color.data.size(); ++i) {
+    if (!std::isfinite(color.data[i]))
+      throw ExemplarError(name + " holds values that are not finite numbers.");
+    visible = visible || (i % 4 == 3 && color.data[i] > 0.0f);
+  }
+  if (!visible) throw ExemplarError(name + " is fully transparent, so there is no texture to take from it.");
+}
+
+Exemplar prepare(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
+                 const std::string& name) {
+  check(color, synthesis, name);
+  Exemplar exemplar;
+  exemplar.toroidal = toroidal;
+
+  Image premultiplied = color;
+  float least = color.data[3], most = color.data[3];
+  for (std::size_t i = 0; i < premultiplied.data.size(); i += 4) {
+    const float alpha = premultiplied.data[i + 3];
+    for (std::size_t c = 0; c < 3; ++c) premultiplied.data[i + c] *= alpha;
+    least = std::min(least, alpha), most = std::max(most, alpha);
+  }
+  exemplar.colorChannels = least < most ? 4 : 3;
+  exemplar.color = std::move(color);
+
+  // The channels are made at full size and reduced with the colours, each in its own space.
+  std::vector<std::pair<Image, float>> channels;
+  Image encoded = encodedColors(premultiplied, exemplar.colorChannels);
+  const Image luminance = featureLuminance(encoded);
+  if (synthesis.featureWeight > 0.0)
+    channels.emplace_back(featureDistance(luminance, toroidal), float(std::sqrt(synthesis.featureWeight)));
+  if (synthesis.gradientWeight > 0.0)
+    channels.emplace_back(gradientEnergy(luminance, toroidal), float(std::sqrt(synthesis.gradientWeight)));
+
+  for (int level = 0; level < std::max(levels, 1); ++level) {
+    if (level > 0) {
+      premultiplied = halve(premultiplied, toroidal);
+      encoded = encodedColors(premultiplied, exemplar.colorChannels);
+      for (auto& channel : channels) channel.first = halve(channel.first, toroidal);
+    }
+    Image match = std::move(encoded);
+    for (const auto& [channel, scale] : channels) match = withChannel(match, channel, scale);
+    exemplar.match.push_back(std::move(match));
+  }
+  return exemplar;
+}
+
+}  // namespace
+
+void sampleBilinear(const Image& image, bool toroidal, const Vec2f& texel, float* out) {
+  float x = texel[0], y = texel[1];
+  int x0, y0, x1, y1;
+  if (toroidal) {
+    x0 = int(std::floor(x)), y0 = int(std::floor(y));
+    x -= float(x0), y -= float(y0);
+    const auto wrapped = [](int i, int n) { return (i %= n) < 0 ? i + n : i; };
+    x0 = wrapped(x0, image.width), y0 = wrapped(y0, image.height);
+    x1 = x0 + 1 == image.width ? 0 : x0 + 1, y1 = y0 + 1 == image.height ? 0 : y0 + 1;
+  } else {
+    // Written so that a coordinate that is not a number reads the first texel instead of outside.
+    x = x > 0.0f ? std::min(x, float(image.width - 1)) : 0.0f;
+    y = y > 0.0f ? std::min(y, float(image.height - 1)) : 0.0f;
+    x0 = int(x), y0 = int(y);
+    x -= float(x0), y -= float(y0);
+    x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
+  }
+  const float *a = image.at(x0, y0), *b = image.at(x1, y0), *c = image.at(x0, y1), *d = image.at(x1, y1);
+  for (int k = 0; k < image.channels; ++k) {
+    const float above = a[k] + x * (b[k] - a[k]), below = c[k] + x * (d[k] - c[k]);
+    out[k] = above + y * (below - above);
+  }
+}
+
+Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels) {
+  return prepare(std::move(color), toroidal, synthesis, levels, "the image");
+}
+
+Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels) {
+  return prepare(readImage(options.file), options.toroidal, synthesis, levels, options.file.string());
+}
+
+}  // namespace fluidtex::texture

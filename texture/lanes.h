@@ -1,0 +1,40 @@
+// Eight floats at once, for the inner loops of the search. Compiled for a processor without such registers it
+// works as well, only slower.
+#pragma once
+
+#include <cstring>
+
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
+namespace fluidtex::texture {
+
+using Float8 = float __attribute__((vector_size(32)));
+
+inline Float8 load8(const float* from) {
+  Float8 lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+inline void store8(float* to, const Float8& lanes) {
+  std::memcpy(to, &lanes, sizeof lanes);
+}
+
+inline float sum8(const Float8& v) {
+  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+
+// Bit k is set where lane k is at most `bound`.
+inline unsigned atMost8(const Float8& v, float bound) {
+#ifdef __AVX__
+  return unsigned(_mm256_movemask_ps(_mm256_cmp_ps(__m256(v), _mm256_set1_ps(bound), _CMP_LE_OQ)));
+#else
+  unsigned bits = 0;
+  for (unsigned k = 0; k < 8; ++k) bits |= unsigned(v[k] <= bound) << k;
+  return bits;
+#endif
+}
+
+}  // namespace fluidtex::texture
