@@ -1,4 +1,5 @@
-// The orientation field: one unit tangent vector a vertex, smooth over the surface [Kwatra07 sec. IV, Zhang04].
+// The orientation field: one unit tangent vector a vertex, smooth over the surface [Kwatra07 sec. IV,
+// Zhang04].
 #pragma once
 
 #include "texture/surface.h"
@@ -6,15 +7,22 @@
 namespace fluidtex::texture {
 
 struct OrientOptions {
-  int coarseSweeps = 200;   // at the coarsest level
-  int fineSweeps = 20;      // at each finer level after it took over the coarser one's field
-  int laterSweeps = 4;      // on later frames, started from the carried field
-  double carriedWeight = 0.5;  // how strongly each sweep pulls back to the carried orientation where trust = 1
+  int coarseSweeps = 1000; // at the coarsest level
+  int fineSweeps = 20;     // at each finer level after it took over the coarser one's field
+  int laterSweeps = 4;     // on later frames, started from the carried field
+  double carriedWeight =
+      0.5;  // how strongly each sweep pulls back to the carried orientation where trust = 1
 };
 
-// Fills `orientation` of every level. First frame (carried empty): zero polar angle against consistent reference vectors at
-// the coarsest level, diffused there, handed down and diffused at each finer level. Later frames: started from and held to
-// carried.orientation. Angles are averaged as unit complex numbers in the polar map of each vertex.
+// Fills `orientation` of every level. First frame (carried empty): zero polar angle against consistent
+// reference vectors at the coarsest level, diffused there, handed down and diffused at each finer level.
+// Later frames: started from and held to carried.orientation. Angles are averaged as unit complex numbers in
+// the polar map of each vertex.
 void orient(Surface& surface, const Carried& carried, const OrientOptions& options = {});
+
+// The index of the orientation field in each triangle of an oriented mesh: how many full turns the field
+// makes on the way around it, counter-clockwise seen from outside; 0 where the field is regular. They sum to
+// the Euler characteristic.
+std::vector<int> singularities(const SurfaceMesh& mesh);
 
 }  // namespace fluidtex::texture
