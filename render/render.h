@@ -23,19 +23,23 @@ struct Solid {
 };
 
 struct View {
-  Vec3d domainSize;       // the domain is [0, domainSize]; tank and ground are built around it
-  double progress = 0.0;  // 0 at the first, 1 at the last frame of the animation: where a turning camera stands
-  int frame = 1;          // keys the random numbers
+  Vec3d domainSize;  // the domain is [0, domainSize]; tank and ground are built around it
+  double progress =
+      0.0;        // 0 at the first, 1 at the last frame of the animation: where a turning camera stands
+  int frame = 1;  // keys the random numbers
 };
 
 // Same input, same bytes, on any number of threads. An empty surface gives a picture of the surroundings.
-Picture render(const texture::TexturedSurface& surface, const std::vector<Solid>& solids, const Options& options, const View& view,
-               const std::function<void(double)>& progress = {});
+Picture render(const texture::TexturedSurface& surface, const std::vector<Solid>& solids,
+               const Options& options, const View& view, const std::function<void(double)>& progress = {});
 
-// sRGB, 8 bits, PNG. Throws std::runtime_error that names the file. The caller gives a temporary name and renames.
+// sRGB, 8 bits, PNG. Throws std::runtime_error that names the file. The caller gives a temporary name and
+// renames.
 void writePng(const Picture& picture, const std::filesystem::path& file);
 
-// H.264, yuv420p, bt709 from frames first..last named FOLDER/%04d.png. Throws std::runtime_error with ffmpeg's last words.
-void writeVideo(const std::filesystem::path& folder, int first, int last, double frameRate, const std::filesystem::path& file);
+// H.264, yuv420p, bt709 from frames first..last named FOLDER/%04d.png. Throws std::runtime_error with
+// ffmpeg's last words.
+void writeVideo(const std::filesystem::path& folder, int first, int last, double frameRate,
+                const std::filesystem::path& file);
 
 }  // namespace fluidtex::render

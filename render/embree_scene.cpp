@@ -1,0 +1,173 @@
+// On Embree 3 [Wald14]. Which of two triangles a ray through their common edge meets depends on the order
+// inside the structure; parallel building could change that order from run to run, so each scene is built by
+// one thread.
+#include "render/embree_scene.h"
+
+#include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
+
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace fluidtex::render {
+
+struct EmbreeScene::Handles {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+
+  ~Handles() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+namespace {
+
+constexpr std::size_t kPacket = 8;
+
+void check(RTCDevice device, const char* doing) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE) return;
+  const std::string what =
+      error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "error " + std::to_string(error);
+  throw std::runtime_error(std::string("ray tracing: ") + what + " while " + doing);
+}
+
+RTCIntersectContext makeContext(Coherence coherence) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = coherence == Coherence::alike ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                                : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  return context;
+}
+
+RTCRay makeRay(const Ray& ray) {
+  RTCRay r{};
+  r.org_x = ray.origin[0], r.org_y = ray.origin[1], r.org_z = ray.origin[2];
+  r.dir_x = ray.direction[0], r.dir_y = ray.direction[1], r.dir_z = ray.direction[2];
+  r.tfar = std::numeric_limits<float>::infinity();
+  r.mask = 0xffffffffu;
+  return r;
+}
+
+void fillRay(RTCRay8& packet, std::size_t lane, const Ray& ray) {
+  packet.org_x[lane] = ray.origin[0];
+  packet.org_y[lane] = ray.origin[1];
+  packet.org_z[lane] = ray.origin[2];
+  packet.dir_x[lane] = ray.direction[0];
+  packet.dir_y[lane] = ray.direction[1];
+  packet.dir_z[lane] = ray.direction[2];
+  packet.tnear[lane] = 0.0f;
+  packet.tfar[lane] = std::numeric_limits<float>::infinity();
+  packet.time[lane] = 0.0f;
+  packet.mask[lane] = 0xffffffffu;
+  packet.id[lane] = 0;
+  packet.flags[lane] = 0;
+}
+
+// Lanes beyond the last ray repeat it, so that every lane holds numbers; they are switched off.
+template <typename Body>
+void forPackets(std::size_t count, const Body& body) {
+  for (std::size_t first = 0; first < count; first += kPacket) {
+    alignas(32) int valid[kPacket];
+    const std::size_t lanes = std::min(kPacket, count - first);
+    for (std::size_t lane = 0; lane < kPacket; ++lane) valid[lane] = lane < lanes ? -1 : 0;
+    body(first, lanes, valid);
+  }
+}
+
+}  // namespace
+
+EmbreeScene::EmbreeScene() : m_handles(std::make_unique<Handles>()) {
+  m_handles->device = rtcNewDevice(nullptr);
+  if (!m_handles->device) throw std::runtime_error("ray tracing: no device could be opened");
+  m_handles->scene = rtcNewScene(m_handles->device);
+  rtcSetSceneFlags(m_handles->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(m_handles->scene, RTC_BUILD_QUALITY_MEDIUM);
+  check(m_handles->device, "opening a scene");
+}
+
+EmbreeScene::~EmbreeScene() = default;
+
+std::uint32_t EmbreeScene::add(const std::vector<Vec3f>& positions,
+                               const std::vector<texture::Vec3I>& triangles) {
+  RTCDevice device = m_handles->device;
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  if (!triangles.empty()) {
+    void* vertexBuffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                 sizeof(Vec3f), positions.size());
+    void* indexBuffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                sizeof(texture::Vec3I), triangles.size());
+    if (vertexBuffer && indexBuffer) {
+      std::memcpy(vertexBuffer, positions.data(), positions.size() * sizeof(Vec3f));
+      std::memcpy(indexBuffer, triangles.data(), triangles.size() * sizeof(texture::Vec3I));
+      rtcCommitGeometry(geometry);
+    }
+  }
+  const std::uint32_t number = rtcAttachGeometry(m_handles->scene, geometry);
+  rtcReleaseGeometry(geometry);
+  check(device, "adding a mesh");
+  return number;
+}
+
+void EmbreeScene::commit() {
+  tbb::task_arena alone(1);
+  alone.execute([this] { rtcJoinCommitScene(m_handles->scene); });
+  check(m_handles->device, "building a scene");
+}
+
+void EmbreeScene::intersect(std::span<Ray> rays, Coherence coherence) const {
+  RTCIntersectContext context = makeContext(coherence);
+  const auto store = [](Ray& ray, std::uint32_t geometry, std::uint32_t triangle, float u, float v) {
+    ray.geometry = geometry == RTC_INVALID_GEOMETRY_ID ? kNothing : geometry;
+    ray.triangle = triangle;
+    ray.u = u;
+    ray.v = v;
+  };
+  if (coherence == Coherence::scattered) {
+    for (Ray& ray : rays) {
+      RTCRayHit query{};
+      query.ray = makeRay(ray);
+      query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect1(m_handles->scene, &context, &query);
+      store(ray, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v);
+    }
+    return;
+  }
+  forPackets(rays.size(), [&](std::size_t first, std::size_t lanes, const int* valid) {
+    RTCRayHit8 query;
+    for (std::size_t lane = 0; lane < kPacket; ++lane) {
+      fillRay(query.ray, lane, rays[first + std::min(lane, lanes - 1)]);
+      query.hit.geomID[lane] = query.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect8(valid, m_handles->scene, &context, &query);
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      store(rays[first + lane], query.hit.geomID[lane], query.hit.primID[lane], query.hit.u[lane],
+            query.hit.v[lane]);
+  });
+}
+
+void EmbreeScene::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked,
+                           Coherence coherence) const {
+  RTCIntersectContext context = makeContext(coherence);
+  // Embree marks an occluded ray by tfar = -infinity.
+  if (coherence == Coherence::scattered) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      RTCRay query = makeRay(rays[i]);
+      rtcOccluded1(m_handles->scene, &context, &query);
+      blocked[i] = query.tfar < 0.0f;
+    }
+    return;
+  }
+  forPackets(rays.size(), [&](std::size_t first, std::size_t lanes, const int* valid) {
+    RTCRay8 query;
+    for (std::size_t lane = 0; lane < kPacket; ++lane)
+      fillRay(query, lane, rays[first + std::min(lane, lanes - 1)]);
+    rtcOccluded8(valid, m_handles->scene, &context, &query);
+    for (std::size_t lane = 0; lane < lanes; ++lane) blocked[first + lane] = query.tfar[lane] < 0.0f;
+  });
+}
+
+}  // namespace fluidtex::render

@@ -1,0 +1,39 @@
+#include "render/render.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace fluidtex::render {
+namespace {
+
+// IEC 61966-2-1.
+std::uint8_t encodeSrgb(float linear) {
+  const float x = std::fmin(std::fmax(linear, 0.0f), 1.0f);
+  const float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
+  return static_cast<std::uint8_t>(std::lround(encoded * 255.0f));
+}
+
+}  // namespace
+
+void writePng(const Picture& picture, const std::filesystem::path& file) {
+  std::vector<std::uint8_t> bytes(picture.rgb.size());
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = encodeSrgb(picture.rgb[i]);
+
+  const auto fail = [&](const std::string& why) {
+    throw std::runtime_error(file.string() + ": the picture could not be written: " + why);
+  };
+  // By format, not by the file's ending: the caller's temporary name may end in anything.
+  const auto output = OIIO::ImageOutput::create("png");
+  if (!output) fail(OIIO::geterror());
+  OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  // Noise hardly packs: the low levels are nearly as small as the high ones and several times as fast.
+  spec.attribute("png:compressionLevel", 3);
+  if (!output->open(file.string(), spec)) fail(output->geterror());
+  if (!output->write_image(OIIO::TypeDesc::UINT8, bytes.data())) fail(output->geterror());
+  if (!output->close()) fail(output->geterror());
+}
+
+}  // namespace fluidtex::render
