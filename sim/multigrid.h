@@ -1,0 +1,50 @@
+// A symmetric V-cycle for Poisson systems: the preconditioner of solvePoisson.
+#pragma once
+
+#include "sim/poisson.h"
+
+#include <vector>
+
+namespace fluidtex::sim {
+
+class Multigrid {
+ public:
+  // Builds the coarse levels. The system must outlive the object.
+  explicit Multigrid(const PoissonSystem& system);
+
+  // x = M b with M symmetric and about the inverse of the system's matrix. Single precision; b of magnitude
+  // about 1. Both hold size() + 1 values, the last one 0.
+  void apply(const std::vector<float>& b, std::vector<float>& x);
+
+ private:
+  // From this level's red cells to the next coarser level: weight `own` for the cell's own parent and 1/4 for
+  // each of three neighbours of the parent (the coarse level's size where there is none).
+  struct Interpolation {
+    std::array<int, 4> coarse;
+    float own;
+  };
+  struct Entry {
+    int fine;
+    float weight;
+  };
+  struct Level {
+    CellNumbering numbering;
+    std::vector<PoissonRow> ownRows;
+    const std::vector<PoissonRow>* rows = nullptr;  // ownRows, or the system's on the finest level
+    std::vector<float> inverseDiagonal;
+    std::vector<double> anchor;
+    std::vector<std::uint8_t> anchoredSides;
+    std::vector<Interpolation> interpolation;  // of red cells
+    std::vector<int> entryStart;               // the transpose, for the cells of the next coarser level
+    std::vector<Entry> entries;
+    std::vector<float> b, x, residual;  // b, x unused on the finest level
+  };
+
+  static Level coarsen(const Level& fine, int depth);
+  static void connect(Level& fine, const Level& coarse);
+  void cycle(std::size_t depth, const std::vector<float>& b, std::vector<float>& x);
+
+  std::vector<Level> m_levels;
+};
+
+}  // namespace fluidtex::sim

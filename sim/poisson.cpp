@@ -1,0 +1,203 @@
+// Preconditioned conjugate gradients, in the flexible form that forgives a preconditioner rounded to single
+// precision: Notay, "Flexible conjugate gradients", 2000. Singular parts: Bochev and Lehoucq, "On the finite
+// element solution of the pure Neumann problem", 2005.
+#include "sim/poisson.h"
+
+#include "sim/multigrid.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::sim {
+
+namespace {
+
+using Range = tbb::blocked_range<int>;
+
+// Sums are split at fixed places, so that they do not depend on the number of threads.
+constexpr int kGrain = 8192;
+
+struct Sums {
+  double first = 0.0, second = 0.0;
+};
+
+template <typename Body>
+Sums sum(int n, const Body& body) {
+  return tbb::parallel_deterministic_reduce(
+      Range(0, n, kGrain), Sums{},
+      [&](const Range& range, Sums sums) {
+        for (int i = range.begin(); i < range.end(); ++i) body(i, sums);
+        return sums;
+      },
+      [](const Sums& a, const Sums& b) {
+        return Sums{a.first + b.first, a.second + b.second};
+      });
+}
+
+// Connected parts without an anchor, each a list of its cells.
+std::vector<std::vector<int>> singularParts(const PoissonSystem& system) {
+  const int n = system.numbering.size();
+  std::vector<char> seen(n, 0);
+  std::vector<int> front;
+  for (int i = 0; i < n; ++i) {
+    if (system.anchor[i] > 0.0) {
+      seen[i] = 1;
+      front.push_back(i);
+    }
+  }
+  const auto visitNeighbors = [&](int i) {
+    for (int s = 0; s < kSides; ++s) {
+      const int j = system.rows[i].neighbor[s];
+      if (j < n && system.rows[i].link[s] > 0.0f && !seen[j]) {
+        seen[j] = 1;
+        front.push_back(j);
+      }
+    }
+  };
+  for (std::size_t next = 0; next < front.size(); ++next) visitNeighbors(front[next]);
+
+  std::vector<std::vector<int>> parts;
+  if (static_cast<int>(front.size()) == n) return parts;
+  for (int i = 0; i < n; ++i) {
+    if (seen[i]) continue;
+    seen[i] = 1;
+    front.assign(1, i);
+    for (std::size_t next = 0; next < front.size(); ++next) visitNeighbors(front[next]);
+    parts.push_back(front);
+  }
+  return parts;
+}
+
+template <typename Scalar>
+void removeMeans(const std::vector<std::vector<int>>& parts, std::vector<Scalar>& values) {
+  for (const auto& part : parts) {
+    double mean = 0.0;
+    for (const int i : part) mean += values[i];
+    mean /= static_cast<double>(part.size());
+    for (const int i : part) values[i] -= static_cast<Scalar>(mean);
+  }
+}
+
+}  // namespace
+
+CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks, const Coord& extent)
+    : m_extent(extent),
+      m_blocks((extent[0] + 7) >> 3, (extent[1] + 7) >> 3, (extent[2] + 7) >> 3),
+      m_blockStart(static_cast<std::size_t>(m_blocks[0]) * m_blocks[1] * m_blocks[2], -1),
+      m_numbers(blocks.size() * 512, -1) {
+  std::bitset<512> red;
+  for (int c = 0; c < 512; ++c) red[c] = (((c >> 6) ^ (c >> 3) ^ c) & 1) == 0;
+
+  const int count = static_cast<int>(blocks.size());
+  std::vector<int> firstRed(count), firstBlack(count);
+  int size = 0;
+  for (int b = 0; b < count; ++b) {
+    m_blockStart[blockIndex(blocks[b].origin)] = b * 512;
+    firstRed[b] = m_red;
+    const int reds = static_cast<int>((blocks[b].cells & red).count());
+    m_red += reds;
+    size += static_cast<int>(blocks[b].cells.count());
+    firstBlack[b] = size - m_red;
+  }
+  // firstBlack counts past the block's own black cells.
+  for (int b = 0; b < count; ++b) {
+    firstBlack[b] += m_red - static_cast<int>((blocks[b].cells & ~red).count());
+  }
+  m_cells.resize(size);
+  tbb::parallel_for(Range(0, count), [&](const Range& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      int nextRed = firstRed[b], nextBlack = firstBlack[b];
+      for (int c = 0; c < 512; ++c) {
+        if (!blocks[b].cells[c]) continue;
+        const int number = red[c] ? nextRed++ : nextBlack++;
+        m_numbers[b * 512 + c] = number;
+        m_cells[number] = blocks[b].origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
+      }
+    }
+  });
+}
+
+PoissonReport solvePoisson(const PoissonSystem& system, std::vector<double> b, std::vector<double>& x,
+                           double tolerance, int maxIterations) {
+  const int n = system.numbering.size();
+  const auto parts = singularParts(system);
+  removeMeans(parts, b);
+
+  PoissonReport report;
+  const double normB = std::sqrt(sum(n, [&](int i, Sums& s) { s.first += b[i] * b[i]; }).first);
+  if (!(normB > 0.0)) {
+    std::fill(x.begin(), x.end(), 0.0);
+    report.converged = normB == 0.0;
+    return report;
+  }
+
+  std::vector<double> diagonal(n), p(n + 1, 0.0), q(n), r(std::move(b));
+  std::vector<float> scaled(n + 1, 0.0f), z(n + 1, 0.0f);
+  tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
+    for (int i = range.begin(); i < range.end(); ++i) {
+      const auto& link = system.rows[i].link;
+      diagonal[i] = system.anchor[i] + (double(link[0]) + link[1] + link[2] + link[3] + link[4] + link[5]);
+      p[i] = x[i];
+    }
+  });
+  const auto multiply = [&](int i) {
+    const auto& [neighbor, link] = system.rows[i];
+    double value = diagonal[i] * p[i];
+    for (int s = 0; s < kSides; ++s) value -= link[s] * p[neighbor[s]];
+    return value;
+  };
+  double normR = std::sqrt(sum(n, [&](int i, Sums& s) {
+                             r[i] -= multiply(i);
+                             s.first += r[i] * r[i];
+                           }).first);
+  report.residual = normR / normB;
+  report.converged = report.residual <= tolerance;
+  if (report.converged) return report;
+
+  Multigrid preconditioner(system);
+  double rz = 0.0, alpha = 0.0;
+  while (!report.converged && report.iterations < maxIterations && std::isfinite(report.residual)) {
+    // The preconditioner works on values of about 1, whatever is left of the residual.
+    const double unit = normR / std::sqrt(static_cast<double>(n));
+    tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
+      for (int i = range.begin(); i < range.end(); ++i) scaled[i] = static_cast<float>(r[i] / unit);
+    });
+    preconditioner.apply(scaled, z);
+    removeMeans(parts, z);
+
+    // z.(r - r_old) = -alpha z.q gives the flexible (Polak-Ribiere) direction without keeping the old
+    // residual.
+    const Sums products = sum(n, [&](int i, Sums& s) {
+      s.first += z[i] * r[i];
+      s.second += z[i] * q[i];
+    });
+    const double beta = report.iterations == 0 ? 0.0 : -alpha * products.second / rz;
+    rz = products.first;
+    tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
+      for (int i = range.begin(); i < range.end(); ++i)
+        p[i] = report.iterations == 0 ? z[i] : z[i] + beta * p[i];
+    });
+    const double pq = sum(n, [&](int i, Sums& s) {
+                        q[i] = multiply(i);
+                        s.first += p[i] * q[i];
+                      }).first;
+    if (!(pq > 0.0) || !(rz > 0.0)) break;  // rounding is all that is left
+    alpha = rz / pq;
+    normR = std::sqrt(sum(n, [&](int i, Sums& s) {
+                        x[i] += alpha * p[i];
+                        r[i] -= alpha * q[i];
+                        s.first += r[i] * r[i];
+                      }).first);
+    ++report.iterations;
+    report.residual = normR / normB;
+    report.converged = report.residual <= tolerance;
+  }
+  removeMeans(parts, x);
+  return report;
+}
+
+}  // namespace fluidtex::sim

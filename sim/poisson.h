@@ -1,0 +1,90 @@
+// Seven-point Poisson systems on scattered cells of a grid, solved by conjugate gradients with a multigrid
+// preconditioner.
+#pragma once
+
+#include <openvdb/math/Coord.h>
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <vector>
+
+namespace fluidtex::sim {
+
+using openvdb::math::Coord;
+
+// Sides of a cell, in this order everywhere: -x +x -y +y -z +z. side ^ 1 is the opposite one.
+inline constexpr int kSides = 6;
+
+// Some cells of one 8x8x8 block whose origin is a multiple of 8; bit 64 i + 8 j + k.
+struct CellBlock {
+  Coord origin{0};
+  std::bitset<512> cells;
+};
+
+// Numbers the cells of a list of blocks: first all with even i+j+k ("red"), then the others ("black"), each
+// in the order of the blocks. Coordinates are not negative and below `extent`.
+class CellNumbering {
+ public:
+  CellNumbering() = default;
+  CellNumbering(const std::vector<CellBlock>& blocks, const Coord& extent);
+
+  int size() const { return static_cast<int>(m_cells.size()); }
+  int redCount() const { return m_red; }
+  const Coord& extent() const { return m_extent; }
+  const std::vector<Coord>& cells() const { return m_cells; }
+
+  // The numbers of a block's 512 cells (-1: not one of them), or null where the block has none.
+  const int* block(const Coord& anyCellInside) const {
+    const int start = m_blockStart[blockIndex(anyCellInside)];
+    return start < 0 ? nullptr : m_numbers.data() + start;
+  }
+
+  // -1 for cells that are not in the list, also beyond the extent.
+  int at(const Coord& cell) const {
+    for (int a = 0; a < 3; ++a) {
+      if (static_cast<std::uint32_t>(cell[a]) >= static_cast<std::uint32_t>(m_extent[a])) return -1;
+    }
+    const int* numbers = block(cell);
+    return numbers == nullptr ? -1 : numbers[((cell[0] & 7) << 6) | ((cell[1] & 7) << 3) | (cell[2] & 7)];
+  }
+
+ private:
+  std::size_t blockIndex(const Coord& cell) const {
+    return (static_cast<std::size_t>(cell[0] >> 3) * m_blocks[1] + (cell[1] >> 3)) * m_blocks[2] +
+           (cell[2] >> 3);
+  }
+
+  Coord m_extent{0}, m_blocks{0};
+  int m_red = 0;
+  std::vector<Coord> m_cells;     // by number
+  std::vector<int> m_blockStart;  // into m_numbers, -1: no cells
+  std::vector<int> m_numbers;
+};
+
+// One row of the matrix:  (sum of links + anchor) x_i - sum over sides of link x_neighbor.
+struct PoissonRow {
+  std::array<int, kSides> neighbor;  // size() of the numbering where there is none, its link 0
+  std::array<float, kSides> link;    // not negative; the same seen from both cells
+};
+
+// Symmetric, positive (semi)definite. Anchors tie cells to the value 0; a connected part without one is
+// singular, and is solved for the right-hand side and the unknowns less their means over that part.
+struct PoissonSystem {
+  CellNumbering numbering;
+  std::vector<PoissonRow> rows;
+  std::vector<double> anchor;
+  std::vector<std::uint8_t> anchoredSides;  // bit s: part of the anchor is on side s
+};
+
+struct PoissonReport {
+  bool converged = false;
+  int iterations = 0;
+  double residual = 0.0;  // 2-norm relative to the right-hand side's
+};
+
+// Solves from the given x; the 2-norm of the residual falls to `tolerance` times that of b.
+[[nodiscard]] PoissonReport solvePoisson(const PoissonSystem& system, std::vector<double> b,
+                                         std::vector<double>& x, double tolerance, int maxIterations);
+
+}  // namespace fluidtex::sim
