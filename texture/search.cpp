@@ -170,25 +170,28 @@ WindowQuery::WindowQuery(const SearchTable& table) {
 }
 
 void prepareQuery(const SearchTable& table, WindowQuery& query) {
-  double sum = 0.0;
-  query.anyMissing = false;
   query.described = false;
-  for (std::size_t i = 0; i < query.mask.size(); ++i) {
-    sum += double(table.falloff[i]) * query.mask[i];
-    query.anyMissing = query.anyMissing || query.mask[i] < 1.0f;
-  }
+  query.anyMissing = std::any_of(query.mask.begin(), query.mask.end(), [](float m) { return m != 1.0f; });
+  double sum = 0.0;
+  if (query.anyMissing)
+    for (std::size_t i = 0; i < query.mask.size(); ++i) sum += double(table.falloff[i]) * query.mask[i];
+  else
+    sum = 1.0;
   const float scale = sum > 0.0 ? float(1.0 / sum) : 0.0f;
-  const std::size_t stride = paddedRow(table), channels = std::size_t(table.channels);
-  for (std::size_t i = 0; i < query.mask.size(); ++i) {
-    const std::size_t y = i / std::size_t(table.window), x = i % std::size_t(table.window);
-    const float weight = table.falloff[i] * query.mask[i] * scale;
-    float *row = query.rows.data() + y * stride + x * channels,
-          *weights = query.weight.data() + y * stride + x * channels;
-    for (std::size_t c = 0; c < channels; ++c) {
-      row[c] = query.mask[i] > 0.0f ? query.pixels[i * channels + c] : 0.0f;
-      weights[c] = weight;
+
+  const std::size_t stride = paddedRow(table), channels = std::size_t(table.channels),
+                    width = std::size_t(table.window);
+  for (std::size_t y = 0; y < width; ++y) {
+    float *row = query.rows.data() + y * stride, *weight = query.weight.data() + y * stride;
+    std::copy_n(query.pixels.data() + y * width * channels, width * channels, row);
+    if (!query.anyMissing && query.fullWeight) continue;
+    for (std::size_t x = 0; x < width; ++x) {
+      const float m = query.mask[y * width + x];
+      std::fill_n(weight + x * channels, channels, table.falloff[y * width + x] * m * scale);
+      if (m <= 0.0f) std::fill_n(row + x * channels, channels, 0.0f);
     }
   }
+  query.fullWeight = !query.anyMissing;
 }
 
 std::span<const float> describeQuery(const SearchTable& table, WindowQuery& query) {

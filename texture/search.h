@@ -75,6 +75,7 @@ struct WindowQuery {
   std::vector<float> rows;    // the pixels, 0 where missing
   std::vector<float> weight;  // fall-off times mask over its sum, once a channel
   bool anyMissing = false;
+  bool fullWeight = false;  // `weight` is that of a mask of ones
 
   // Made by describeQuery().
   bool described = false;

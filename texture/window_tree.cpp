@@ -20,47 +20,51 @@ namespace {
 constexpr std::size_t kSamples = 4096;  // means are learnt from at most as many
 constexpr int kSweeps = 8;
 constexpr float kFar = 1e15f;  // fills lanes that hold nothing; its square is still finite
-constexpr std::size_t kBlockSize = std::size_t(kBlock) * kDescriptorSize;
 constexpr float kNoBound = std::numeric_limits<float>::infinity();
 
 using Indices = std::vector<std::uint32_t>;
 
-// Means in blocks, as WindowTree keeps them.
-struct Means {
-  std::vector<float> block;
-  int count = 0;
+// Adds a block that holds nothing.
+void addBlock(DescriptorBlocks& blocks) {
+  blocks.first.resize(blocks.first.size() + kBlock * kFirstComponents, kFar);
+  blocks.rest.resize(blocks.rest.size() + kBlock * kRestComponents, kFar);
+}
 
-  explicit Means(int n) : block(std::size_t((n + kBlock - 1) / kBlock) * kBlockSize, kFar), count(n) {}
-  void set(int i, const double* value) {
-    for (int k = 0; k < kDescriptorSize; ++k)
-      block[std::size_t(i / kBlock) * kBlockSize + std::size_t(k * kBlock + i % kBlock)] = float(value[k]);
-  }
-  Found nearest(const float* descriptor) const {
-    Found best{kNoBound, 0};
-    for (std::size_t b = 0; b * kBlockSize < block.size(); ++b) {
-      const Float8 distance = blockDistances(block.data() + b * kBlockSize, descriptor, best.distance);
-      for (std::uint32_t lane = 0; lane < kBlock; ++lane)
-        if (distance[lane] < best.distance) best = {distance[lane], std::uint32_t(b * kBlock) + lane};
-    }
-    return best;
-  }
-};
+template <class Scalar>
+void setLane(DescriptorBlocks& blocks, std::size_t i, const Scalar* value) {
+  const std::size_t block = i / kBlock, lane = i % kBlock;
+  for (std::size_t k = 0; k < kFirstComponents; ++k)
+    blocks.first[(block * kFirstComponents + k) * kBlock + lane] = float(value[k]);
+  for (std::size_t k = 0; k < kRestComponents; ++k)
+    blocks.rest[(block * kRestComponents + k) * kBlock + lane] = float(value[kFirstComponents + k]);
+}
 
-void setFrom(Means& means, int i, const float* descriptor) {
-  double value[kDescriptorSize];
-  std::copy_n(descriptor, kDescriptorSize, value);
-  means.set(i, value);
+DescriptorBlocks emptyBlocks(std::size_t count) {
+  DescriptorBlocks blocks;
+  for (std::size_t i = 0; i < count; i += kBlock) addBlock(blocks);
+  return blocks;
+}
+
+std::uint32_t nearestOf(const DescriptorBlocks& means, const float* descriptor) {
+  Found best{kNoBound, 0};
+  for (std::size_t b = 0; b < means.count(); ++b) {
+    const Float8 distance = blockDistances(means, b, descriptor, best.distance);
+    for (std::size_t lane = 0; lane < kBlock; ++lane)
+      if (distance[lane] < best.distance) best = {distance[lane], std::uint32_t(b * kBlock + lane)};
+  }
+  return best.index;
 }
 
 // `count` starts: the first at random, each further one with a probability that grows with its squared
 // distance from those before.
-Means starts(std::span<const float> descriptors, const Indices& sample, int count, std::uint64_t seed) {
-  Means means(count);
+DescriptorBlocks starts(std::span<const float> descriptors, const Indices& sample, int count,
+                        std::uint64_t seed) {
+  DescriptorBlocks means = emptyBlocks(std::size_t(count));
   std::vector<float> distance(sample.size(), kNoBound);
   std::size_t chosen = randomBelow(seed, 0, sample.size());
   for (int m = 0; m < count; ++m) {
     const float* mean = descriptors.data() + std::size_t(sample[chosen]) * kDescriptorSize;
-    setFrom(means, m, mean);
+    setLane(means, std::size_t(m), mean);
     double sum = 0.0;
     for (std::size_t s = 0; s < sample.size(); ++s) {
       const float* value = descriptors.data() + std::size_t(sample[s]) * kDescriptorSize;
@@ -79,17 +83,18 @@ Means starts(std::span<const float> descriptors, const Indices& sample, int coun
   return means;
 }
 
-Means kMeans(std::span<const float> descriptors, const Indices& members, int count, std::uint64_t seed) {
+DescriptorBlocks kMeans(std::span<const float> descriptors, const Indices& members, int count,
+                        std::uint64_t seed) {
   Indices sample;
   const std::size_t size = std::min(kSamples, members.size());
   for (std::size_t s = 0; s < size; ++s) sample.push_back(members[s * members.size() / size]);
-  Means means = starts(descriptors, sample, count, seed);
+  DescriptorBlocks means = starts(descriptors, sample, count, seed);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     std::vector<double> sum(std::size_t(count) * kDescriptorSize, 0.0);
     std::vector<int> share(std::size_t(count), 0);
     for (const std::uint32_t s : sample) {
       const float* value = descriptors.data() + std::size_t(s) * kDescriptorSize;
-      const std::uint32_t mean = means.nearest(value).index;
+      const std::uint32_t mean = nearestOf(means, value);
       for (std::size_t k = 0; k < kDescriptorSize; ++k) sum[mean * kDescriptorSize + k] += value[k];
       ++share[mean];
     }
@@ -97,7 +102,7 @@ Means kMeans(std::span<const float> descriptors, const Indices& members, int cou
       if (share[std::size_t(m)] == 0) continue;  // stays where it is
       double* total = sum.data() + std::size_t(m) * kDescriptorSize;
       for (int k = 0; k < kDescriptorSize; ++k) total[k] /= share[std::size_t(m)];
-      means.set(m, total);
+      setLane(means, std::size_t(m), total);
     }
   }
   return means;
@@ -111,29 +116,27 @@ std::vector<Indices> clusters(std::span<const float> descriptors, const Indices&
     result[0] = members;
     return result;
   }
-  const Means means = kMeans(descriptors, members, count, seed);
+  const DescriptorBlocks means = kMeans(descriptors, members, count, seed);
   Indices cluster(members.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members.size(), 1024), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
-      cluster[i] = means.nearest(descriptors.data() + std::size_t(members[i]) * kDescriptorSize).index;
+      cluster[i] = nearestOf(means, descriptors.data() + std::size_t(members[i]) * kDescriptorSize);
   });
   for (std::size_t i = 0; i < members.size(); ++i) result[cluster[i]].push_back(members[i]);
   return result;
 }
 
 void appendLeaf(WindowTree& tree, std::span<const float> descriptors, const Indices& members) {
-  for (std::size_t first = 0; first < members.size(); first += kBlock) {
-    tree.descriptor.resize(tree.descriptor.size() + kBlockSize, kFar);
-    float* block = tree.descriptor.data() + tree.descriptor.size() - kBlockSize;
-    for (std::size_t lane = 0; lane < kBlock; ++lane) {
-      const bool exists = first + lane < members.size();
-      tree.index.push_back(exists ? members[first + lane] : kNoWindow);
-      if (!exists) continue;
-      const float* value = descriptors.data() + std::size_t(members[first + lane]) * kDescriptorSize;
-      for (std::size_t k = 0; k < kDescriptorSize; ++k) block[k * kBlock + lane] = value[k];
+  const std::size_t first = tree.index.size();
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (i % kBlock == 0) {
+      addBlock(tree.descriptor);
+      tree.index.resize(tree.index.size() + kBlock, kNoWindow);
     }
+    tree.index[first + i] = members[i];
+    setLane(tree.descriptor, first + i, descriptors.data() + std::size_t(members[i]) * kDescriptorSize);
   }
-  tree.firstBlock.push_back(std::uint32_t(tree.index.size() / kBlock));
+  tree.firstBlock.push_back(std::uint32_t(tree.descriptor.count()));
 }
 
 }  // namespace
@@ -165,28 +168,9 @@ WindowTree buildWindowTree(std::span<const float> descriptors, int leaves, std::
           sum[k] += descriptors[i * std::size_t(kDescriptorSize) + k];
       for (double& value : sum) value /= double(members.size());
     }
-  Means means(int(mean.size()));
-  for (int m = 0; m < means.count; ++m) means.set(m, mean[std::size_t(m)].data());
-  tree.leafMean = std::move(means.block);
+  tree.leafMean = emptyBlocks(mean.size());
+  for (std::size_t m = 0; m < mean.size(); ++m) setLane(tree.leafMean, m, mean[m].data());
   return tree;
-}
-
-Float8 blockDistances(const float* block, const float* descriptor, float bound) {
-  // The first components hold most of the variance, so most blocks are done after a third.
-  constexpr int kFirst = 8;
-  Float8 even{}, odd{};
-  const auto add = [&](int from, int to) {
-    for (int k = from; k < to; k += 2) {
-      const Float8 a = load8(block + k * kBlock) - descriptor[k],
-                   b = load8(block + (k + 1) * kBlock) - descriptor[k + 1];
-      even += a * a;
-      odd += b * b;
-    }
-  };
-  add(0, kFirst);
-  if (atMost8(even + odd, bound) == 0) return even + odd;
-  add(kFirst, kDescriptorSize);
-  return even + odd;
 }
 
 void nearestLeaves(const WindowTree& tree, const float* descriptor, int probes, TreeSearch& search) {
@@ -195,8 +179,8 @@ void nearestLeaves(const WindowTree& tree, const float* descriptor, int probes, 
   const std::size_t count = std::size_t(std::clamp(probes, 0, tree.leaves()));
   if (count == 0) return;
   float bound = kNoBound;
-  for (std::size_t b = 0; b * kBlockSize < tree.leafMean.size(); ++b) {
-    const Float8 distance = blockDistances(tree.leafMean.data() + b * kBlockSize, descriptor, bound);
+  for (std::size_t b = 0; b < tree.leafMean.count(); ++b) {
+    const Float8 distance = blockDistances(tree.leafMean, b, descriptor, bound);
     for (unsigned lanes = atMost8(distance, bound); lanes != 0; lanes &= lanes - 1) {
       const unsigned lane = unsigned(std::countr_zero(lanes));
       const Found leaf{distance[lane], std::uint32_t(b * kBlock) + lane};

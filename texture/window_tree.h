@@ -11,20 +11,28 @@
 
 namespace fluidtex::texture {
 
-// Descriptors are kept in the leaves' order and in blocks of eight, dimension by dimension, so that eight are
-// compared at once.
-inline constexpr int kBlock = 8;
+// Descriptors are kept in the leaves' order and in blocks of eight, so that eight are compared at once: the
+// eight values of a component side by side, one component after the other. The first components, which hold
+// most of the variance and settle most comparisons, are kept apart, so that often they alone are fetched.
+inline constexpr std::size_t kBlock = 8;
+inline constexpr std::size_t kFirstComponents = 8;
+inline constexpr std::size_t kRestComponents = kDescriptorSize - kFirstComponents;
 
-struct WindowTree {
-  std::vector<std::uint32_t> firstBlock;  // #leaves + 1
-  std::vector<std::uint32_t> index;  // kBlock a block: which descriptor; kNoWindow where a block is not full
-  std::vector<float>
-      descriptor;  // kBlock x kDescriptorSize a block, the eight values of a dimension side by side
-  std::vector<float> leafMean;  // the leaves' means, in blocks likewise
-  int leaves() const { return firstBlock.empty() ? 0 : int(firstBlock.size()) - 1; }
+struct DescriptorBlocks {
+  std::vector<float> first;  // kBlock x kFirstComponents a block
+  std::vector<float> rest;   // kBlock x kRestComponents a block
+  std::size_t count() const { return first.size() / (kBlock * kFirstComponents); }
 };
 
 inline constexpr std::uint32_t kNoWindow = 0xffffffffu;
+
+struct WindowTree {
+  std::vector<std::uint32_t> firstBlock;  // #leaves + 1
+  std::vector<std::uint32_t> index;       // kBlock a block: which descriptor; kNoWindow where there is none
+  DescriptorBlocks descriptor;
+  DescriptorBlocks leafMean;
+  int leaves() const { return firstBlock.empty() ? 0 : int(firstBlock.size()) - 1; }
+};
 
 struct Found {
   float distance;       // squared
@@ -43,14 +51,35 @@ struct TreeSearch {
 // descriptors: #n x kDescriptorSize, n >= 1. About `leaves` leaves, fewer where n is small; none is empty.
 WindowTree buildWindowTree(std::span<const float> descriptors, int leaves, std::uint64_t seed);
 
+// Leaves the `count` nearest descriptors of the `probes` leaves whose means are nearest in search.best,
+// ascending.
+void searchWindowTree(const WindowTree& tree, const float* descriptor, int probes, int count,
+                      TreeSearch& search);
+
 // Keeps `best` ascending and at most `count` long.
 void insertFound(std::vector<Found>& best, std::size_t count, const Found& found);
 
-// Eight squared distances at once; once all of them exceed `bound` they need not be complete.
-Float8 blockDistances(const float* block, const float* descriptor, float bound);
-
 // Fills search.leaf with the `probes` leaves whose means are nearest, best first.
 void nearestLeaves(const WindowTree& tree, const float* descriptor, int probes, TreeSearch& search);
+
+// Squared distances of a block's descriptors; once all of them exceed `bound` they need not be complete.
+inline Float8 blockDistances(const DescriptorBlocks& blocks, std::size_t block, const float* descriptor,
+                             float bound) {
+  Float8 even{}, odd{};
+  const auto add = [&](const float* values, const float* target, std::size_t components) {
+    for (std::size_t k = 0; k < components; k += 2) {
+      const Float8 a = load8(values + k * kBlock) - target[k];
+      const Float8 b = load8(values + (k + 1) * kBlock) - target[k + 1];
+      even += a * a;
+      odd += b * b;
+    }
+  };
+  add(blocks.first.data() + block * kBlock * kFirstComponents, descriptor, kFirstComponents);
+  if (atMost8(even + odd, bound) != 0)
+    add(blocks.rest.data() + block * kBlock * kRestComponents, descriptor + kFirstComponents,
+        kRestComponents);
+  return even + odd;
+}
 
 // Calls offer(Found) for the descriptors in the `probes` leaves whose means are nearest, best leaf first,
 // that are not farther than bound(), which may fall as it goes.
@@ -59,20 +88,14 @@ void visitNearest(const WindowTree& tree, const float* descriptor, int probes, T
                   const Bound& bound, const Offer& offer) {
   nearestLeaves(tree, descriptor, probes, search);
   for (const Found& leaf : search.leaf)
-    for (std::uint32_t block = tree.firstBlock[leaf.index]; block < tree.firstBlock[leaf.index + 1];
-         ++block) {
-      const Float8 distance = blockDistances(
-          tree.descriptor.data() + std::size_t(block) * kBlock * kDescriptorSize, descriptor, bound());
+    for (std::size_t b = tree.firstBlock[leaf.index]; b < tree.firstBlock[leaf.index + 1]; ++b) {
+      const Float8 distance = blockDistances(tree.descriptor, b, descriptor, bound());
       for (unsigned lanes = atMost8(distance, bound()); lanes != 0; lanes &= lanes - 1) {
         const unsigned lane = unsigned(std::countr_zero(lanes));
-        const std::uint32_t index = tree.index[std::size_t(block) * kBlock + lane];
+        const std::uint32_t index = tree.index[b * kBlock + lane];
         if (index != kNoWindow) offer(Found{distance[lane], index});
       }
     }
 }
-
-// The `count` nearest of those, in search.best, ascending.
-void searchWindowTree(const WindowTree& tree, const float* descriptor, int probes, int count,
-                      TreeSearch& search);
 
 }  // namespace fluidtex::texture
