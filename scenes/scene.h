@@ -1,4 +1,5 @@
-// A scene file, read and checked: the settings of every room, plus what to do with them. Schema: scenes/README.md.
+// A scene file, read and checked: the settings of every room, plus what to do with them. Schema:
+// scenes/README.md.
 #pragma once
 
 #include "render/options.h"
@@ -14,32 +15,36 @@ namespace fluidtex::scenes {
 
 enum class Quality { preview, standard, final };
 
+// As on the command line: preview, default, final.
+const char* nameOf(Quality quality);
+
 struct Scene {
-  std::string name;             // the file's, without folder and extension
+  std::string name;  // key `name`, or the file's without folder and extension
   std::filesystem::path file;
-  int frames = 72;              // how many; numbered from 1
+  int frames = 72;  // how many; numbered from 1
   std::uint64_t seed = 1;
   sim::Options sim;
   texture::Options texture;
   render::Options render;
-  std::string resolved;         // the whole scene after quality and overrides, every key with its value, as JSON
+  std::string resolved;  // the whole scene after quality and overrides, every key with its value, as JSON
 };
 
 // What the command line adds to a scene file.
 struct Overrides {
   Quality quality = Quality::standard;
-  std::vector<std::string> set;        // "dotted.key=value", value as in TOML, bare words taken as strings
-  std::filesystem::path exemplar;      // empty: the scene's own
+  std::vector<std::string> set;    // "dotted.key=value", value as in TOML, bare words taken as strings
+  std::filesystem::path exemplar;  // empty: the scene's own
 };
 
-// Every fault found in the file, one line each:  FILE:LINE:COLUMN: error: KEY: what is wrong; what would be right
+// Every fault found in the file, one line each:  FILE:LINE:COLUMN: error: KEY: what is wrong; what would be
+// right
 struct SceneError : std::runtime_error {
   explicit SceneError(std::vector<std::string> faults);
   std::vector<std::string> faults;
 };
 
-// Reads, applies [quality.NAME] and the overrides, checks everything. Paths inside are relative to the file's own folder.
-// Throws SceneError with all faults.
+// Reads, applies [quality.NAME] and the overrides, checks everything. Paths inside are relative to the file's
+// own folder. Throws SceneError with all faults.
 Scene loadScene(const std::filesystem::path& file, const Overrides& overrides = {});
 
 }  // namespace fluidtex::scenes

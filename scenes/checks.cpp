@@ -1,0 +1,182 @@
+#include "scenes/checks.h"
+
+#include "scenes/format.h"
+#include "scenes/schema.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace fluidtex::scenes {
+
+namespace {
+
+// A grid needs some cells across to tell liquid, surface and wall apart.
+constexpr double kFewestCells = 4.0;
+
+const char* const kAxes[] = {"x", "y", "z"};
+
+// As many iterations as there are windows: the defaults, the last one repeated.
+std::vector<int> fitted(std::vector<int> iterations, std::size_t windows) {
+  const int last = iterations.back();
+  iterations.resize(windows, last);
+  return iterations;
+}
+
+void checkDomain(const Scene& scene, Reader& reader) {
+  if (!reader.clean("domain")) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double cells = scene.sim.size[axis] / scene.sim.voxelSize();
+    if (cells >= kFewestCells) continue;
+    reader.fault("domain.size", std::string(kAxes[axis]) + " is only " + written(cells) + " cells long",
+                 "give a longer side or a higher domain.resolution, so that it is " + written(kFewestCells) +
+                     " or more");
+  }
+}
+
+void checkShape(const sim::Shape& shape, const std::string& path, Reader& reader) {
+  const auto checkParts = [&](const std::vector<sim::Shape>& parts, const std::string& key) {
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      checkShape(parts[i], path + "." + key + "." + std::to_string(i), reader);
+  };
+  if (const auto* box = std::get_if<sim::Box>(&shape.kind)) {
+    if (!reader.clean(path + ".box")) return;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (box->min[axis] < box->max[axis]) continue;
+      reader.fault(path + ".box.max",
+                   std::string(kAxes[axis]) + " is " + written(box->max[axis]) + ", not above min's " +
+                       written(box->min[axis]),
+                   "give a max that is greater than min in x, y and z");
+    }
+  } else if (const auto* space = std::get_if<sim::HalfSpace>(&shape.kind)) {
+    if (reader.clean(path + ".half_space") && space->normal.length() == 0.0)
+      reader.fault(path + ".half_space.normal", "has no length",
+                   "give the direction out of the shape, for example [0, 0, 1]");
+  } else if (const auto* both = std::get_if<sim::Union>(&shape.kind)) {
+    checkParts(both->parts, "union");
+  } else if (const auto* rest = std::get_if<sim::Difference>(&shape.kind)) {
+    checkParts(rest->parts, "difference");
+    if (reader.clean(path + ".difference") && rest->parts.size() == 1)
+      reader.fault(path + ".difference", "has one part only",
+                   "give the shape and, after it, what is taken away from it");
+  }
+}
+
+void checkBodies(const Scene& scene, Reader& reader) {
+  for (std::size_t i = 0; i < scene.sim.liquid.size(); ++i) {
+    const std::string path = "liquid." + std::to_string(i);
+    checkShape(scene.sim.liquid[i].shape, path, reader);
+    if (reader.clean(path) && reader.clean("domain.size") &&
+        !reachesDomain(scene.sim.liquid[i].shape, scene.sim.size)) {
+      reader.fault(path, "lies wholly outside the domain",
+                   "put at least a part of it between [0, 0, 0] and " + written(scene.sim.size));
+    }
+  }
+  std::map<std::string, std::string> firstOfName;
+  for (std::size_t i = 0; i < scene.sim.solids.size(); ++i) {
+    const sim::Solid& solid = scene.sim.solids[i];
+    const std::string path = "solid." + std::to_string(i);
+    checkShape(solid.shape, path, reader);
+    if (reader.clean(path + ".from") && reader.clean(path + ".until") && !(solid.from < solid.until)) {
+      reader.fault(path + (reader.given(path + ".until") ? ".until" : ".from"),
+                   "until " + written(solid.until) + " s is not after from " + written(solid.from) + " s",
+                   "give an until that is greater than from");
+    }
+    if (!reader.clean(path + ".name")) continue;
+    const auto [first, isNew] = firstOfName.emplace(solid.name, path);
+    if (!isNew)
+      reader.fault(path + ".name", "\"" + solid.name + "\" is the name of " + first->second + " too",
+                   "give each solid a name of its own");
+  }
+}
+
+void checkTexture(const Scene& scene, Reader& reader) {
+  const texture::SynthesisOptions& synthesis = scene.texture.synthesis;
+  const std::vector<int>& windows = synthesis.windows;
+  if (reader.clean("texture.windows")) {
+    const auto even =
+        std::find_if(windows.begin(), windows.end(), [](int window) { return window % 2 == 0; });
+    if (even != windows.end()) {
+      reader.fault("texture.windows", std::to_string(*even) + " is even",
+                   "give odd widths, for example " + std::to_string(*even + 1));
+    }
+    const auto notFalling = std::adjacent_find(windows.begin(), windows.end(), std::less_equal<>());
+    if (notFalling != windows.end()) {
+      reader.fault(
+          "texture.windows",
+          std::to_string(*(notFalling + 1)) + " after " + std::to_string(*notFalling) + " does not fall",
+          "give widths from large to small, for example [33, 17, 9]");
+    }
+    const auto checkCount = [&](const std::string& path, const std::vector<int>& iterations) {
+      if (!reader.clean(path) || iterations.size() == windows.size()) return;
+      reader.fault(path,
+                   "a list of " + std::to_string(iterations.size()) + " for " +
+                       std::to_string(windows.size()) + (windows.size() == 1 ? " window" : " windows"),
+                   "give one number for each of texture.windows");
+    };
+    checkCount("texture.first_iterations", synthesis.firstIterations);
+    checkCount("texture.later_iterations", synthesis.laterIterations);
+  }
+  const Vec3d& size = scene.sim.size;
+  const double shortest = std::min({size[0], size[1], size[2]});
+  if (reader.clean("texture.spacing") && reader.clean("domain.size") && scene.texture.spacing >= shortest) {
+    reader.fault("texture.spacing",
+                 written(scene.texture.spacing) + " m is as long as the domain's shortest side or longer",
+                 "give less than " + written(shortest) + " m");
+  }
+}
+
+void checkPicture(const Scene& scene, Reader& reader) {
+  const render::Options& render = scene.render;
+  if (reader.clean("camera.from") && reader.clean("camera.at") && render.camera.from == render.camera.at) {
+    reader.fault(reader.given("camera.from") ? "camera.from" : "camera.at",
+                 "the camera stands at the point it looks at",
+                 "give camera.from and camera.at different places");
+  }
+  if (reader.clean("light.sun_direction") && render.light.sunDirection.length() == 0.0)
+    reader.fault("light.sun_direction", "has no length",
+                 "give the direction towards the sun, for example [-0.5, -0.4, 0.8]");
+  for (int side : {render.width, render.height}) {
+    if (reader.clean("render.size") && side % 2 != 0) {
+      reader.fault("render.size", std::to_string(side) + " is odd",
+                   "give even numbers, as the video needs, for example " + std::to_string(side + 1));
+    }
+  }
+}
+
+}  // namespace
+
+void complete(Scene& scene, const Reader& reader) {
+  if (scene.name.empty()) scene.name = scene.file.stem().string();
+  scene.texture.surface.seed = scene.texture.synthesis.seed = scene.seed;
+
+  for (std::size_t i = 0; i < scene.sim.solids.size(); ++i) {
+    std::string& name = scene.sim.solids[i].name;
+    if (name.empty()) name = "solid " + std::to_string(i);
+  }
+
+  texture::SynthesisOptions& synthesis = scene.texture.synthesis;
+  if (!reader.given("texture.first_iterations"))
+    synthesis.firstIterations = fitted(synthesis.firstIterations, synthesis.windows.size());
+  if (!reader.given("texture.later_iterations"))
+    synthesis.laterIterations = fitted(synthesis.laterIterations, synthesis.windows.size());
+
+  // A view of the whole domain, from the front and above.
+  render::Camera& camera = scene.render.camera;
+  const Vec3d& size = scene.sim.size;
+  if (!reader.given("camera.at")) camera.at = size * 0.5;
+  if (!reader.given("camera.from"))
+    camera.from = camera.at + Vec3d(0.7, -1.9, 0.9) * std::max({size[0], size[1], size[2]});
+}
+
+void check(const Scene& scene, Reader& reader) {
+  if (reader.clean("name") && scene.name.find_first_of("/\\") != std::string::npos)
+    reader.fault("name", "\"" + scene.name + "\" holds a slash", "give a name that can be a file's");
+  checkDomain(scene, reader);
+  checkBodies(scene, reader);
+  checkTexture(scene, reader);
+  checkPicture(scene, reader);
+}
+
+}  // namespace fluidtex::scenes

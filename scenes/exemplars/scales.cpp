@@ -1,0 +1,229 @@
+// Scales lie like roof tiles: each is a rounded tongue that hangs down over the two rows below it. For a
+// point of the image the scale of the uppermost row that reaches it is seen; its shade comes from a domed
+// height and the light, its shadow from the edge of the scales above.
+#include "scenes/exemplars/scales.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fluidtex::exemplars {
+
+namespace {
+
+using Color = std::array<double, 3>;  // linear RGB
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Outline of a scale in units of the distance between columns and between rows.
+constexpr double kHalfWidth = 0.535;  // more than 0.5: neighbours meet in a crease
+constexpr double kLength = 1.62;      // from the widest place to the free end
+constexpr double kRoundness = 2.3;    // exponent of the outline: 2 is an ellipse, more is blunter
+
+double random(std::uint64_t seed, std::uint64_t a, std::uint64_t b, std::uint64_t c) {
+  // SplitMix64's finaliser [Steele, Lea, Flood 2014] over a linear combination of the arguments.
+  std::uint64_t x = seed * 0x9e3779b97f4a7c15u + a * 0xbf58476d1ce4e5b9u + b * 0x94d049bb133111ebu +
+                    c * 0xd6e8feb86659fd93u;
+  for (int round = 0; round < 2; ++round) {
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    x ^= x >> 31;
+  }
+  return double(x >> 11) * 0x1.0p-53;
+}
+
+double smooth(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+double mixed(double a, double b, double t) {
+  return a + (b - a) * t;
+}
+
+Color mixed(const Color& a, const Color& b, double t) {
+  return {mixed(a[0], b[0], t), mixed(a[1], b[1], t), mixed(a[2], b[2], t)};
+}
+
+int wrapped(int i, int n) {
+  return ((i % n) + n) % n;
+}
+
+// Value noise with `cells` lattice cells across the unit square, periodic; 0..1.
+double noise(std::uint64_t seed, std::uint64_t stream, double x, double y, int cells) {
+  const double u = x * cells, v = y * cells;
+  const int i = int(std::floor(u)), j = int(std::floor(v));
+  const double s = smooth(0.0, 1.0, u - i), t = smooth(0.0, 1.0, v - j);
+  const auto at = [&](int di, int dj) {
+    return random(seed, stream, std::uint64_t(wrapped(i + di, cells)), std::uint64_t(wrapped(j + dj, cells)));
+  };
+  return mixed(mixed(at(0, 0), at(1, 0), s), mixed(at(0, 1), at(1, 1), s), t);
+}
+
+struct Scale {
+  double x, y;           // of the widest place, image = unit square
+  double width, length;  // half width and length of the free end, same units
+  double turn;           // how far the free end leans to the side, a share of its length
+  double hue, shade;     // -1..1
+};
+
+// Where a point lies on a scale.
+struct Place {
+  double across, along;  // -1..1 across; 0 at the widest place, 1 at the free end
+  double rim;            // 0 in the middle, 1 at the outline, more outside
+};
+
+// Above the widest place the scale goes straight on.
+Place placeOn(const Scale& scale, double x, double y) {
+  const double along = (y - scale.y) / scale.length;
+  const double across = (x - scale.x - scale.turn * (y - scale.y)) / scale.width;
+  const double down = std::max(along, 0.0);
+  const double sum = std::pow(std::abs(across), kRoundness) + std::pow(down, kRoundness);
+  return {across, along, std::pow(sum, 1.0 / kRoundness)};
+}
+
+struct Hit {
+  Scale scale;
+  double gap;  // to the outline of the nearest scale that lies above, in half widths
+};
+
+class Hide {
+ public:
+  explicit Hide(const Scales& options) : m_options(options) {
+    for (int row = 0; row < options.rows; ++row) {
+      for (int column = 0; column < options.columns; ++column) m_scales.push_back(makeScale(row, column));
+    }
+  }
+
+  Color colorAt(double x, double y) const {
+    const Hit hit = find(x, y);
+    // Differences on one scale: its outline is no slope.
+    const double e = 0.25 / m_options.size;
+    const double slopeX = (height(hit.scale, x + e, y) - height(hit.scale, x - e, y)) / (2.0 * e);
+    const double slopeY = (height(hit.scale, x, y + e) - height(hit.scale, x, y - e)) / (2.0 * e);
+    return shaded(hit, slopeX, slopeY, x, y);
+  }
+
+ private:
+  Scale makeScale(int row, int column) const {
+    const auto vary = [&](std::uint64_t what) {
+      return 2.0 * random(m_options.seed, what, std::uint64_t(row), std::uint64_t(column)) - 1.0;
+    };
+    const double pitchX = 1.0 / m_options.columns, pitchY = 1.0 / m_options.rows;
+    return {.x = (column + 0.5 * (row % 2) + 0.07 * vary(1)) * pitchX,
+            .y = (row + 0.10 * vary(2)) * pitchY,
+            .width = kHalfWidth * pitchX * (1.0 + 0.05 * vary(3)),
+            .length = kLength * pitchY * (1.0 + 0.08 * vary(4)),
+            .turn = 0.10 * vary(5),
+            .hue = vary(6),
+            .shade = vary(7)};
+  }
+
+  // Rows and columns count on beyond the image's edges.
+  Scale scaleAt(int row, int column) const {
+    const int r = wrapped(row, m_options.rows), c = wrapped(column, m_options.columns);
+    Scale scale = m_scales[std::size_t(r * m_options.columns + c)];
+    scale.x += double(column - c) / m_options.columns;
+    scale.y += double(row - r) / m_options.rows;
+    return scale;
+  }
+
+  Hit find(double x, double y) const {
+    Hit hit{{}, 1e9};
+    const int lowest = int(std::floor(y * m_options.rows)) + 1;
+    for (int row = lowest - 4; row <= lowest; ++row) {  // from the uppermost that can reach down to here
+      const double shift = 0.5 * wrapped(row, 2);
+      const int middle = int(std::floor(x * m_options.columns - shift + 0.5));
+      double nearest = 1e9;
+      for (int column = middle - 1; column <= middle + 1; ++column) {
+        const Scale scale = scaleAt(row, column);
+        const double rim = placeOn(scale, x, y).rim;
+        if (rim >= nearest) continue;  // where two of a row meet, the nearer one is higher
+        nearest = rim;
+        hit.scale = scale;
+      }
+      if (nearest < 1.0) return hit;
+      hit.gap = std::min(hit.gap, nearest - 1.0);
+    }
+    return hit;  // in a chink between scales: on the lowest of them
+  }
+
+  // Of the surface: domed across, lifted towards the free end, with a keel and fine grain.
+  double height(const Scale& scale, double x, double y) const {
+    const Place place = placeOn(scale, x, y);
+    const double dome = 0.55 * (1.0 - std::pow(place.rim, 2.4));
+    const double lift = 0.14 * place.along;
+    const double keel = 0.05 * std::exp(-place.across * place.across / 0.03) * smooth(-0.4, 0.3, place.along);
+    const double grain =
+        0.035 * noise(m_options.seed, 20, x, y, 128) + 0.05 * noise(m_options.seed, 21, x, y, 71);
+    return (dome + lift + keel + grain) * kHalfWidth / m_options.columns;
+  }
+
+  Color shaded(const Hit& hit, double slopeX, double slopeY, double x, double y) const {
+    const Place place = placeOn(hit.scale, x, y);
+
+    // Broad patches of skin, then each scale's own tone, then from its root to its rim.
+    const double patch = 0.6 * noise(m_options.seed, 10, x, y, 3) + 0.4 * noise(m_options.seed, 11, x, y, 7);
+    const Color deep{0.020, 0.085, 0.016}, leaf{0.105, 0.315, 0.036}, lime{0.360, 0.560, 0.085};
+    const double tone = std::clamp(0.54 + 0.45 * (patch - 0.5) + 0.20 * hit.scale.hue, 0.0, 1.0);
+    Color color = tone < 0.5 ? mixed(deep, leaf, 2.0 * tone) : mixed(leaf, lime, 2.0 * tone - 1.0);
+    const double body = smooth(1.0, 0.35, place.rim);
+    color = mixed(mixed(color, deep, 0.55), color, body);
+    color = mixed(color, lime, 0.38 * smooth(0.30, 0.75, place.along) * body);
+    // A pale, worn edge just inside the outline of the free end.
+    const double edge =
+        smooth(0.70, 0.82, place.rim) * smooth(0.96, 0.86, place.rim) * smooth(0.0, 0.5, place.along);
+    color = mixed(color, {0.40, 0.56, 0.15}, 0.40 * edge);
+
+    // Light from the upper left; image rows run downwards.
+    const double length = std::sqrt(slopeX * slopeX + slopeY * slopeY + 1.0);
+    const Color normal{-slopeX / length, -slopeY / length, 1.0 / length};
+    const Color light{-0.42, -0.52, 0.744}, half{-0.225, -0.279, 0.934};
+    const double facing = std::max(0.0, normal[0] * light[0] + normal[1] * light[1] + normal[2] * light[2]);
+    const double shine = std::max(0.0, normal[0] * half[0] + normal[1] * half[1] + normal[2] * half[2]);
+
+    // The scales above keep light away near their edge; at the outline itself there is a dark gap.
+    const double open = 1.0 - 0.93 * std::exp(-hit.gap / 0.30);
+    const double crease = 1.0 - 0.86 * smooth(0.82, 1.0, place.rim);
+    const double speckle = 0.91 + 0.18 * noise(m_options.seed, 30, x, y, m_options.size);
+    const double brightness =
+        (0.28 + 1.42 * facing) * open * crease * speckle * (1.0 + 0.24 * hit.scale.shade);
+    const double gloss = 0.20 * std::pow(shine, 24.0) * open * crease;
+    return {color[0] * brightness + gloss * 0.9, color[1] * brightness + gloss,
+            color[2] * brightness + gloss * 0.7};
+  }
+
+  Scales m_options;
+  std::vector<Scale> m_scales;  // rows x columns
+};
+
+double encoded(double linear) {  // sRGB, IEC 61966-2-1
+  const double value = std::clamp(linear, 0.0, 1.0);
+  return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> makeGreenScales(const Scales& options) {
+  const Hide hide(options);
+  const double step = 1.0 / (double(options.size) * options.samples);
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(std::size_t(options.size) * options.size * 3);
+  for (int row = 0; row < options.size; ++row) {
+    for (int column = 0; column < options.size; ++column) {
+      Color sum{};
+      for (int j = 0; j < options.samples; ++j) {
+        for (int i = 0; i < options.samples; ++i) {
+          const Color color = hide.colorAt((column * options.samples + i + 0.5) * step,
+                                           (row * options.samples + j + 0.5) * step);
+          for (std::size_t k = 0; k < 3; ++k) sum[k] += color[k];
+        }
+      }
+      for (double channel : sum)
+        pixels.push_back(std::uint8_t(255.0 * encoded(channel / (options.samples * options.samples)) + 0.5));
+    }
+  }
+  return pixels;
+}
+
+}  // namespace fluidtex::exemplars

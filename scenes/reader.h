@@ -1,0 +1,83 @@
+// Fills a scene from a document, going through the schema, and collects every fault on the way.
+#pragma once
+
+#include "scenes/document.h"
+#include "scenes/visitor.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fluidtex::scenes {
+
+class Reader : public Visitor {
+ public:
+  // `folder`: what file names inside the scene are relative to; those of the command line are relative to the
+  // current one.
+  Reader(const Node& document, std::filesystem::path folder, Faults& faults);
+
+  void flag(const std::string& key, bool& value) override;
+  void integer(const std::string& key, int& value, const Limits& limits) override;
+  void seed(const std::string& key, std::uint64_t& value) override;
+  void number(const std::string& key, double& value, const Limits& limits, Need need) override;
+  void text(const std::string& key, std::string& value) override;
+  void vector(const std::string& key, Vec3d& value, const Limits& limits, Need need) override;
+  void integers(const std::string& key, std::vector<int>& value, const Limits& limits) override;
+  void pixels(const std::string& key, int& width, int& height, const Limits& limits) override;
+  void file(const std::string& key, std::filesystem::path& value,
+            const std::vector<std::string>& endings) override;
+  void choice(const std::string& key, int& value, const std::vector<std::string>& words) override;
+  int alternative(int current, const std::vector<std::string>& keys, Need need) override;
+  void absent(const std::string& key) override;
+  void enter(const std::string& key, Need need) override;
+  std::size_t enterList(const std::string& key, std::size_t size, Need need) override;
+  void enterMember(std::size_t index) override;
+  void leave() override;
+
+  // After the whole schema: says which keys nothing asked for, and what may have been meant.
+  void reportUnknownKeys();
+
+  // For checks that take several keys together.
+  bool given(const std::string& path) const;
+  Origin originOf(const std::string& path) const;  // of the deepest part of the path that was written
+  void fault(const std::string& path, const std::string& wrong, const std::string& right);
+  bool clean(const std::string& path) const { return m_faults.clean(path); }
+
+ private:
+  struct Level {
+    const Table* table = nullptr;  // null where it was not written
+    const List* list = nullptr;    // for a list of tables
+    Origin origin;                 // of the deepest table that was written
+    std::string path;
+    bool broken = false;  // it has a fault of its own: nothing is asked for inside
+    bool insideList = false;
+    std::vector<std::string> known;  // keys asked for
+  };
+  struct UnknownKey {
+    Origin origin;
+    std::string path, key;
+    std::vector<std::string> siblings;
+  };
+
+  Level& level() { return m_levels.back(); }
+  void collectUnknown(const Level& done);
+  std::string pathOf(const std::string& key) const;
+  const Node* look(const std::string& key, Need need);
+  const Node* findPath(const std::string& path, Origin* origin) const;
+  void wrongType(const std::string& path, const Node& node, const std::string& wanted,
+                 const std::string& example);
+  // Whether the node is such a number, inside the limits; if not, the fault is added.
+  bool readNumber(const std::string& path, const Node& node, const Limits& limits, const std::string& example,
+                  double& value);
+  bool readInteger(const std::string& path, const Node& node, const Limits& limits,
+                   const std::string& example, std::int64_t& value);
+
+  const Node& m_document;
+  std::filesystem::path m_folder;
+  Faults& m_faults;
+  std::vector<Level> m_levels;
+  std::vector<std::string> m_paths;  // of all keys asked for outside of lists
+  std::vector<UnknownKey> m_unknown;
+};
+
+}  // namespace fluidtex::scenes

@@ -1,0 +1,123 @@
+#include "scenes/schema.h"
+
+namespace fluidtex::scenes {
+
+namespace {
+
+template <class Enum>
+void choice(Visitor& visitor, const std::string& key, Enum& value, const std::vector<std::string>& words) {
+  int index = int(value);
+  visitor.choice(key, index, words);
+  value = Enum(index);
+}
+
+void describeMotion(Visitor& visitor, sim::Options& sim) {
+  visitor.table(
+      "domain",
+      [&] {
+        visitor.vector("size", sim.size, kPositive, Need::required);
+        visitor.integer("resolution", sim.resolution, {.low = 8, .high = 4096});
+      },
+      Need::required);
+  visitor.table("fluid", [&] {
+    visitor.number("density", sim.density, kPositive);
+    visitor.number("viscosity", sim.viscosity, kNotNegative);
+    visitor.vector("gravity", sim.gravity, kAny);
+  });
+  visitor.table("simulation", [&] { visitor.number("cfl", sim.cfl, {.low = 0.1, .high = 20.0}); });
+  visitor.list(
+      "liquid", sim.liquid,
+      [&](sim::LiquidBody& body) {
+        describeShape(visitor, body.shape);
+        visitor.vector("velocity", body.velocity, kAny);
+        visitor.number("from", body.from, kNotNegative);
+      },
+      Need::required);
+  visitor.list("solid", sim.solids, [&](sim::Solid& solid) {
+    visitor.text("name", solid.name);
+    describeShape(visitor, solid.shape);
+    visitor.number("from", solid.from, kNotNegative);
+    visitor.number("until", solid.until, {.low = 0.0, .aboveLow = true, .infinite = true});
+    visitor.flag("visible", solid.visible);
+    visitor.vector("color", solid.color, kShare);
+  });
+}
+
+void describeTexture(Visitor& visitor, texture::Options& texture) {
+  visitor.table(
+      "texture",
+      [&] {
+        visitor.file("exemplar", texture.exemplar.file, {});
+        visitor.flag("toroidal", texture.exemplar.toroidal);
+        const bool spacingGiven =
+            visitor.alternative(texture.spacing > 0.0, {"points", "spacing"}, Need::optional) == 1;
+        if (spacingGiven) {
+          visitor.absent("points");
+          visitor.number("spacing", texture.spacing, kPositive);
+        } else {
+          visitor.integer("points", texture.points, {.low = 100, .high = 50e6});
+          visitor.absent("spacing");
+        }
+        texture::SynthesisOptions& synthesis = texture.synthesis;
+        choice(visitor, "method", synthesis.method, {"coordinates", "kwatra07"});
+        visitor.integers("windows", synthesis.windows, {.low = 3, .high = 255});
+        visitor.integers("first_iterations", synthesis.firstIterations, {.low = 1, .high = 1000});
+        visitor.integers("later_iterations", synthesis.laterIterations, {.low = 0, .high = 1000});
+        visitor.number("robust_exponent", synthesis.robustExponent,
+                       {.low = 0.0, .high = 2.0, .aboveLow = true});
+        visitor.number("soft_constraint", synthesis.softConstraint, kNotNegative);
+        visitor.number("histogram", synthesis.histogram, kNotNegative);
+        visitor.number("usage", synthesis.usage, kNotNegative);
+        visitor.number("core", synthesis.core, kShare);
+        visitor.number("feature", synthesis.featureWeight, kNotNegative);
+        visitor.number("gradient", synthesis.gradientWeight, kNotNegative);
+        visitor.number("keep_stretch", synthesis.keepStretch, {.low = 1.0});
+        visitor.table("surface", [&] {
+          choice(visitor, "points", texture.surface.points, {"seeds", "random"});
+          visitor.integer("levels", texture.surface.levels, {.low = 1, .high = 8});
+          visitor.integer("repulsion_sweeps", texture.surface.repulsionSweeps, {.low = 0, .high = 1000});
+        });
+      },
+      Need::required);
+}
+
+void describePicture(Visitor& visitor, render::Options& render) {
+  visitor.table("camera", [&] {
+    visitor.vector("from", render.camera.from, kAny);
+    visitor.vector("at", render.camera.at, kAny);
+    visitor.number("fov", render.camera.fov, {.low = 1.0, .high = 170.0});
+    visitor.number("turn", render.camera.turn, kAny);
+  });
+  visitor.table("light", [&] {
+    visitor.vector("sun_direction", render.light.sunDirection, kAny);
+    visitor.vector("sun_color", render.light.sunColor, kNotNegative);
+    visitor.number("sun_size", render.light.sunSize, {.low = 0.0, .high = 90.0});
+    visitor.vector("sky_color", render.light.skyColor, kNotNegative);
+    visitor.vector("horizon_color", render.light.horizonColor, kNotNegative);
+  });
+  visitor.table("render", [&] {
+    visitor.pixels("size", render.width, render.height, {.low = 16, .high = 16384});
+    visitor.integer("samples", render.samples, {.low = 1, .high = 65536});
+    visitor.integer("bounces", render.bounces, {.low = 0, .high = 64});
+    visitor.number("gloss", render.gloss, kShare);
+    visitor.number("roughness", render.roughness, kShare);
+    visitor.flag("ground", render.surroundings.ground);
+    visitor.vector("ground_color", render.surroundings.groundColor, kShare);
+    visitor.flag("tank", render.surroundings.tank);
+    visitor.vector("tank_color", render.surroundings.tankColor, kShare);
+  });
+}
+
+}  // namespace
+
+void describe(Visitor& visitor, Scene& scene) {
+  visitor.text("name", scene.name);
+  visitor.integer("frames", scene.frames, {.low = 1, .high = 9999});
+  visitor.number("frame_rate", scene.sim.frameRate, {.low = 1.0, .high = 1000.0});
+  visitor.seed("seed", scene.seed);
+  describeMotion(visitor, scene.sim);
+  describeTexture(visitor, scene.texture);
+  describePicture(visitor, scene.render);
+}
+
+}  // namespace fluidtex::scenes

@@ -1,0 +1,19 @@
+// Every key of a scene file, with its limits and the setting it stands for. scenes/README.md tells users the
+// same.
+#pragma once
+
+#include "scenes/scene.h"
+#include "scenes/visitor.h"
+
+namespace fluidtex::scenes {
+
+void describe(Visitor& visitor, Scene& scene);
+
+// The shape keys of one liquid, solid or part: box, sphere, half_space, mesh, union or difference.
+void describeShape(Visitor& visitor, sim::Shape& shape);
+
+// Whether any of the shape can lie inside the domain [0, size]. Meshes are taken to: their triangles are read
+// later.
+bool reachesDomain(const sim::Shape& shape, const Vec3d& size);
+
+}  // namespace fluidtex::scenes

@@ -1,0 +1,98 @@
+#include "scenes/schema.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace fluidtex::scenes {
+
+namespace {
+
+const std::vector<std::string> kShapeKeys = {"box", "sphere", "half_space", "mesh", "union", "difference"};
+
+// The shape as the kind asked for, with that kind's defaults if it was another.
+template <class Kind>
+Kind& as(sim::Shape& shape) {
+  if (!std::holds_alternative<Kind>(shape.kind)) shape.kind = Kind{};
+  return std::get<Kind>(shape.kind);
+}
+
+void describeParts(Visitor& visitor, const std::string& key, std::vector<sim::Shape>& parts) {
+  visitor.list(
+      key, parts, [&](sim::Shape& part) { describeShape(visitor, part); }, Need::required);
+}
+
+bool overlaps(const sim::Box& box, const Vec3d& size) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (box.max[axis] <= 0.0 || box.min[axis] >= size[axis]) return false;
+  }
+  return true;
+}
+
+bool overlaps(const sim::Sphere& sphere, const Vec3d& size) {
+  Vec3d nearest = sphere.center;
+  for (int axis = 0; axis < 3; ++axis) nearest[axis] = std::clamp(nearest[axis], 0.0, size[axis]);
+  return (sphere.center - nearest).length() < sphere.radius;
+}
+
+bool overlaps(const sim::HalfSpace& space, const Vec3d& size) {
+  Vec3d deepest;  // the domain's corner furthest behind the plane
+  for (int axis = 0; axis < 3; ++axis) deepest[axis] = space.normal[axis] > 0.0 ? 0.0 : size[axis];
+  return (deepest - space.point).dot(space.normal) < 0.0;
+}
+
+bool overlaps(const sim::MeshShape&, const Vec3d&) {
+  return true;
+}
+
+bool overlaps(const sim::Union& shape, const Vec3d& size) {
+  return std::any_of(shape.parts.begin(), shape.parts.end(),
+                     [&](const sim::Shape& part) { return reachesDomain(part, size); });
+}
+
+bool overlaps(const sim::Difference& shape, const Vec3d& size) {
+  return !shape.parts.empty() && reachesDomain(shape.parts.front(), size);
+}
+
+}  // namespace
+
+void describeShape(Visitor& visitor, sim::Shape& shape) {
+  const int kind = visitor.alternative(int(shape.kind.index()), kShapeKeys, Need::required);
+  if (kind < 0) return;
+  const std::string& key = kShapeKeys[std::size_t(kind)];
+  if (key == "box") {
+    auto& box = as<sim::Box>(shape);
+    visitor.table(key, [&] {
+      visitor.vector("min", box.min, kAny, Need::required);
+      visitor.vector("max", box.max, kAny, Need::required);
+    });
+  } else if (key == "sphere") {
+    auto& sphere = as<sim::Sphere>(shape);
+    visitor.table(key, [&] {
+      visitor.vector("center", sphere.center, kAny, Need::required);
+      visitor.number("radius", sphere.radius, kPositive, Need::required);
+    });
+  } else if (key == "half_space") {
+    auto& space = as<sim::HalfSpace>(shape);
+    visitor.table(key, [&] {
+      visitor.vector("point", space.point, kAny, Need::required);
+      visitor.vector("normal", space.normal, kAny, Need::required);
+    });
+  } else if (key == "mesh") {
+    auto& mesh = as<sim::MeshShape>(shape);
+    visitor.table(key, [&] {
+      visitor.file("file", mesh.file, {".obj", ".ply", ".stl"});
+      visitor.number("scale", mesh.scale, kPositive);
+      visitor.vector("translate", mesh.translate, kAny);
+    });
+  } else if (key == "union") {
+    describeParts(visitor, key, as<sim::Union>(shape).parts);
+  } else {
+    describeParts(visitor, key, as<sim::Difference>(shape).parts);
+  }
+}
+
+bool reachesDomain(const sim::Shape& shape, const Vec3d& size) {
+  return std::visit([&](const auto& kind) { return overlaps(kind, size); }, shape.kind);
+}
+
+}  // namespace fluidtex::scenes
