@@ -304,14 +304,12 @@ Match nearestWindow(const SearchTable& table, WindowQuery& query, std::span<cons
     if (!query.anyMissing && found.distance > best.distance) break;
     compare(treeCenter(table, found.index));
   }
-  if (table.stride > 1) {
-    // The tree holds only some centres: their neighbours may fit better.
-    const Vec2i middle = best.center;
-    const int reach = table.stride / 2;
-    for (int y = -reach; y <= reach; ++y)
-      for (int x = -reach; x <= reach; ++x)
-        if (x != 0 || y != 0) compare(validCenter(table, middle + Vec2i(x, y)));
-  }
+  // The descriptors' error and the stride leave the best window within a step of many of those found.
+  const Vec2i middle = best.center;
+  const int reach = std::max(1, table.stride / 2);
+  for (int y = -reach; y <= reach; ++y)
+    for (int x = -reach; x <= reach; ++x)
+      if (x != 0 || y != 0) compare(validCenter(table, middle + Vec2i(x, y)));
   return best;
 }
 

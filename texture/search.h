@@ -109,10 +109,11 @@ int searchTree(const SearchTable& table, WindowQuery& query, int probes, std::sp
 // the tree, moved along.
 int similarWindows(const SearchTable& table, Vec2i center, std::span<Vec2i> out);
 
-// The nearest of the candidates and, with probes > 0, of the tree's best `keep` windows, all compared by
-// windowDistance. Candidates are made valid first. Never farther than the first candidate; a tie goes to the
-// earlier one. With neither candidates nor probes: the first valid centre at the largest distance.
+// The nearest of the candidates and, with probes > 0, of the tree's best `keep` windows and the neighbours of
+// the best of all, compared by windowDistance. Candidates are made valid first. Never farther than the first
+// candidate; a tie goes to the earlier one. With neither candidates nor probes: the first valid centre at the
+// largest distance.
 Match nearestWindow(const SearchTable& table, WindowQuery& query, std::span<const Vec2i> candidates,
-                    int probes, int keep = 8);
+                    int probes, int keep = 16);
 
 }  // namespace fluidtex::texture

@@ -190,14 +190,6 @@ void nearestLeaves(const WindowTree& tree, const float* descriptor, int probes, 
   }
 }
 
-void insertFound(std::vector<Found>& best, std::size_t count, const Found& found) {
-  if (best.size() == count) {
-    if (!(found < best.back())) return;
-    best.pop_back();
-  }
-  best.insert(std::upper_bound(best.begin(), best.end(), found), found);
-}
-
 void searchWindowTree(const WindowTree& tree, const float* descriptor, int probes, int count,
                       TreeSearch& search) {
   std::vector<Found>& best = search.best;

@@ -57,7 +57,15 @@ void searchWindowTree(const WindowTree& tree, const float* descriptor, int probe
                       TreeSearch& search);
 
 // Keeps `best` ascending and at most `count` long.
-void insertFound(std::vector<Found>& best, std::size_t count, const Found& found);
+inline void insertFound(std::vector<Found>& best, std::size_t count, const Found& found) {
+  if (best.size() < count)
+    best.push_back(found);
+  else if (!(found < best.back()))
+    return;
+  std::size_t i = best.size() - 1;
+  for (; i > 0 && found < best[i - 1]; --i) best[i] = best[i - 1];
+  best[i] = found;
+}
 
 // Fills search.leaf with the `probes` leaves whose means are nearest, best first.
 void nearestLeaves(const WindowTree& tree, const float* descriptor, int probes, TreeSearch& search);
