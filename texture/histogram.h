@@ -1,0 +1,34 @@
+// Histogram weights [Kopf07]: texels whose values the surface has too many of already count less in the
+// average, so that all of the exemplar's values keep their share.
+#pragma once
+
+#include "texture/texel_image.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace fluidtex::texture {
+
+inline constexpr int kHistogramBins = 16;
+
+// The share of each bin, for every channel; bins divide the range of the exemplar's channel evenly, values
+// beyond it count for the bins at its ends. A channel's shares sum to 1.
+struct Histogram {
+  std::array<std::array<float, kHistogramBins>, kMaxChannels> share{};
+};
+
+struct HistogramTarget {
+  Float8 low{}, scale{};  // bin = clamp((value - low) * scale)
+  Histogram exemplar;
+};
+
+HistogramTarget makeHistogramTarget(const TexelImage& image);
+Histogram histogramOf(const HistogramTarget& target, const Values& values, int channels);
+
+// For every texel of image.data: 1 / (1 + strength * excess), where excess sums over the channels by how much
+// the surface's share of the texel's bin exceeds the exemplar's, in mean shares (1 / kHistogramBins).
+std::vector<float> histogramWeights(const HistogramTarget& target, const Histogram& surface,
+                                    const TexelImage& image, double strength);
+
+}  // namespace fluidtex::texture

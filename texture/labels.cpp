@@ -1,0 +1,258 @@
+#include "texture/labels.h"
+
+#include "texture/complex.h"
+#include "texture/random.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fluidtex::texture {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+template <typename Body>
+void forEachVertex(std::size_t count, const Body& body) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 512),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t v = range.begin(); v != range.end(); ++v) body(std::uint32_t(v));
+                    });
+}
+
+// On a toroidal exemplar positions differ by whole turns without meaning it.
+Vec2f difference(const TexelImage& image, const Vec2f& a, const Vec2f& b) {
+  Vec2f d = a - b;
+  if (image.toroidal) {
+    d[0] -= float(image.width) * std::round(d[0] / float(image.width));
+    d[1] -= float(image.height) * std::round(d[1] / float(image.height));
+  }
+  return d;
+}
+
+// A label moved to another vertex: `l` and `rotation` as in Connection, from the new vertex to the old one.
+Label moved(const TexelImage& image, const Label& label, const Complexf& l, const Complexf& rotation) {
+  // l lies in the new vertex's axes; in the old one's it is conj(rotation) * l, and the way back is its
+  // negative.
+  Label result;
+  result.texel = image.brought(label.at(-conjugateProduct(rotation, l)));
+  const std::array<float, 4>& j = label.jacobian;
+  const float c = rotation.real(), s = -rotation.imag();  // conj(rotation) as the matrix (c, -s; s, c)
+  result.jacobian = {j[0] * c + j[1] * s, j[1] * c - j[0] * s, j[2] * c + j[3] * s, j[3] * c - j[2] * s};
+  return result;
+}
+
+float length(const Float8& value, const Float8& weight) {
+  return std::sqrt(sum8(weight * value * value));
+}
+
+}  // namespace
+
+Label unstretched(const Vec2f& texel, const Complexf& turn) {
+  return {texel, {turn.real(), -turn.imag(), turn.imag(), turn.real()}};
+}
+
+float stretch(const Label& label) {
+  const std::array<float, 4>& j = label.jacobian;
+  // Singular values from the parts that do and do not commute with rotations.
+  const float keep = std::hypot(j[0] + j[3], j[2] - j[1]), flip = std::hypot(j[0] - j[3], j[1] + j[2]);
+  const float largest = 0.5f * (keep + flip), smallest = 0.5f * (keep - flip);
+  constexpr float kTorn = 1e3f;
+  if (!(smallest > 1.0f / kTorn) || !(largest < kTorn)) return kTorn;
+  return std::max(largest, 1.0f / smallest);
+}
+
+Labels labelsOf(const SurfaceMesh& mesh, const std::vector<Vec2f>& coordinate,
+                const std::vector<TexelGradient>& gradient) {
+  Labels labels(coordinate.size());
+  const auto scale = float(mesh.spacing);
+  forEachVertex(labels.size(), [&](std::uint32_t v) {
+    const Vec3f &d = mesh.orientation[v], b = rowAxis(d, mesh.normals[v]);
+    const TexelGradient& g = gradient[v];
+    labels[v] = {coordinate[v],
+                 {g.s.dot(d) * scale, g.s.dot(b) * scale, g.t.dot(d) * scale, g.t.dot(b) * scale}};
+  });
+  return labels;
+}
+
+TexelGradient gradientOf(const Label& label, const Vec3f& orientation, const Vec3f& normal, double spacing) {
+  const Vec3f b = rowAxis(orientation, normal);
+  const auto scale = float(1.0 / spacing);
+  return {(orientation * label.jacobian[0] + b * label.jacobian[1]) * scale,
+          (orientation * label.jacobian[2] + b * label.jacobian[3]) * scale};
+}
+
+Values lookUp(const TexelImage& image, const Labels& labels) {
+  Values values(labels.size());
+  forEachVertex(labels.size(), [&](std::uint32_t v) { values[v] = image.sample(labels[v].texel); });
+  return values;
+}
+
+Labels blockLabels(const MeshView& view, const TexelImage& image, float size, std::uint64_t seed) {
+  // Seeds come to lie about 0.7 sizes apart, and no part reaches much farther than `reach` from its seed.
+  const float reach = 0.55f * size;
+  const std::vector<std::uint32_t> seeds = selectCenters(view, reach);
+  const std::size_t count = view.mesh.positions.size();
+  Labels labels(count);
+  std::vector<std::uint32_t> part(count, kNone), ring(count, kNone), queue;
+  for (std::uint32_t i = 0; i < seeds.size(); ++i) {
+    const Vec2f random(float(randomUnit(seed, 2 * i)) * float(image.width - 1),
+                       float(randomUnit(seed, 2 * i + 1)) * float(image.height - 1));
+    labels[seeds[i]] = unstretched(image.centerFor(random, reach), Complexf(1.0f));
+    part[seeds[i]] = i;
+    ring[seeds[i]] = 0;
+    queue.push_back(seeds[i]);
+  }
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    const std::uint32_t v = queue[i];
+    for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
+      const std::uint32_t u = view.graph.neighbor[h];
+      if (ring[u] != kNone) continue;
+      ring[u] = ring[v] + 1;
+      part[u] = part[v];
+      queue.push_back(u);
+    }
+  }
+  // Ring by ring; a vertex takes the mean of what the placed ones of its own part give it.
+  for (std::size_t i = seeds.size(); i < queue.size(); ++i) {
+    const std::uint32_t v = queue[i];
+    Vec2f texel(0.0f, 0.0f);
+    Complexf turn(0.0f);
+    int found = 0;
+    for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
+      const std::uint32_t u = view.graph.neighbor[h];
+      if (part[u] != part[v] || ring[u] >= ring[v]) continue;
+      const Label& label = labels[u];
+      const Complexf& rotation = view.connection.rotation[h];
+      texel += label.at(-conjugateProduct(rotation, view.connection.edge[h]));
+      turn += conjugateProduct(rotation, Complexf(label.jacobian[0], label.jacobian[2]));
+      ++found;
+    }
+    const float norm = std::abs(turn);
+    labels[v] = unstretched(texel / float(found), norm > 1e-6f ? turn / norm : Complexf(1.0f));
+  }
+  for (Label& label : labels) label.texel = image.brought(label.texel);
+  return labels;
+}
+
+Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const SurfaceMesh& fine,
+                    const TexelImage& fineImage) {
+  // Coarse vertices sorted by cell of a grid; a fine vertex looks into the 27 cells around it, then farther.
+  const double cell = 1.5 * coarse.spacing;
+  using Key = std::array<int, 3>;
+  const auto keyOf = [&](const Vec3f& x) {
+    return Key{int(std::floor(x[0] / cell)), int(std::floor(x[1] / cell)), int(std::floor(x[2] / cell))};
+  };
+  std::vector<std::pair<Key, std::uint32_t>> sorted(coarse.positions.size());
+  forEachVertex(sorted.size(), [&](std::uint32_t v) { sorted[v] = {keyOf(coarse.positions[v]), v}; });
+  std::sort(sorted.begin(), sorted.end());
+
+  Labels result(fine.positions.size());
+  forEachVertex(result.size(), [&](std::uint32_t v) {
+    const Vec3f& x = fine.positions[v];
+    const Key at = keyOf(x);
+    std::uint32_t best = kNone;
+    float bestDistance = std::numeric_limits<float>::max();
+    const auto offer = [&](std::uint32_t u) {
+      float distance = (coarse.positions[u] - x).lengthSqr();
+      if (coarse.normals[u].dot(fine.normals[v]) < 0.3f) distance += float(9.0 * cell * cell);
+      if (distance < bestDistance) bestDistance = distance, best = u;
+    };
+    for (int i = -1; i <= 1; ++i) {
+      for (int j = -1; j <= 1; ++j) {  // cells of one column follow each other in the sorted order
+        const Key from{at[0] + i, at[1] + j, at[2] - 1}, to{at[0] + i, at[1] + j, at[2] + 2};
+        auto it = std::lower_bound(sorted.begin(), sorted.end(), std::make_pair(from, std::uint32_t(0)));
+        for (; it != sorted.end() && it->first < to; ++it) offer(it->second);
+      }
+    }
+    if (best == kNone)  // a drop the coarser level has lost
+      for (std::uint32_t u = 0; u < coarse.positions.size(); ++u) offer(u);
+    if (best == kNone) return;
+
+    const Vec3f &d = coarse.orientation[best], b = rowAxis(d, coarse.normals[best]);
+    const Vec3f way = x - coarse.positions[best];
+    const auto scale = float(1.0 / coarse.spacing);
+    const Vec2f texel = labels[best].at(Complexf(way.dot(d) * scale, way.dot(b) * scale));
+    Complexf turn(fine.orientation[v].dot(d),
+                  fine.orientation[v].dot(b));  // from the fine vertex's axes to the coarse one's
+    const float norm = std::abs(turn);
+    turn = norm > 1e-6f ? turn / norm : Complexf(1.0f);
+    const std::array<float, 4>& j = labels[best].jacobian;
+    const float c = turn.real(), s = turn.imag();
+    // Halving joins texels 2i and 2i + 1: the centre of i lies at 2i + 1/2.
+    result[v].texel = fineImage.brought(texel * 2.0f + Vec2f(0.5f, 0.5f));
+    result[v].jacobian = {j[0] * c + j[1] * s, j[1] * c - j[0] * s, j[2] * c + j[3] * s, j[3] * c - j[2] * s};
+  });
+  return result;
+}
+
+float disagreement(const MeshView& view, const TexelImage& image, const Labels& labels, std::uint32_t v,
+                   std::uint32_t h) {
+  const std::uint32_t u = view.graph.neighbor[h];
+  const Complexf& edge = view.connection.edge[h];
+  const Complexf back = -conjugateProduct(view.connection.rotation[h], edge);
+  const float here = difference(image, labels[v].at(edge), labels[u].texel).length();
+  const float there = difference(image, labels[u].at(back), labels[v].texel).length();
+  return 0.5f * (here + there);
+}
+
+std::vector<float> seamContrast(const MeshView& view, const TexelImage& image, const Labels& labels,
+                                const Float8& channelWeight) {
+  std::vector<float> contrast(labels.size());
+  forEachVertex(labels.size(), [&](std::uint32_t v) {
+    float sum = 0.0f;
+    const Float8 own = image.sample(labels[v].texel);
+    for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
+      if (disagreement(view, image, labels, v, h) < kCoherent) continue;
+      const std::uint32_t u = view.graph.neighbor[h];
+      const Complexf& edge = view.connection.edge[h];
+      const Complexf back = -conjugateProduct(view.connection.rotation[h], edge);
+      sum += 0.5f * (length(image.sample(labels[v].at(edge)) - image.sample(labels[u].texel), channelWeight) +
+                     length(image.sample(labels[u].at(back)) - own, channelWeight));
+    }
+    contrast[v] = sum / float(view.graph.around(v).size());
+  });
+  return contrast;
+}
+
+std::size_t despeckle(const MeshView& view, const TexelImage& image, Labels& labels,
+                      const std::vector<std::uint8_t>& free, int least, int sweeps) {
+  const std::size_t count = labels.size();
+  std::vector<std::uint8_t> everChanged(count, 0);
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    Labels next = labels;
+    std::vector<std::uint8_t> changed(count, 0);
+    forEachVertex(count, [&](std::uint32_t v) {
+      if (!free.empty() && !free[v]) return;
+      const std::uint32_t begin = view.graph.first[v], end = view.graph.first[v + 1];
+      const auto agreeing = [&](const Label& label) {
+        int votes = 0;
+        for (std::uint32_t h = begin; h < end; ++h) {
+          const Label other = moved(image, labels[view.graph.neighbor[h]], view.connection.edge[h],
+                                    view.connection.rotation[h]);
+          votes += difference(image, other.texel, label.texel).length() < kCoherent;
+        }
+        return votes;
+      };
+      const int own = agreeing(labels[v]);
+      if (own >= least) return;
+      int most = own;
+      for (std::uint32_t h = begin; h < end; ++h) {
+        const Label other = moved(image, labels[view.graph.neighbor[h]], view.connection.edge[h],
+                                  view.connection.rotation[h]);
+        const int votes = agreeing(other);
+        if (votes > std::max(most, 1)) most = votes, next[v] = other, changed[v] = 1;
+      }
+    });
+    labels.swap(next);
+    std::size_t found = 0;
+    for (std::size_t v = 0; v < count; ++v) found += changed[v], everChanged[v] |= changed[v];
+    if (found == 0) break;
+  }
+  return std::size_t(std::count(everChanged.begin(), everChanged.end(), 1));
+}
+
+}  // namespace fluidtex::texture

@@ -1,0 +1,71 @@
+// Labels: where in the exemplar each vertex comes from, and how the exemplar lies around it. They are the
+// state that the optimisation leaves behind and that is carried from frame to frame.
+#pragma once
+
+#include "texture/neighborhood.h"
+#include "texture/texel_image.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace fluidtex::texture {
+
+struct Label {
+  Vec2f texel{0.0f, 0.0f};
+  // d(texel) / d(l), l the local coordinates in the vertex's own axes, pixels: row 0 (s) then row 1 (t). A
+  // rotation where the texture lies unstretched.
+  std::array<float, 4> jacobian{1.0f, 0.0f, 0.0f, 1.0f};
+
+  // The texel that this label puts at local coordinates l.
+  Vec2f at(const Complexf& l) const {
+    return Vec2f(texel[0] + jacobian[0] * l.real() + jacobian[1] * l.imag(),
+                 texel[1] + jacobian[2] * l.real() + jacobian[3] * l.imag());
+  }
+};
+using Labels = std::vector<Label>;
+
+// The label that lays the exemplar down unstretched; `turn` takes the vertex's axes to the exemplar's.
+Label unstretched(const Vec2f& texel, const Complexf& turn);
+
+// How far a label is from that: the larger of its greatest magnification and its greatest reduction, 1 =
+// unstretched, very large where it is torn or mirrored.
+float stretch(const Label& label);
+
+Labels labelsOf(const SurfaceMesh& mesh, const std::vector<Vec2f>& coordinate,
+                const std::vector<TexelGradient>& gradient);
+TexelGradient gradientOf(const Label& label, const Vec3f& orientation, const Vec3f& normal, double spacing);
+
+// Channels looked up at the labels.
+Values lookUp(const TexelImage& image, const Labels& labels);
+
+// Random blocks: the surface is divided among seeds about `size` pixels apart, and each part gets one
+// contiguous block of the exemplar, from a random place.
+Labels blockLabels(const MeshView& view, const TexelImage& image, float size, std::uint64_t seed);
+
+// Labels for a finer level, whose exemplar is twice as large, from the nearest vertex of the coarser one that
+// faces the same way.
+Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const SurfaceMesh& fine,
+                    const TexelImage& fineImage);
+
+// What two neighbouring labels, at v and over its edge h, disagree on: the distance in texels between what
+// each puts at the other's place (the mean of both ends).
+float disagreement(const MeshView& view, const TexelImage& image, const Labels& labels, std::uint32_t v,
+                   std::uint32_t h);
+
+// Below this disagreement, in texels, two labels continue each other.
+inline constexpr float kCoherent = 0.75f;
+
+// Mean visible difference at each vertex's seams: over its edges, zero where the labels continue each other,
+// else |A(v) - B(v)| + |A(u) - B(u)| halved, A and B being what the two labels put at a place; channels
+// weighted, not squared (then it is a metric [Kwatra03]).
+std::vector<float> seamContrast(const MeshView& view, const TexelImage& image, const Labels& labels,
+                                const Float8& channelWeight);
+
+// Each free vertex (free empty: all) that fewer than `least` neighbours agree with takes the label that most
+// of its neighbours would give it, if that is more than its own have. Repeated `sweeps` times. Returns how
+// many changed.
+std::size_t despeckle(const MeshView& view, const TexelImage& image, Labels& labels,
+                      const std::vector<std::uint8_t>& free, int least, int sweeps);
+
+}  // namespace fluidtex::texture

@@ -1,0 +1,276 @@
+// Candidates from neighbours and at random as in PatchMatch [Barnes09], from lists of similar windows
+// [Tong02], from a tree [Kwatra05]. Usage of the exemplar is held even as in [Kaspar15].
+#include "texture/matches.h"
+
+#include "texture/complex.h"
+#include "texture/random.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fluidtex::texture {
+namespace {
+
+constexpr int kMaxLinks = 8;
+constexpr int kMaxSimilar = 4;
+constexpr int kTreeCandidates = 8;  // of the tree's windows, by descriptor, that are compared in full
+constexpr int kRandomCandidates = 2;
+// Windows are improved in batches, so that later ones see the matches and the usage that earlier ones leave.
+constexpr std::uint64_t kBatches = 8;
+constexpr float kFar = std::numeric_limits<float>::max();
+
+// One neighbourhood's values, gathered once for all its candidates.
+struct Gathered {
+  Values value;
+  std::span<const Vec2f> offset;
+  std::span<const float> falloff;
+  float mass = 0.0f;
+};
+
+void gather(const Windows& windows, std::size_t p, const Values& value, Gathered& result) {
+  const Neighborhoods& n = windows.neighborhoods;
+  const std::size_t begin = n.first[p], count = n.first[p + 1] - begin;
+  result.value.resize(count);
+  for (std::size_t i = 0; i < count; ++i) result.value[i] = value[n.vertex[begin + i]];
+  result.offset = {n.offset.data() + begin, count};
+  result.falloff = {windows.falloff.data() + begin, count};
+  result.mass = windows.mass[p];
+}
+
+// D_p / m_p at a match, or something above `bound`.
+float distanceAt(const TexelImage& image, const Gathered& gathered, const Vec2f& match, float bound = kFar) {
+  constexpr std::size_t kBlockSize = 24;  // entries between two looks at the bound; the heaviest come first
+  const float limit = bound < kFar ? bound * gathered.mass : kFar;
+  const std::size_t count = gathered.value.size();
+  float total = 0.0f;
+  for (std::size_t begin = 0; begin < count; begin += kBlockSize) {
+    Float8 sum{};
+    const std::size_t end = std::min(count, begin + kBlockSize);
+    for (std::size_t i = begin; i < end; ++i) {
+      const Float8 texel =
+          image.sampleInside(match[0] + gathered.offset[i][0], match[1] + gathered.offset[i][1]);
+      const Float8 d = gathered.value[i] - texel;
+      sum += gathered.falloff[i] * d * d;
+    }
+    total += sum8(sum);
+    if (total > limit) break;
+  }
+  return total / gathered.mass;
+}
+
+void fillQuery(const Windows& windows, std::size_t p, const Values& value, WindowQuery& query, int channels) {
+  const std::size_t area = query.mask.size();
+  const PixelSource* pixels = windows.pixels.data() + p * area;
+  for (std::size_t i = 0; i < area; ++i) {
+    const PixelSource& pixel = pixels[i];
+    query.mask[i] = pixel.missing() ? 0.0f : 1.0f;
+    const Float8 sum = pixel.weight[0] * value[pixel.vertex[0]] + pixel.weight[1] * value[pixel.vertex[1]] +
+                       pixel.weight[2] * value[pixel.vertex[2]];
+    for (int c = 0; c < channels; ++c) query.pixels[i * std::size_t(channels) + std::size_t(c)] = sum[c];
+  }
+}
+
+// How often each part of the exemplar is used: windows counted in square cells of about a window's size,
+// spread linearly over the four nearest.
+class Usage {
+ public:
+  Usage(const TexelImage& image, int window, std::size_t count)
+      : m_toroidal(image.toroidal),
+        m_columns(std::max(1, image.width / std::max(8, window))),
+        m_rows(std::max(1, image.height / std::max(8, window))),
+        m_toCell(float(m_columns) / float(image.width), float(m_rows) / float(image.height)),
+        m_perMean(float(m_columns * m_rows) / float(std::max<std::size_t>(count, 1))),
+        m_count(std::size_t(m_columns) * std::size_t(m_rows), 0.0f) {}
+
+  void add(const Vec2f& texel, float amount) {
+    visit(texel, [&](std::size_t cell, float weight) { m_count[cell] += amount * weight; });
+  }
+
+  // Of the mean: 1 where this part is used as often as the others.
+  float at(const Vec2f& texel) const {
+    float sum = 0.0f;
+    visit(texel, [&](std::size_t cell, float weight) { sum += m_count[cell] * weight; });
+    return sum * m_perMean;
+  }
+
+ private:
+  template <typename Body>
+  void visit(const Vec2f& texel, const Body& body) const {
+    const float x = (texel[0] + 0.5f) * m_toCell[0] - 0.5f, y = (texel[1] + 0.5f) * m_toCell[1] - 0.5f;
+    const int i = int(std::floor(x)), j = int(std::floor(y));
+    const float fx = x - float(i), fy = y - float(j);
+    for (int dj = 0; dj < 2; ++dj)
+      for (int di = 0; di < 2; ++di)
+        body(std::size_t(bring(j + dj, m_rows)) * std::size_t(m_columns) +
+                 std::size_t(bring(i + di, m_columns)),
+             (di ? fx : 1.0f - fx) * (dj ? fy : 1.0f - fy));
+  }
+  int bring(int i, int size) const {
+    return m_toroidal ? ((i % size) + size) % size : std::clamp(i, 0, size - 1);
+  }
+
+  bool m_toroidal;
+  int m_columns, m_rows;
+  Vec2f m_toCell;
+  float m_perMean;
+  std::vector<float> m_count;
+};
+
+// What the threads keep while they search.
+struct Searcher {
+  explicit Searcher(const SearchTable* table) {
+    if (table) query.emplace_back(*table);
+  }
+  std::vector<WindowQuery> query;  // one, or none without a table
+  Gathered gathered;
+};
+
+// The tree's windows nearest to neighbourhood p.
+int searchWindows(const Windows& windows, std::size_t p, const Pass& pass, const Values& value, int channels,
+                  WindowQuery& query, std::span<Match> found) {
+  fillQuery(windows, p, value, query, channels);
+  prepareQuery(*pass.table, query);
+  return searchTree(*pass.table, query, pass.probes, found);
+}
+
+}  // namespace
+
+Windows makeWindows(const Level& level, const Pass& pass) {
+  Windows windows;
+  windows.neighborhoods = coverSurface(level.view, pass.window, level.wanted,
+                                       pass.table && pass.probes > 0 ? &windows.pixels : nullptr);
+  const Neighborhoods& n = windows.neighborhoods;
+  windows.links = linkWindows(n, level.view.mesh.positions.size(), kMaxLinks);
+  windows.falloff.resize(n.vertex.size());
+  windows.mass.resize(n.size());
+  windows.match.resize(n.size());
+  windows.distance.assign(n.size(), 0.0f);
+  tbb::parallel_for(std::size_t(0), n.size(), [&](std::size_t p) {
+    float mass = 0.0f;
+    for (std::uint32_t i = n.first[p]; i < n.first[p + 1]; ++i)
+      mass += windows.falloff[i] = windowFalloff(n.window, n.offset[i][0], n.offset[i][1]);
+    windows.mass[p] = mass;
+  });
+  return windows;
+}
+
+void measureMatches(const TexelImage& image, const Values& value, Windows& windows) {
+  tbb::enumerable_thread_specific<Gathered> workspace;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, windows.match.size(), 16),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      Gathered& gathered = workspace.local();
+                      for (std::size_t p = range.begin(); p != range.end(); ++p) {
+                        gather(windows, p, value, gathered);
+                        windows.distance[p] = distanceAt(image, gathered, windows.match[p]);
+                      }
+                    });
+}
+
+void findFirstMatches(const Level& level, const Pass& pass, const Values& value, Windows& windows) {
+  tbb::enumerable_thread_specific<Searcher> workspace([&] { return Searcher(pass.table); });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, windows.match.size(), 16),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      Searcher& searcher = workspace.local();
+                      for (std::size_t p = range.begin(); p != range.end(); ++p) {
+                        Match found[1];
+                        searchWindows(windows, p, pass, value, level.image.channels, searcher.query.front(),
+                                      found);
+                        windows.match[p] = Vec2f(found[0].center);
+                      }
+                    });
+  measureMatches(level.image, value, windows);
+}
+
+void improveMatches(const Level& level, const Pass& pass, int iteration, double usage, const Values& value,
+                    Windows& windows) {
+  const Neighborhoods& n = windows.neighborhoods;
+  const TexelImage& image = level.image;
+  const bool useTree = pass.table && pass.probes > 0;
+  const int similarCount = pass.table ? std::min(pass.table->similarCount, kMaxSimilar) : 0;
+  const std::uint64_t key = randomBits(pass.seed, std::uint64_t(iteration));
+
+  std::vector<std::vector<std::uint32_t>> batches(kBatches);
+  for (std::uint32_t p = 0; p < n.size(); ++p) batches[randomBits(key, p) % kBatches].push_back(p);
+
+  Usage used(image, n.window, n.size());
+  if (usage > 0.0)
+    for (const Vec2f& match : windows.match) used.add(match, 1.0f);
+
+  tbb::enumerable_thread_specific<Searcher> workspace(
+      [&] { return Searcher(useTree ? pass.table : nullptr); });
+  std::vector<Vec2f> next;
+  for (const std::vector<std::uint32_t>& batch : batches) {
+    next.resize(batch.size());
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, batch.size(), 16),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          Searcher& searcher = workspace.local();
+          for (std::size_t b = range.begin(); b != range.end(); ++b) {
+            const std::size_t p = batch[b];
+            const float reach = 0.5f * float(n.window - 1);
+            gather(windows, p, value, searcher.gathered);
+            const float present = windows.distance[p];
+            Vec2f best = windows.match[p], nearest = best;
+            float bestScore = kFar, bestDistance = present, nearestDistance = present;
+            std::array<Vec2f, kMaxLinks + kMaxSimilar + kTreeCandidates + kRandomCandidates> tried;
+            std::size_t triedCount = 0;
+            const auto offer = [&](const Vec2f& texel) {
+              const Vec2f candidate = image.centerFor(texel, reach);
+              constexpr float kSame = 0.02f;  // texels, squared distance
+              if ((candidate - windows.match[p]).lengthSqr() < kSame) return;
+              for (std::size_t i = 0; i < triedCount; ++i)
+                if ((candidate - tried[i]).lengthSqr() < kSame) return;
+              if (triedCount < tried.size()) tried[triedCount++] = candidate;
+              const float penalty =
+                  usage > 0.0 ? 1.0f + float(usage) * std::max(0.0f, used.at(candidate) - 1.0f) : 1.0f;
+              const float bound = std::min(present, bestScore / penalty);
+              const float distance = distanceAt(image, searcher.gathered, candidate, bound);
+              if (distance < nearestDistance) nearestDistance = distance, nearest = candidate;
+              if (distance < present && distance * penalty < bestScore)
+                bestScore = distance * penalty, bestDistance = distance, best = candidate;
+            };
+
+            for (std::uint32_t i = windows.links.first[p]; i < windows.links.first[p + 1]; ++i) {
+              const std::uint32_t entry = windows.links.entry[i];
+              const Complexf offset(n.offset[entry][0], n.offset[entry][1]);
+              const Complexf way = conjugateProduct(
+                  n.turn[entry], offset);  // from p to the neighbour, in the neighbour's axes
+              offer(windows.match[windows.links.window[i]] - Vec2f(way.real(), way.imag()));
+            }
+            if (useTree) {
+              Match found[kTreeCandidates];
+              const int count =
+                  searchWindows(windows, p, pass, value, image.channels, searcher.query.front(), found);
+              for (int i = 0; i < count; ++i) offer(Vec2f(found[i].center));
+            }
+            if (similarCount > 0) {
+              Vec2i similar[kMaxSimilar];
+              const Vec2i center(int(std::lround(nearest[0])), int(std::lround(nearest[1])));
+              const Vec2f shift = nearest - Vec2f(center);
+              const int count = similarWindows(*pass.table, validCenter(*pass.table, center),
+                                               std::span(similar, std::size_t(similarCount)));
+              for (int i = 0; i < count; ++i) offer(Vec2f(similar[i]) + shift);
+            }
+            const std::uint64_t own = randomBits(key, kBatches + p);
+            const auto random = [&](std::uint64_t i) { return float(randomUnit(own, i)); };
+            offer(Vec2f(random(0) * float(image.width), random(1) * float(image.height)));
+            const float near = 0.25f * float(n.window);
+            offer(nearest + Vec2f((2.0f * random(2) - 1.0f) * near, (2.0f * random(3) - 1.0f) * near));
+            next[b] = best;
+            windows.distance[p] = bestDistance;  // nobody else reads it
+          }
+        });
+    for (std::size_t b = 0; b < batch.size(); ++b) {
+      Vec2f& match = windows.match[batch[b]];
+      if (usage > 0.0 && next[b] != match) used.add(match, -1.0f), used.add(next[b], 1.0f);
+      match = next[b];
+    }
+  }
+}
+
+}  // namespace fluidtex::texture

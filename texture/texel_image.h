@@ -1,0 +1,61 @@
+// One level of the exemplar, laid out for the optimisation: every texel is eight floats, of which unused ones
+// are zero, and the image is continued on all sides, so that a window is read without a test for the edge.
+#pragma once
+
+#include "texture/exemplar.h"
+#include "texture/lanes.h"
+
+#include <vector>
+
+namespace fluidtex::texture {
+
+// Channels of all vertices or texels; the first `channels` lanes are used.
+using Values = std::vector<Float8>;
+
+inline constexpr int kMaxChannels = 8;
+
+struct TexelImage {
+  int width = 0, height = 0, channels = 0;
+  int margin = 0, stride = 0;  // stride = width + 2 margin, texels
+  bool toroidal = false;
+  Values data;  // rows from the top, margins included
+
+  // Bilinear. The position must not lie farther outside than margin - 1 texels.
+  Float8 sampleInside(float x, float y) const {
+    x += float(margin);
+    y += float(margin);
+    const int i = int(x), j = int(y);
+    const float fx = x - float(i), fy = y - float(j);
+    const Float8* row = data.data() + std::size_t(j) * stride + i;
+    const Float8 above = row[0] + fx * (row[1] - row[0]);
+    const Float8 below = row[stride] + fx * (row[stride + 1] - row[stride]);
+    return above + fy * (below - above);
+  }
+
+  // Bilinear anywhere: clamped to the image, or wrapped around it.
+  Float8 sample(const Vec2f& texel) const {
+    const Vec2f t = brought(texel);
+    return sampleInside(t[0], t[1]);
+  }
+
+  // The nearest position inside the image: clamped to texel centres, or wrapped to 0 <= x < width.
+  Vec2f brought(const Vec2f& texel) const;
+
+  // The nearest centre of a window that reaches `reach` texels to every side.
+  Vec2f centerFor(const Vec2f& texel, float reach) const;
+
+  // Index into `data` (and arrays of its shape) of the texel nearest to a position that sampleInside() may
+  // read.
+  std::size_t nearest(float x, float y) const {
+    return std::size_t(int(y + float(margin) + 0.5f)) * stride + std::size_t(int(x + float(margin) + 0.5f));
+  }
+};
+
+// Throws std::invalid_argument if the image has more than kMaxChannels channels.
+TexelImage makeTexelImage(const Image& image, bool toroidal, int margin);
+
+// The root of the expected squared difference of two random texels: the scale on which differences are
+// judged.
+float randomDifference(const TexelImage& image, const Float8& channelWeight);
+
+}  // namespace fluidtex::texture
