@@ -16,13 +16,6 @@ namespace {
 // 2^26 pixels: one gigabyte as linear RGBA, and as much again for each thing made from it.
 constexpr std::int64_t kLargestArea = std::int64_t(1) << 26;
 
-// The library's explanation as part of a sentence: one line, without a full stop.
-std::string reason(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-  return text.empty() ? std::string() : " (" + text + ")";
-}
-
 // Which of the file's channels are red, green and blue: by name, as files of many layers need, else the first
 // ones.
 struct ChannelOrder {
@@ -31,12 +24,13 @@ struct ChannelOrder {
 
 ChannelOrder channelOrder(const OIIO::ImageSpec& spec) {
   ChannelOrder order;
-  order.alpha = spec.alpha_channel;
+  // By name: the reader of GIF files gives a wrong index.
+  order.alpha = spec.channelindex("A");
   const int red = spec.channelindex("R"), green = spec.channelindex("G"), blue = spec.channelindex("B");
   if (red >= 0 && green >= 0 && blue >= 0) return {red, green, blue, order.alpha};
   std::vector<int> color;
   for (int c = 0; c < spec.nchannels; ++c)
-    if (c != order.alpha && c != spec.z_channel) color.push_back(c);
+    if (c != order.alpha && spec.channelnames[std::size_t(c)] != "Z") color.push_back(c);
   if (color.empty()) return {0, 0, 0, -1};  // alpha alone: taken as grey
   if (color.size() < 3) return {color[0], color[0], color[0], order.alpha};
   return {color[0], color[1], color[2], order.alpha};
@@ -110,7 +104,10 @@ Image readImage(const std::filesystem::path& file) {
   OIIO::ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);
   const auto input = OIIO::ImageInput::open(name, &hints);
-  if (!input) throw ExemplarError(name + " cannot be read as an image" + reason(OIIO::geterror()) + ".");
+  if (!input) {
+    OIIO::geterror();  // The library prints what nobody has fetched.
+    throw ExemplarError(name + " cannot be read as an image.");
+  }
   const OIIO::ImageSpec spec = input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.deep || spec.depth > 1)
     throw ExemplarError(name + " is not a flat picture.");
@@ -120,8 +117,10 @@ Image readImage(const std::filesystem::path& file) {
                         std::to_string(spec.height) + " pixels, and at most " + std::to_string(kLargestSide) +
                         " a side and " + std::to_string(kLargestArea >> 20) + " million in all can be used.");
   std::vector<float> stored(std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(spec.nchannels));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, stored.data()))
-    throw ExemplarError(name + " is damaged" + reason(input->geterror()) + ".");
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, stored.data())) {
+    input->geterror();
+    throw ExemplarError(name + " is damaged or cut short.");
+  }
   // Asked for after reading: that is when a reader knows whether the hint could be followed.
   const bool straight = input->spec().get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
 
@@ -137,8 +136,7 @@ Image readImage(const std::filesystem::path& file) {
                         storedAt(orientation, x, y, image.width, image.height) * std::size_t(spec.nchannels);
       float* out = image.at(x, y);
       const float alpha = order.alpha < 0 ? 1.0f : in[order.alpha];
-      // std::clamp would pass a NaN on unseen only where it compares false; it does, and is found below.
-      out[3] = std::clamp(alpha, 0.0f, 1.0f);
+      out[3] = std::clamp(alpha, 0.0f, 1.0f);  // passes on what is not a number, to be refused below
       const int index[3] = {order.red, order.green, order.blue};
       for (int c = 0; c < 3; ++c) {
         const float value = in[index[c]];
