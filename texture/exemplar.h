@@ -24,6 +24,7 @@ struct Exemplar {
   Image color;
   // match[L]: what windows are compared and averaged by, reduced by 2^L: sRGB-encoded premultiplied R, G, B, (A where the
   // image has alpha that varies,) then the feature-distance and gradient channels, each multiplied by the square root of its weight.
+  // A channel of weight 0 is left out. Texel x of level L lies at 2^L x + (2^L - 1) / 2 of level 0.
   std::vector<Image> match;
   int colorChannels = 3;  // of match: 3 or 4, the first ones
 };
