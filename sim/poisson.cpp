@@ -38,40 +38,6 @@ Sums sum(int n, const Body& body) {
       });
 }
 
-// Connected parts without an anchor, each a list of its cells.
-std::vector<std::vector<int>> singularParts(const PoissonSystem& system) {
-  const int n = system.numbering.size();
-  std::vector<char> seen(n, 0);
-  std::vector<int> front;
-  for (int i = 0; i < n; ++i) {
-    if (system.anchor[i] > 0.0) {
-      seen[i] = 1;
-      front.push_back(i);
-    }
-  }
-  const auto visitNeighbors = [&](int i) {
-    for (int s = 0; s < kSides; ++s) {
-      const int j = system.rows[i].neighbor[s];
-      if (j < n && system.rows[i].link[s] > 0.0f && !seen[j]) {
-        seen[j] = 1;
-        front.push_back(j);
-      }
-    }
-  };
-  for (std::size_t next = 0; next < front.size(); ++next) visitNeighbors(front[next]);
-
-  std::vector<std::vector<int>> parts;
-  if (static_cast<int>(front.size()) == n) return parts;
-  for (int i = 0; i < n; ++i) {
-    if (seen[i]) continue;
-    seen[i] = 1;
-    front.assign(1, i);
-    for (std::size_t next = 0; next < front.size(); ++next) visitNeighbors(front[next]);
-    parts.push_back(front);
-  }
-  return parts;
-}
-
 template <typename Scalar>
 void removeMeans(const std::vector<std::vector<int>>& parts, std::vector<Scalar>& values) {
   for (const auto& part : parts) {
@@ -121,11 +87,44 @@ CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks, const Coord& 
   });
 }
 
-PoissonReport solvePoisson(const PoissonSystem& system, std::vector<double> b, std::vector<double>& x,
-                           double tolerance, int maxIterations) {
+std::vector<std::vector<int>> singularParts(const PoissonSystem& system) {
   const int n = system.numbering.size();
-  const auto parts = singularParts(system);
-  removeMeans(parts, b);
+  std::vector<char> seen(n, 0);
+  std::vector<int> front;
+  for (int i = 0; i < n; ++i) {
+    if (system.anchor[i] > 0.0) {
+      seen[i] = 1;
+      front.push_back(i);
+    }
+  }
+  const auto visitNeighbors = [&](int i) {
+    for (int s = 0; s < kSides; ++s) {
+      const int j = system.rows[i].neighbor[s];
+      if (j < n && system.rows[i].link[s] > 0.0f && !seen[j]) {
+        seen[j] = 1;
+        front.push_back(j);
+      }
+    }
+  };
+  for (std::size_t next = 0; next < front.size(); ++next) visitNeighbors(front[next]);
+
+  std::vector<std::vector<int>> parts;
+  if (static_cast<int>(front.size()) == n) return parts;
+  for (int i = 0; i < n; ++i) {
+    if (seen[i]) continue;
+    seen[i] = 1;
+    front.assign(1, i);
+    for (std::size_t next = 0; next < front.size(); ++next) visitNeighbors(front[next]);
+    parts.push_back(front);
+  }
+  return parts;
+}
+
+PoissonReport solvePoisson(const PoissonSystem& system, const std::vector<std::vector<int>>& singular,
+                           std::vector<double> b, std::vector<double>& x, double tolerance,
+                           int maxIterations) {
+  const int n = system.numbering.size();
+  removeMeans(singular, b);
 
   PoissonReport report;
   const double normB = std::sqrt(sum(n, [&](int i, Sums& s) { s.first += b[i] * b[i]; }).first);
@@ -167,7 +166,7 @@ PoissonReport solvePoisson(const PoissonSystem& system, std::vector<double> b, s
       for (int i = range.begin(); i < range.end(); ++i) scaled[i] = static_cast<float>(r[i] / unit);
     });
     preconditioner.apply(scaled, z);
-    removeMeans(parts, z);
+    removeMeans(singular, z);
 
     // z.(r - r_old) = -alpha z.q gives the flexible (Polak-Ribiere) direction without keeping the old
     // residual.
@@ -196,7 +195,7 @@ PoissonReport solvePoisson(const PoissonSystem& system, std::vector<double> b, s
     report.residual = normR / normB;
     report.converged = report.residual <= tolerance;
   }
-  removeMeans(parts, x);
+  removeMeans(singular, x);
   return report;
 }
 

@@ -83,8 +83,13 @@ struct PoissonReport {
   double residual = 0.0;  // 2-norm relative to the right-hand side's
 };
 
-// Solves from the given x; the 2-norm of the residual falls to `tolerance` times that of b.
-[[nodiscard]] PoissonReport solvePoisson(const PoissonSystem& system, std::vector<double> b,
+// Connected parts without an anchor, each a list of its cells.
+std::vector<std::vector<int>> singularParts(const PoissonSystem& system);
+
+// Solves from the given x; the 2-norm of the residual falls to `tolerance` times that of b. `singular`: of
+// this system.
+[[nodiscard]] PoissonReport solvePoisson(const PoissonSystem& system,
+                                         const std::vector<std::vector<int>>& singular, std::vector<double> b,
                                          std::vector<double>& x, double tolerance, int maxIterations);
 
 }  // namespace fluidtex::sim

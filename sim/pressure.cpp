@@ -1,0 +1,360 @@
+// Pressure projection on the liquid's cells.
+// The surface: pressure 0 where phi is, between two centres; Gibou, Fedkiw, Cheng, Kang, "A
+// second-order-accurate symmetric discretization of the Poisson equation on irregular domains", 2002. Solids:
+// fluxes through the open part of each face; Ng, Min, Gibou, "An efficient fluid-solid coupling algorithm for
+// single-phase flows", 2009.
+// Walls that let go: 0 <= p, complementary to 0 <= outflow, in cells at solids; Batty, Bertails, Bridson, "A
+// fast variational framework for accurate solid-fluid coupling", 2007, section 5. Solved by the primal-dual
+// active set method: Hintermueller, Ito, Kunisch, 2002.
+#include "sim/pressure.h"
+
+#include "sim/mac_grid.h"
+#include "sim/poisson.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace fluidtex::sim {
+
+namespace {
+
+using Range = tbb::blocked_range<int>;
+
+// A surface nearer to a cell's centre than this share of a cell counts as this far away, in the matrix and in
+// the velocity alike: bounds the matrix' entries.
+constexpr float kMinTheta = 0.01f;
+
+// Below this share of the largest pressure, suction is the solver's rounding.
+constexpr double kSuctionNoise = 1e-5;
+
+// A face whose solid lies within about 25 degrees of square to it takes the solid's normal velocity.
+constexpr float kSquare = 0.9f;
+
+// One liquid cell and its six sides. Pressure is kept as q = p dt / (density h), a velocity.
+struct LiquidCell {
+  std::array<float, kSides> open;   // area share
+  std::array<float, kSides> theta;  // to the surface, in cells; 0 where the neighbour is not air
+  double outflow = 0.0;             // before projection: sum of open area times outward velocity
+  bool atSolid = false;
+};
+
+struct Liquid {
+  std::vector<CellBlock> blocks;
+  CellNumbering numbering;
+  std::vector<LiquidCell> cells;
+};
+
+constexpr int kSide = kLeafDim + 2;  // a leaf's values and one more layer around them
+constexpr int kStride[3] = {kSide * kSide, kSide, 1};
+using Patch = std::array<float, kSide * kSide * kSide>;
+
+int patchIndex(int local) {
+  return ((local >> 6) + 1) * kStride[0] + (((local >> 3) & 7) + 1) * kStride[1] + (local & 7) + 1;
+}
+
+Coord neighborOf(Coord cell, int side) {
+  cell[side >> 1] += (side & 1) ? 1 : -1;
+  return cell;
+}
+
+Patch patchOf(const FloatTree& tree, const Coord& origin) {
+  Patch patch{};
+  gather(tree, origin, 1, patch.data(), true);
+  return patch;
+}
+
+// Open shares of the three kinds of faces around one block.
+std::array<Patch, 3> openPatches(const SolidField& solid, const Coord& origin) {
+  return {patchOf(solid.openU->constTree(), origin), patchOf(solid.openV->constTree(), origin),
+          patchOf(solid.openW->constTree(), origin)};
+}
+
+// Cells of the domain with phi < 0 and an open face.
+std::vector<CellBlock> liquidBlocks(const FloatTree& phi, const SolidField& solid) {
+  const Coord n((solid.cells[0] + 7) >> 3, (solid.cells[1] + 7) >> 3, (solid.cells[2] + 7) >> 3);
+  std::vector<CellBlock> blocks(static_cast<std::size_t>(n[0]) * n[1] * n[2]);
+  tbb::parallel_for(Range(0, static_cast<int>(blocks.size())), [&](const Range& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      CellBlock& block = blocks[b];
+      block.origin = Coord(b / (n[1] * n[2]), b / n[2] % n[1], b % n[2]) << 3;
+      const FloatLeaf* leaf = phi.probeConstLeaf(block.origin);
+      if (leaf == nullptr && phi.getValue(block.origin) >= 0.0f) continue;
+      for (int c = 0; c < kLeafSize; ++c) {
+        const Coord cell = block.origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
+        const bool inside = cell[0] < solid.cells[0] && cell[1] < solid.cells[1] && cell[2] < solid.cells[2];
+        block.cells[c] = inside && (leaf == nullptr || leaf->getValue(c) < 0.0f);
+      }
+      if (block.cells.none()) continue;
+      const auto open = openPatches(solid, block.origin);
+      for (int c = 0; c < kLeafSize; ++c) {
+        const int at = patchIndex(c);
+        float any = 0.0f;
+        for (int a = 0; a < 3; ++a) any = std::max({any, open[a][at], open[a][at + kStride[a]]});
+        if (any <= 0.0f) block.cells.reset(c);
+      }
+    }
+  });
+  std::erase_if(blocks, [](const CellBlock& block) { return block.cells.none(); });
+  return blocks;
+}
+
+Liquid gatherLiquid(const FloatTree& phi, const SolidField& solid,
+                    const std::array<const FloatTree*, 3>& velocity) {
+  Liquid liquid;
+  liquid.blocks = liquidBlocks(phi, solid);
+  liquid.numbering = CellNumbering(liquid.blocks, solid.cells);
+  liquid.cells.resize(liquid.numbering.size());
+  tbb::parallel_for(Range(0, static_cast<int>(liquid.blocks.size())), [&](const Range& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      const Coord& origin = liquid.blocks[b].origin;
+      const int* numbers = liquid.numbering.block(origin);
+      const Patch distance = patchOf(phi, origin);
+      const auto open = openPatches(solid, origin);
+      const std::array<Patch, 3> speed{patchOf(*velocity[0], origin), patchOf(*velocity[1], origin),
+                                       patchOf(*velocity[2], origin)};
+      for (int c = 0; c < kLeafSize; ++c) {
+        if (numbers[c] < 0) continue;
+        LiquidCell& cell = liquid.cells[numbers[c]];
+        const int here = patchIndex(c);
+        for (int s = 0; s < kSides; ++s) {
+          const int axis = s >> 1, up = s & 1;
+          const int face = here + up * kStride[axis];
+          const int beside = up ? here + kStride[axis] : here - kStride[axis];
+          cell.open[s] = open[axis][face];
+          cell.atSolid = cell.atSolid || cell.open[s] < 1.0f;
+          cell.outflow += static_cast<double>(cell.open[s]) * (up ? speed[axis][face] : -speed[axis][face]);
+          const float inside = distance[here], outside = distance[beside];
+          cell.theta[s] = cell.open[s] > 0.0f && outside >= 0.0f
+                              ? std::max(kMinTheta, inside / (inside - outside))
+                              : 0.0f;
+        }
+      }
+    }
+  });
+  return liquid;
+}
+
+// The system of the cells that are not detached; `unknownOf` gets each unknown's number as a liquid cell.
+PoissonSystem assemble(const Liquid& liquid, const std::vector<char>& detached, std::vector<int>& liquidOf) {
+  PoissonSystem system;
+  std::vector<CellBlock> blocks = liquid.blocks;
+  for (CellBlock& block : blocks) {
+    const int* numbers = liquid.numbering.block(block.origin);
+    for (int c = 0; c < kLeafSize; ++c) {
+      if (numbers[c] >= 0 && detached[numbers[c]]) block.cells.reset(c);
+    }
+  }
+  std::erase_if(blocks, [](const CellBlock& block) { return block.cells.none(); });
+  system.numbering = CellNumbering(blocks, liquid.numbering.extent());
+  const int n = system.numbering.size();
+  system.rows.resize(n);
+  system.anchor.assign(n, 0.0);
+  system.anchoredSides.assign(n, 0);
+  liquidOf.resize(n);
+  tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
+    for (int i = range.begin(); i < range.end(); ++i) {
+      const Coord& place = system.numbering.cells()[i];
+      liquidOf[i] = liquid.numbering.at(place);
+      const LiquidCell& cell = liquid.cells[liquidOf[i]];
+      for (int s = 0; s < kSides; ++s) {
+        const int neighbor = system.numbering.at(neighborOf(place, s));
+        const bool linked = cell.open[s] > 0.0f && neighbor >= 0;
+        system.rows[i].neighbor[s] = linked ? neighbor : n;
+        system.rows[i].link[s] = linked ? cell.open[s] : 0.0f;
+        if (cell.open[s] > 0.0f && !linked) {
+          // The surface, or a detached cell with pressure 0 at its centre.
+          system.anchor[i] +=
+              static_cast<double>(cell.open[s]) / (cell.theta[s] > 0.0f ? cell.theta[s] : 1.0f);
+          system.anchoredSides[i] |= static_cast<std::uint8_t>(1 << s);
+        }
+      }
+    }
+  });
+  return system;
+}
+
+// What flows out of a cell's open faces once the pressure has acted.
+double projectedOutflow(const Liquid& liquid, const std::vector<double>& q, int number) {
+  const LiquidCell& cell = liquid.cells[number];
+  const Coord& place = liquid.numbering.cells()[number];
+  double outflow = cell.outflow;
+  for (int s = 0; s < kSides; ++s) {
+    if (cell.open[s] <= 0.0f) continue;
+    const bool surface = cell.theta[s] > 0.0f;
+    const int neighbor = surface ? -1 : liquid.numbering.at(neighborOf(place, s));
+    const double step = (neighbor < 0 ? 0.0 : q[neighbor]) - q[number];
+    outflow -= cell.open[s] * (surface ? step / cell.theta[s] : step);
+  }
+  return outflow;
+}
+
+// One step of the active set method: cells at solids that let go of them, or are pressed back. True if any
+// changed.
+bool updateDetached(const Liquid& liquid, const std::vector<double>& q, const std::vector<char>& enclosed,
+                    double suction, std::vector<char>& detached) {
+  const int n = liquid.numbering.size();
+  std::vector<char> changed(n, 0);
+  tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
+    for (int i = range.begin(); i < range.end(); ++i) {
+      if (!liquid.cells[i].atSolid) continue;
+      changed[i] = detached[i] ? projectedOutflow(liquid, q, i) < 0.0 : q[i] < -suction && !enclosed[i];
+    }
+  });
+  bool any = false;
+  for (int i = 0; i < n; ++i) {
+    if (!changed[i]) continue;
+    detached[i] = !detached[i];
+    any = true;
+  }
+  return any;
+}
+
+// Leaves of `grid` that hold a lower or upper face, normal to axis, of a liquid cell; made where they were
+// missing.
+std::vector<FloatLeaf*> faceLeaves(const Liquid& liquid, int axis, FloatGrid& grid) {
+  std::vector<FloatLeaf*> leaves;
+  for (const CellBlock& block : liquid.blocks) {
+    leaves.push_back(grid.tree().touchLeaf(block.origin));
+    Coord next = block.origin;
+    next[axis] += kLeafDim;
+    leaves.push_back(grid.tree().touchLeaf(next));
+  }
+  std::sort(leaves.begin(), leaves.end(),
+            [](const FloatLeaf* a, const FloatLeaf* b) { return a->origin() < b->origin(); });
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  return leaves;
+}
+
+const int* blockNumbers(const CellNumbering& numbering, const Coord& origin) {
+  for (int a = 0; a < 3; ++a) {
+    if (origin[a] < 0 || origin[a] >= numbering.extent()[a]) return nullptr;
+  }
+  return numbering.block(origin);
+}
+
+// Subtracts the pressure's gradient on the faces normal to `axis`.
+openvdb::MaskGrid::Ptr updateFaces(const Liquid& liquid, const SolidField& solid,
+                                   const std::vector<double>& q, const std::vector<char>& detached, int axis,
+                                   FloatGrid& grid) {
+  auto valid = openvdb::MaskGrid::create();
+  valid->setTransform(faceTransform(solid.voxelSize, axis));
+  const std::vector<FloatLeaf*> leaves = faceLeaves(liquid, axis, grid);
+  std::vector<openvdb::MaskGrid::TreeType::LeafNodeType*> masks;
+  for (const FloatLeaf* leaf : leaves) masks.push_back(valid->tree().touchLeaf(leaf->origin()));
+
+  const int stride = 1 << (3 * (2 - axis));
+  tbb::parallel_for(Range(0, static_cast<int>(leaves.size())), [&](const Range& range) {
+    const openvdb::tree::ValueAccessor<const FloatTree> distance(solid.phi->constTree());
+    for (int n = range.begin(); n < range.end(); ++n) {
+      FloatLeaf& leaf = *leaves[n];
+      Coord before = leaf.origin();
+      before[axis] -= kLeafDim;
+      const int* here = blockNumbers(liquid.numbering, leaf.origin());
+      const int* below = blockNumbers(liquid.numbering, before);
+      for (int c = 0; c < kLeafSize; ++c) {
+        const bool first = (c / stride) % kLeafDim == 0;
+        const int* lowerBlock = first ? below : here;
+        const int upper = here == nullptr ? -1 : here[c];
+        const int lower = lowerBlock == nullptr ? -1 : lowerBlock[first ? c + 7 * stride : c - stride];
+        if (upper < 0 && lower < 0) continue;
+
+        const LiquidCell& cell = liquid.cells[upper >= 0 ? upper : lower];
+        const int side = 2 * axis + (upper >= 0 ? 0 : 1);
+        if (cell.open[side] > 0.0f) {
+          const double step = (upper < 0 ? 0.0 : q[upper]) - (lower < 0 ? 0.0 : q[lower]);
+          const double change = cell.theta[side] > 0.0f ? step / cell.theta[side] : step;
+          leaf.setValueOn(c, static_cast<float>(leaf.getValue(c) - change));
+          masks[n]->setValueOn(c);
+          continue;
+        }
+        const Coord place = leaf.offsetToGlobalCoord(c);
+        const float slope = distance.getValue(place) - distance.getValue(neighborOf(place, 2 * axis));
+        const bool solidBelow = slope > 0.0f;
+        const int wet = solidBelow ? upper : lower;
+        if (std::abs(slope) < kSquare * solid.voxelSize || wet < 0) continue;
+        double away = 0.0;
+        if (detached[wet]) {
+          // What the cell loses through its open faces comes off the wall: no divergence there either.
+          double closed = 0.0;
+          for (const float open : liquid.cells[wet].open) closed += 1.0 - open;
+          away = std::max(0.0, projectedOutflow(liquid, q, wet) / closed);
+        }
+        leaf.setValueOn(c, static_cast<float>(solidBelow ? away : -away));
+        masks[n]->setValueOn(c);
+      }
+    }
+  });
+  return valid;
+}
+
+}  // namespace
+
+Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi, const SolidField& solid,
+                   double dt, double density, const PressureOptions& options) {
+  assert(dt > 0.0 && density > 0.0);
+  const Liquid liquid =
+      gatherLiquid(phi.constTree(), solid, {&u.constTree(), &v.constTree(), &w.constTree()});
+  const int n = liquid.numbering.size();
+  const double pascal = density * solid.voxelSize / dt;  // of one unit of q
+
+  Projection result;
+  PressureReport& report = result.report;
+  report.cells = n;
+  report.converged = true;
+  std::vector<double> q(n, 0.0);
+  std::vector<char> detached(n, 0);
+  for (int pass = 0; n > 0; ++pass) {
+    std::vector<int> liquidOf;
+    const PoissonSystem system = assemble(liquid, detached, liquidOf);
+    const auto singular = singularParts(system);
+    std::vector<char> enclosed(n, 0);
+    for (const auto& part : singular) {
+      for (const int i : part) enclosed[liquidOf[i]] = 1;
+    }
+    std::vector<double> b(liquidOf.size()), x(liquidOf.size());
+    for (std::size_t i = 0; i < liquidOf.size(); ++i) {
+      b[i] = -liquid.cells[liquidOf[i]].outflow;
+      x[i] = q[liquidOf[i]];
+    }
+    const PoissonReport solved =
+        solvePoisson(system, singular, std::move(b), x, options.tolerance, options.maxIterations);
+    report.iterations += solved.iterations;
+    report.residual = solved.residual;
+    report.converged = solved.converged;
+    report.separationPasses = pass;
+    std::fill(q.begin(), q.end(), 0.0);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < liquidOf.size(); ++i) {
+      q[liquidOf[i]] = x[i];
+      largest = std::max(largest, std::abs(x[i]));
+    }
+    if (pass >= options.maxSeparationPasses || !solved.converged) break;
+    const double suction = std::max(options.suction / pascal, kSuctionNoise * largest);
+    std::vector<char> next = detached;
+    if (!updateDetached(liquid, q, enclosed, suction, next)) break;
+    detached = std::move(next);
+  }
+
+  result.valid.u = updateFaces(liquid, solid, q, detached, 0, u);
+  result.valid.v = updateFaces(liquid, solid, q, detached, 1, v);
+  result.valid.w = updateFaces(liquid, solid, q, detached, 2, w);
+  result.separating = openvdb::MaskGrid::create();
+  result.separating->setTransform(cellTransform(solid.voxelSize));
+  for (int i = 0; i < n; ++i) {
+    if (detached[i]) result.separating->tree().setValueOn(liquid.numbering.cells()[i]);
+  }
+  if (options.keepPressure) {
+    result.pressure = openvdb::DoubleGrid::create(0.0);
+    result.pressure->setTransform(cellTransform(solid.voxelSize));
+    result.pressure->setName("pressure");
+    openvdb::DoubleGrid::Accessor pressure = result.pressure->getAccessor();
+    for (int i = 0; i < n; ++i) pressure.setValue(liquid.numbering.cells()[i], q[i] * pascal);
+  }
+  return result;
+}
+
+}  // namespace fluidtex::sim

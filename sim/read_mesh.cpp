@@ -1,0 +1,113 @@
+// Mesh files through CGAL: soup of polygons, repaired (double points of STL and of split normals joined),
+// turned outward.
+#include "sim/shapes.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/IO/polygon_soup_io.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+namespace fluidtex::sim {
+
+namespace {
+
+namespace PMP = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Polygon = std::vector<std::size_t>;
+
+[[noreturn]] void fail(const MeshShape& shape, const std::string& what) {
+  throw std::runtime_error(shape.file.string() + ": " + what);
+}
+
+// Edges used by an odd number of polygons: where the surface has a rim.
+std::size_t openEdges(const std::vector<Polygon>& polygons) {
+  std::map<std::pair<std::size_t, std::size_t>, int> uses;
+  for (const Polygon& polygon : polygons) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const std::size_t a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+      ++uses[std::minmax(a, b)];
+    }
+  }
+  return std::count_if(uses.begin(), uses.end(), [](const auto& edge) { return edge.second % 2 != 0; });
+}
+
+}  // namespace
+
+TriangleMesh readMesh(const MeshShape& shape) {
+  if (!std::filesystem::exists(shape.file)) fail(shape, "no such file");
+  if (!std::filesystem::is_regular_file(shape.file)) fail(shape, "not a file");
+  std::string extension = shape.file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension != ".obj" && extension != ".ply" && extension != ".stl") {
+    fail(shape, "unknown kind of mesh file '" + extension + "'; expected .obj, .ply or .stl");
+  }
+  if (std::filesystem::file_size(shape.file) == 0) fail(shape, "the file is empty");
+
+  std::vector<Point> points;
+  std::vector<Polygon> polygons;
+  bool read = false;
+  try {
+    const std::string file = shape.file.string();
+    read = extension == ".obj"   ? CGAL::IO::read_OBJ(file, points, polygons)
+           : extension == ".ply" ? CGAL::IO::read_PLY(file, points, polygons)
+                                 : CGAL::IO::read_STL(file, points, polygons);
+  } catch (const std::exception& error) {
+    fail(shape, std::string("cannot be read as a mesh: ") + error.what());
+  }
+  if (!read) fail(shape, "cannot be read as a mesh: the file is damaged or of another format");
+  if (polygons.empty()) fail(shape, "has no faces");
+  for (const Point& p : points) {
+    if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) {
+      fail(shape, "has a vertex that is not a finite number");
+    }
+  }
+  for (const Polygon& polygon : polygons) {
+    for (const std::size_t vertex : polygon) {
+      if (vertex >= points.size()) fail(shape, "a face names a vertex that does not exist");
+    }
+  }
+
+  PMP::repair_polygon_soup(points, polygons);
+  if (polygons.empty()) fail(shape, "all its faces are degenerate");
+  if (const std::size_t open = openEdges(polygons); open > 0) {
+    fail(shape, "is not closed: " + std::to_string(open) + (open == 1 ? " edge has" : " edges have") +
+                    " a face on one side only");
+  }
+  PMP::orient_polygon_soup(points, polygons);
+  CGAL::Surface_mesh<Point> surface;
+  PMP::polygon_soup_to_polygon_mesh(points, polygons, surface);
+  if (!PMP::triangulate_faces(surface)) fail(shape, "has a face that cannot be cut into triangles");
+  if (CGAL::is_closed(surface)) PMP::orient_to_bound_a_volume(surface);
+
+  TriangleMesh mesh;
+  for (const auto vertex : surface.vertices()) {
+    const Point& p = surface.point(vertex);
+    const Vec3d x = shape.scale * Vec3d(p.x(), p.y(), p.z()) + shape.translate;
+    mesh.positions.emplace_back(x);
+  }
+  const bool mirrored = shape.scale < 0.0;
+  for (const auto face : surface.faces()) {
+    openvdb::Vec3I triangle;
+    int corner = 0;
+    for (const auto vertex : CGAL::vertices_around_face(surface.halfedge(face), surface)) {
+      triangle[corner++] = static_cast<openvdb::Index32>(vertex.idx());
+    }
+    if (mirrored) std::swap(triangle[1], triangle[2]);
+    mesh.triangles.push_back(triangle);
+  }
+  return mesh;
+}
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,101 @@
+// Closed-form distances of the simple shapes; meshes through OpenVDB's level set conversion.
+#include "sim/shapes.h"
+
+#include <openvdb/tools/Interpolation.h>
+#include <openvdb/tools/MeshToVolume.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace fluidtex::sim {
+
+namespace {
+
+// Voxels of a mesh's level set on each side; distances beyond are cut off there.
+constexpr float kMeshBand = 8.0f;
+
+double boxDistance(const Box& box, const Vec3d& x) {
+  double inside = -kForever, outside = 0.0;
+  for (int a = 0; a < 3; ++a) {
+    const double d = std::max(box.min[a] - x[a], x[a] - box.max[a]);
+    inside = std::max(inside, d);
+    if (d > 0.0) outside += d * d;
+  }
+  return outside > 0.0 ? std::sqrt(outside) : inside;
+}
+
+Vec3d unitNormal(const HalfSpace& plane) {
+  const double length = plane.normal.length();
+  if (!(length > 0.0)) throw std::runtime_error("a half-space needs a normal that is not zero");
+  return plane.normal / length;
+}
+
+}  // namespace
+
+struct ShapeDistance::Node {
+  struct Plane {
+    Vec3d point, normal;
+  };
+  struct Any {
+    std::vector<Node> parts;
+  };
+  struct Less {
+    std::vector<Node> parts;
+  };
+  std::variant<Box, Sphere, Plane, openvdb::FloatGrid::ConstPtr, Any, Less> kind;
+
+  static Node of(const Shape& shape, double voxelSize);
+  double distance(const Vec3d& x) const;
+};
+
+ShapeDistance::Node ShapeDistance::Node::of(const Shape& shape, double voxelSize) {
+  const auto nodesOf = [&](const std::vector<Shape>& parts) {
+    std::vector<Node> nodes;
+    for (const Shape& part : parts) nodes.push_back(of(part, voxelSize));
+    return nodes;
+  };
+  if (const auto* box = std::get_if<Box>(&shape.kind)) return {*box};
+  if (const auto* sphere = std::get_if<Sphere>(&shape.kind)) return {*sphere};
+  if (const auto* plane = std::get_if<HalfSpace>(&shape.kind))
+    return {Plane{plane->point, unitNormal(*plane)}};
+  if (const auto* all = std::get_if<Union>(&shape.kind)) return {Any{nodesOf(all->parts)}};
+  if (const auto* less = std::get_if<Difference>(&shape.kind)) return {Less{nodesOf(less->parts)}};
+  const TriangleMesh mesh = readMesh(std::get<MeshShape>(shape.kind));
+  const auto transform = openvdb::math::Transform::createLinearTransform(voxelSize);
+  openvdb::FloatGrid::ConstPtr grid = openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(
+      *transform, mesh.positions, mesh.triangles, kMeshBand);
+  return {std::move(grid)};
+}
+
+double ShapeDistance::Node::distance(const Vec3d& x) const {
+  struct Visitor {
+    const Vec3d& x;
+    double operator()(const Box& box) const { return boxDistance(box, x); }
+    double operator()(const Sphere& sphere) const { return (x - sphere.center).length() - sphere.radius; }
+    double operator()(const Plane& plane) const { return (x - plane.point).dot(plane.normal); }
+    double operator()(const openvdb::FloatGrid::ConstPtr& grid) const {
+      return openvdb::tools::BoxSampler::sample(grid->constTree(), grid->worldToIndex(x));
+    }
+    double operator()(const Any& any) const {
+      double nearest = kForever;
+      for (const Node& part : any.parts) nearest = std::min(nearest, part.distance(x));
+      return nearest;
+    }
+    double operator()(const Less& less) const {
+      double farthest = less.parts.empty() ? kForever : less.parts.front().distance(x);
+      for (std::size_t i = 1; i < less.parts.size(); ++i)
+        farthest = std::max(farthest, -less.parts[i].distance(x));
+      return farthest;
+    }
+  };
+  return std::visit(Visitor{x}, kind);
+}
+
+ShapeDistance::ShapeDistance(const Shape& shape, double voxelSize)
+    : m_root(std::make_shared<Node>(Node::of(shape, voxelSize))) {}
+
+double ShapeDistance::operator()(const Vec3d& x) const {
+  return m_root->distance(x);
+}
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,233 @@
+// Triangles of shapes for drawing. Boxes and half-spaces are exact (a convex solid cut by planes), spheres
+// are divided icosahedra; what is left is meshed from its distance on a grid.
+#include "sim/mac_grid.h"
+#include "sim/shapes.h"
+
+#include <openvdb/tools/VolumeToMesh.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace fluidtex::sim {
+
+namespace {
+
+using Polygon = std::vector<Vec3d>;
+
+// A half-space reaches at most this much of the domain's diagonal too little before it counts as missing it.
+constexpr double kFlat = 1e-9;
+
+std::vector<Polygon> boxPolygons(const Vec3d& low, const Vec3d& high) {
+  std::vector<Polygon> faces;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+    Polygon face(4, low);
+    face[1][a] = face[2][a] = high[a];
+    face[2][b] = face[3][b] = high[b];
+    Polygon opposite = face;
+    for (Vec3d& x : opposite) x[axis] = high[axis];
+    std::reverse(face.begin(), face.end());
+    faces.push_back(face);
+    faces.push_back(opposite);
+  }
+  return faces;
+}
+
+// The part of a convex solid behind a plane, with the cut closed by one more polygon.
+std::vector<Polygon> clip(const std::vector<Polygon>& solid, const Vec3d& point, const Vec3d& normal,
+                          double eps) {
+  const auto height = [&](const Vec3d& x) {
+    const double d = (x - point).dot(normal);
+    return std::abs(d) < eps ? 0.0 : d;
+  };
+  std::vector<Polygon> kept;
+  Polygon rim;
+  for (const Polygon& face : solid) {
+    Polygon part;
+    bool behind = false;
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const Vec3d &x = face[i], &y = face[(i + 1) % face.size()];
+      const double dx = height(x), dy = height(y);
+      behind = behind || dx < 0.0;
+      if (dx <= 0.0) part.push_back(x);
+      if (dx == 0.0) rim.push_back(x);
+      if (dx * dy < 0.0) {
+        // From the lower end always, so that the two faces of an edge get the very same point.
+        const Vec3d cut = dx < dy ? x + (y - x) * (dx / (dx - dy)) : y + (x - y) * (dy / (dy - dx));
+        part.push_back(cut);
+        rim.push_back(cut);
+      }
+    }
+    if (behind && part.size() >= 3) kept.push_back(part);
+  }
+  if (kept.size() == solid.size() && std::none_of(solid.begin(), solid.end(), [&](const Polygon& face) {
+        return std::any_of(face.begin(), face.end(), [&](const Vec3d& x) { return height(x) > 0.0; });
+      })) {
+    return solid;
+  }
+  // Around the rim by angle; points met from several faces are taken once.
+  Vec3d middle(0.0);
+  for (const Vec3d& x : rim) middle += x / static_cast<double>(rim.size());
+  const Vec3d e = std::abs(normal.x()) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
+  const Vec3d s = normal.cross(e).unit(), t = normal.cross(s);
+  const auto angle = [&](const Vec3d& x) { return std::atan2((x - middle).dot(t), (x - middle).dot(s)); };
+  std::sort(rim.begin(), rim.end(), [&](const Vec3d& x, const Vec3d& y) { return angle(x) < angle(y); });
+  Polygon cap;
+  for (const Vec3d& x : rim) {
+    if (cap.empty() || (x - cap.back()).length() > eps) cap.push_back(x);
+  }
+  while (cap.size() > 1 && (cap.front() - cap.back()).length() <= eps) cap.pop_back();
+  if (!kept.empty() && cap.size() >= 3) kept.push_back(cap);
+  return kept;
+}
+
+// Corners that coincide share a vertex; polygons become fans.
+TriangleMesh meshOf(const std::vector<Polygon>& polygons, double eps) {
+  TriangleMesh mesh;
+  std::vector<Vec3d> points;
+  const auto vertex = [&](const Vec3d& x) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if ((points[i] - x).length() <= eps) return static_cast<openvdb::Index32>(i);
+    }
+    points.push_back(x);
+    mesh.positions.emplace_back(x);
+    return static_cast<openvdb::Index32>(points.size() - 1);
+  };
+  for (const Polygon& polygon : polygons) {
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+      const openvdb::Vec3I t(vertex(polygon[0]), vertex(polygon[i]), vertex(polygon[i + 1]));
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t);
+    }
+  }
+  return mesh;
+}
+
+TriangleMesh icosphere(const Sphere& sphere, double voxelSize) {
+  const double g = std::numbers::phi;
+  std::vector<Vec3d> points{{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                            {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+  std::vector<openvdb::Vec3I> triangles{{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                        {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                        {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                        {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+  for (Vec3d& p : points) p.normalize();
+  // Edges no longer than a voxel, between 1,280 and 82,000 triangles.
+  const double firstEdge = 1.05 * sphere.radius;
+  const int levels = std::clamp(static_cast<int>(std::ceil(std::log2(firstEdge / voxelSize))), 3, 6);
+  for (int level = 0; level < levels; ++level) {
+    std::map<std::pair<openvdb::Index32, openvdb::Index32>, openvdb::Index32> middles;
+    const auto middle = [&](openvdb::Index32 a, openvdb::Index32 b) {
+      const auto [at, isNew] =
+          middles.try_emplace(std::minmax(a, b), static_cast<openvdb::Index32>(points.size()));
+      if (isNew) points.push_back((points[a] + points[b]).unit());
+      return at->second;
+    };
+    std::vector<openvdb::Vec3I> finer;
+    for (const openvdb::Vec3I& t : triangles) {
+      const openvdb::Index32 a = middle(t[0], t[1]), b = middle(t[1], t[2]), c = middle(t[2], t[0]);
+      finer.insert(finer.end(), {{t[0], a, c}, {t[1], b, a}, {t[2], c, b}, {a, b, c}});
+    }
+    triangles = std::move(finer);
+  }
+  TriangleMesh mesh;
+  for (const Vec3d& p : points) mesh.positions.emplace_back(sphere.center + sphere.radius * p);
+  mesh.triangles = std::move(triangles);
+  return mesh;
+}
+
+// The surface of a shape within the domain, from its distance at the corners of voxels.
+TriangleMesh meshDistance(const Shape& shape, const Vec3d& size, double h) {
+  const ShapeDistance distance(shape, h);
+  const ShapeDistance domain(Shape{Box{Vec3d(0.0), size}}, h);
+  const float band = static_cast<float>(3.0 * h);
+  auto grid = openvdb::FloatGrid::create(band);
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(h));
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  const Coord cells = cellCount(size, h);
+  const Coord n((cells[0] >> 3) + 3, (cells[1] >> 3) + 3, (cells[2] >> 3) + 3);
+  const int count = n[0] * n[1] * n[2];
+  const double radius = (0.5 * std::sqrt(3.0) * kLeafDim + 3.0) * h;
+  const auto originOf = [&](int b) {
+    return (Coord(b / (n[1] * n[2]), b / n[2] % n[1], b % n[2]) << 3).offsetBy(-kLeafDim);
+  };
+  std::vector<std::unique_ptr<FloatLeaf>> leaves(count);
+  std::vector<char> inside(count, 0);
+  tbb::parallel_for(tbb::blocked_range<int>(0, count), [&](const tbb::blocked_range<int>& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      const auto value = [&](const Coord& c) {
+        const Vec3d x(c[0] * h, c[1] * h, c[2] * h);
+        return std::max(distance(x), domain(x));
+      };
+      const double middle = value(originOf(b).offsetBy(kLeafDim / 2));
+      if (std::abs(middle) > radius) {
+        inside[b] = middle < 0.0;
+        continue;
+      }
+      leaves[b] = std::make_unique<FloatLeaf>(originOf(b), band, false);
+      for (int c = 0; c < kLeafSize; ++c) {
+        const double d = value(leaves[b]->offsetToGlobalCoord(c));
+        leaves[b]->setValueOnly(c, std::clamp(static_cast<float>(d), -band, band));
+        if (std::abs(d) < band) leaves[b]->setActiveState(c, true);
+      }
+    }
+  });
+  for (int b = 0; b < count; ++b) {
+    if (leaves[b] != nullptr) {
+      grid->tree().addLeaf(leaves[b].release());
+    } else if (inside[b]) {
+      grid->tree().addTile(1, originOf(b), -band, false);
+    }
+  }
+  TriangleMesh mesh;
+  std::vector<openvdb::Vec4I> quads;
+  openvdb::tools::volumeToMesh(*grid, mesh.positions, mesh.triangles, quads, 0.0, 0.0);
+  for (const openvdb::Vec4I& q : quads) {
+    mesh.triangles.emplace_back(q[0], q[1], q[2]);
+    mesh.triangles.emplace_back(q[0], q[2], q[3]);
+  }
+  // OpenVDB's faces are clockwise from outside.
+  for (openvdb::Vec3I& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+bool contains(const Vec3d& size, const Vec3d& low, const Vec3d& high) {
+  for (int a = 0; a < 3; ++a) {
+    if (low[a] < 0.0 || high[a] > size[a]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TriangleMesh triangulate(const Shape& shape, const Vec3d& domainSize, double voxelSize) {
+  const double eps = kFlat * domainSize.length();
+  if (const auto* box = std::get_if<Box>(&shape.kind)) {
+    Vec3d low = box->min, high = box->max;
+    for (int a = 0; a < 3; ++a) {
+      low[a] = std::max(low[a], 0.0);
+      high[a] = std::min(high[a], domainSize[a]);
+      if (low[a] >= high[a]) return {};
+    }
+    return meshOf(boxPolygons(low, high), eps);
+  }
+  if (const auto* plane = std::get_if<HalfSpace>(&shape.kind)) {
+    return meshOf(clip(boxPolygons(Vec3d(0.0), domainSize), plane->point, plane->normal.unit(), eps), eps);
+  }
+  if (const auto* sphere = std::get_if<Sphere>(&shape.kind)) {
+    const Vec3d reach(sphere->radius);
+    if (contains(domainSize, sphere->center - reach, sphere->center + reach))
+      return icosphere(*sphere, voxelSize);
+  }
+  if (const auto* file = std::get_if<MeshShape>(&shape.kind)) {
+    TriangleMesh mesh = readMesh(*file);
+    const auto inside = [&](const openvdb::Vec3f& x) { return contains(domainSize, Vec3d(x), Vec3d(x)); };
+    if (std::all_of(mesh.positions.begin(), mesh.positions.end(), inside)) return mesh;
+  }
+  return meshDistance(shape, domainSize, voxelSize);
+}
+
+}  // namespace fluidtex::sim
