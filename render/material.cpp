@@ -47,7 +47,7 @@ Vec3f visibleNormal(const Vec3f& wo, float alpha, const Vec2f& u) {
 // that a single mirrored ray weighs heavily.
 float coatShare(const Material& material, float reflected) {
   if (material.gloss <= 0.0f) return 0.0f;
-  constexpr float kLeast = 0.2f;
+  constexpr float kLeast = 0.15f;
   const float base = (1.0f - reflected) * luminance(material.base);
   return std::clamp(reflected / (reflected + base + 1e-6f), kLeast, 0.9f);
 }

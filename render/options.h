@@ -7,36 +7,40 @@ namespace fluidtex::render {
 
 using Vec3d = openvdb::math::Vec3<double>;
 
+// The default frames a tank of 1 m.
 struct Camera {
-  Vec3d from{2.3, -1.75, 1.5};  // metres, at the first frame
-  Vec3d at{0.5, 0.5, 0.35};               // looked at
-  double fov = 35.0;           // vertical field of view, degrees
-  double turn =
-      0.0;  // degrees the camera turns around the vertical axis through `at`, over the whole animation
+  Vec3d from{2.25, -1.75, 1.55};  // metres, at the first frame
+  Vec3d at{0.5, 0.5, 0.4};        // looked at
+  double fov = 32.0;              // vertical field of view, degrees
+  // Degrees the camera turns over the whole animation, counter-clockwise seen from above, around the vertical
+  // axis through `at`.
+  double turn = 0.0;
 };
 
+// By default a white matt surface that faces the sun under the open sky has radiance 1: with exposure 1, a
+// texture's colours there are those of its exemplar.
 struct Light {
-  Vec3d sunDirection{-0.5, -0.4, 0.8};  // towards the sun
-  Vec3d sunColor{3.0, 2.85, 2.6};       // linear radiance times solid angle
-  double sunSize = 3.0;                 // degrees across; soft shadows
-  Vec3d skyColor{0.55, 0.65, 0.85};     // zenith, linear
-  Vec3d horizonColor{0.95, 0.95, 0.95};
+  Vec3d sunDirection{-0.35, -0.6, 0.75};  // towards the sun
+  Vec3d sunColor{1.75, 1.68, 1.55};       // linear irradiance on a plane that faces the sun
+  double sunSize = 4.0;                   // degrees across; soft shadows
+  Vec3d skyColor{0.4, 0.45, 0.53};        // zenith, linear
+  Vec3d horizonColor{0.74, 0.74, 0.74};   // also all that is seen below the horizon where there is no ground
 };
 
 struct Surroundings {
-  bool ground = true;  // a plane below the domain
-  Vec3d groundColor{0.45, 0.45, 0.45};
-  bool tank = true;  // thin rim along the edges of the domain
-  Vec3d tankColor{0.25, 0.27, 0.3};
+  bool ground = true;                   // a plane below the domain
+  Vec3d groundColor{0.66, 0.65, 0.63};  // linear
+  bool tank = true;                     // thin rods along the edges of the domain
+  Vec3d tankColor{0.22, 0.22, 0.23};
 };
 
 struct Options {
   int width = 960, height = 540;
-  int samples = 16;         // paths a pixel
-  int bounces = 2;          // diffuse
+  int samples = 16;         // paths a pixel; powers of two are spread best
+  int bounces = 2;          // of light between surfaces; 0: what comes straight from sun and sky
   double gloss = 1.0;       // strength of the clear coat that makes liquid look wet, 0..1
-  double roughness = 0.05;  // of the coat
-  double exposure = 1.0;    // picture value = exposure * radiance
+  double roughness = 0.05;  // of the coat, GGX alpha
+  double exposure = 1.0;    // picture value = exposure * radiance, above 0.8 bent to stay below 1
   Camera camera;
   Light light;
   Surroundings surroundings;

@@ -180,18 +180,12 @@ class TileTracer {
 
     lightFromSun(points.point(path.sample, kSun + dimension), point, axes, wo, path);
 
-    const Vec2f choice = points.point(path.sample, kChoice + dimension);
+    const float choice = points.point(path.sample, kChoice + dimension)[0];
     const MaterialSample sample =
-        sampleMaterial(point.material, wo, choice[0], points.point(path.sample, kDirection + dimension));
+        sampleMaterial(point.material, wo, choice, points.point(path.sample, kDirection + dimension));
     if (!(sample.scattering.pdf > 0.0f)) return false;
     path.throughput *= sample.scattering.value * (1.0f / sample.scattering.pdf);
     path.pdf = sample.scattering.pdf;
-    // Dim paths end by chance; the others stand in for them [Arvo and Kirk 90].
-    if (depth > 0) {
-      const float survival = std::min(1.0f, 2.0f * largest(path.throughput));
-      if (choice[1] >= survival) return false;
-      path.throughput *= 1.0f / survival;
-    }
     next.origin = point.origin;
     next.direction = above(axes.world(sample.wi), point.faceNormal);
     return true;

@@ -2,6 +2,7 @@
 // diffusion of Monte Carlo sampling error via hierarchical ordering of pixels, 2020 (here with scrambling in
 // base 2); Laine and Karras, Stratified sampling for stochastic transparency, 2011, with the better constants
 // published by Vegdahl.
+// The disc: Shirley and Chiu, A low distortion map between disk and square, 1997.
 #include "render/sampling.h"
 
 #include <array>
@@ -98,9 +99,18 @@ Vec2f tentOffset(const Vec2f& u, float radius) {
   return Vec2f(warp(u[0]), warp(u[1]));
 }
 
+Vec2f uniformDisc(const Vec2f& u) {
+  const float x = 2.0f * u[0] - 1.0f, y = 2.0f * u[1] - 1.0f;
+  if (x == 0.0f && y == 0.0f) return Vec2f(0.0f);
+  const bool flat = std::abs(x) > std::abs(y);
+  const float r = flat ? x : y;
+  const float angle = flat ? 0.25f * kPi * (y / x) : 0.5f * kPi - 0.25f * kPi * (x / y);
+  return Vec2f(r * std::cos(angle), r * std::sin(angle));
+}
+
 Vec3f cosineHemisphere(const Vec2f& u) {
-  const float r = std::sqrt(u[0]), angle = 2.0f * kPi * u[1];
-  return Vec3f(r * std::cos(angle), r * std::sin(angle), std::sqrt(std::max(0.0f, 1.0f - u[0])));
+  const Vec2f p = uniformDisc(u);
+  return Vec3f(p[0], p[1], std::sqrt(std::max(0.0f, 1.0f - p.dot(p))));
 }
 
 Vec3f uniformCone(const Vec2f& u, float cosMax) {

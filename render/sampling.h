@@ -34,6 +34,9 @@ class PixelSamples {
 // zero there.
 Vec2f tentOffset(const Vec2f& u, float radius);
 
+// Even over the unit disc; points that are close in the square stay close in the disc.
+Vec2f uniformDisc(const Vec2f& u);
+
 // Unit vector around +z with density cos / pi.
 Vec3f cosineHemisphere(const Vec2f& u);
 
