@@ -162,12 +162,13 @@ void complete(Scene& scene, const Reader& reader) {
   if (!reader.given("texture.later_iterations"))
     synthesis.laterIterations = fitted(synthesis.laterIterations, synthesis.windows.size());
 
-  // A view of the whole domain, from the front and above.
+  // The default view frames a domain of one metre; it grows with the domain.
+  const render::Camera view;
   render::Camera& camera = scene.render.camera;
   const Vec3d& size = scene.sim.size;
-  if (!reader.given("camera.at")) camera.at = size * 0.5;
+  if (!reader.given("camera.at")) camera.at = view.at * size;
   if (!reader.given("camera.from"))
-    camera.from = camera.at + Vec3d(0.7, -1.9, 0.9) * std::max({size[0], size[1], size[2]});
+    camera.from = camera.at + (view.from - view.at) * std::max({size[0], size[1], size[2]});
 }
 
 void check(const Scene& scene, Reader& reader) {

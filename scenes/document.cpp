@@ -52,6 +52,11 @@ Node converted(const toml::node& source, const Origin& origin, const Place& plac
   return node;
 }
 
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
 std::vector<std::string> splitAtDots(const std::string& key) {
   std::vector<std::string> parts;
   std::istringstream stream(key);
@@ -157,11 +162,6 @@ void overlayEntry(Node& base, const Entry& entry, const std::string& path, Fault
   overlayNode(list[index], entry.node, fullKey, faults);
 }
 
-// toml++ 3.3 says "Error while parsing KIND: WHAT"; WHAT alone is the fault.
-std::string described(const toml::parse_error& error) {
-  return std::string(error.description());
-}
-
 }  // namespace
 
 std::string kindName(const Node& node) {
@@ -217,7 +217,7 @@ Node readDocument(const std::filesystem::path& file, Faults& faults) {
   } catch (const toml::parse_error& error) {
     const auto& begin = error.source().begin;
     faults.add(inFile(name, std::max(1, int(begin.line)), std::max(1, int(begin.column))), "syntax",
-               described(error), "write it as in https://toml.io/en/v1.0.0");
+               std::string(error.description()), "write it as in https://toml.io/en/v1.0.0");
   }
   return document;
 }
@@ -226,13 +226,13 @@ Node readAssignment(const std::string& assignment, int layer, Faults& faults) {
   const Origin origin{layer, 1, 1, "--set " + assignment, ""};
   Node result{Table{}, origin};
   const std::size_t equals = assignment.find('=');
-  const std::string key = assignment.substr(0, equals);
+  const std::string key = trimmed(assignment.substr(0, equals));
   const std::vector<std::string> path = splitAtDots(key);
   if (equals == std::string::npos || std::find(path.begin(), path.end(), "") != path.end()) {
     faults.add(origin, "--set", "not of the form KEY=VALUE", "write for example --set domain.resolution=64");
     return result;
   }
-  const std::string text = assignment.substr(equals + 1);
+  const std::string text = trimmed(assignment.substr(equals + 1));
   Node value{text, origin};
   try {
     const toml::table table = toml::parse("value = " + text + "\n");
@@ -248,7 +248,8 @@ Node readAssignment(const std::string& assignment, int layer, Faults& faults) {
     }
     // What opens like a list, a table or a quoted string was meant as one; anything else is a bare word.
     if (std::strchr("[{\"'", text.front())) {
-      faults.add(origin, key, described(error), "write the value as in https://toml.io/en/v1.0.0");
+      faults.add(origin, key, std::string(error.description()),
+                 "write the value as in https://toml.io/en/v1.0.0");
       return result;
     }
   }

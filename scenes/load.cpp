@@ -75,6 +75,9 @@ Scene readScene(const Node& document, const std::filesystem::path& file, Faults&
   reader.absent("quality");
   describe(reader, scene);
   reader.reportUnknownKeys();
+  // The file's own was taken out before; what is left was put there by a quality or by the command line.
+  if (reader.given("quality"))
+    reader.fault("quality", "cannot be set from here", "set the key itself, for example domain.resolution");
   complete(scene, reader);
   check(scene, reader);
   return scene;

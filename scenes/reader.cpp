@@ -52,21 +52,22 @@ std::string Reader::pathOf(const std::string& key) const {
   return joined(m_levels.back().path, key);
 }
 
-const Node* Reader::look(const std::string& key, Need need) {
+const Node* Reader::look(const std::string& key, Need need, const std::string& right) {
   Level& here = level();
   here.known.push_back(key);
   const std::string path = pathOf(key);
-  if (!here.insideList) m_paths.push_back(path);
+  remember(path);
   if (here.broken) return nullptr;
   if (here.table) {
     if (const Entry* entry = find(*here.table, key)) return &entry->node;
   }
-  if (need == Need::required) {
-    const bool list = path == "liquid";
-    m_faults.add(here.origin, path, "missing key",
-                 list ? "give at least one [[liquid]]" : "it has no default and must be given");
-  }
+  if (need == Need::required) m_faults.add(here.origin, path, "missing key", right);
   return nullptr;
+}
+
+void Reader::remember(const std::string& path) {
+  if (!level().insideList && std::find(m_paths.begin(), m_paths.end(), path) == m_paths.end())
+    m_paths.push_back(path);
 }
 
 void Reader::wrongType(const std::string& path, const Node& node, const std::string& wanted,
@@ -139,8 +140,8 @@ void Reader::seed(const std::string& key, std::uint64_t& value) {
 }
 
 void Reader::number(const std::string& key, double& value, const Limits& limits, Need need) {
-  const Node* node = look(key, need);
   const std::string example = std::isfinite(value) && within(limits, value) ? written(value) : "1.5";
+  const Node* node = look(key, need, asRight(key, example));
   if (node) readNumber(pathOf(key), *node, limits, example, value);
 }
 
@@ -158,7 +159,7 @@ void Reader::text(const std::string& key, std::string& value) {
 }
 
 void Reader::vector(const std::string& key, Vec3d& value, const Limits& limits, Need need) {
-  const Node* node = look(key, need);
+  const Node* node = look(key, need, asRight(key, written(value)));
   if (!node) return;
   const std::string path = pathOf(key), example = written(value);
   const List* list = std::get_if<List>(&node->value);
@@ -221,12 +222,12 @@ void Reader::pixels(const std::string& key, int& width, int& height, const Limit
 
 void Reader::file(const std::string& key, std::filesystem::path& value,
                   const std::vector<std::string>& endings) {
-  const Node* node = look(key, Need::required);
+  const std::string example =
+      endings.empty() ? "\"exemplars/green_scales.png\"" : "\"rock" + endings.front() + "\"";
+  const Node* node = look(key, Need::required, asRight(key, example));
   if (!node) return;
   const std::string path = pathOf(key);
   const std::string* name = std::get_if<std::string>(&node->value);
-  const std::string example =
-      endings.empty() ? "\"exemplars/green_scales.png\"" : "\"rock" + endings.front() + "\"";
   if (!name) return wrongType(path, *node, "a file's name", example);
   if (name->empty()) return m_faults.add(node->origin, path, "an empty file name", asRight(path, example));
   const std::filesystem::path full =
@@ -280,7 +281,7 @@ int Reader::alternative(int current, const std::vector<std::string>& keys, Need 
   Level& here = level();
   for (const std::string& key : keys) {
     here.known.push_back(key);
-    if (!here.insideList) m_paths.push_back(pathOf(key));
+    remember(pathOf(key));
   }
   if (!here.table || here.broken) return need == Need::required ? -1 : current;
   std::vector<const Entry*> found;
@@ -310,7 +311,7 @@ void Reader::absent(const std::string& key) {
 
 void Reader::enter(const std::string& key, Need need) {
   const bool wasBroken = level().broken;
-  const Node* node = wasBroken ? (look(key, Need::optional), nullptr) : look(key, Need::optional);
+  const Node* node = look(key, Need::optional);
   Level inner;
   inner.path = pathOf(key);
   inner.insideList = level().insideList;
@@ -333,7 +334,7 @@ void Reader::enter(const std::string& key, Need need) {
 }
 
 std::size_t Reader::enterList(const std::string& key, std::size_t, Need need) {
-  const Node* node = look(key, need);
+  const Node* node = look(key, need, "give at least one [[" + key + "]]");
   Level inner;
   inner.path = pathOf(key);
   inner.insideList = true;

@@ -62,7 +62,9 @@ class Reader : public Visitor {
   Level& level() { return m_levels.back(); }
   void collectUnknown(const Level& done);
   std::string pathOf(const std::string& key) const;
-  const Node* look(const std::string& key, Need need);
+  // The key's value, if it was written; `right`: what to say would be right where it is required and missing.
+  const Node* look(const std::string& key, Need need, const std::string& right = "");
+  void remember(const std::string& path);  // as a key that could have been meant elsewhere
   const Node* findPath(const std::string& path, Origin* origin) const;
   void wrongType(const std::string& path, const Node& node, const std::string& wanted,
                  const std::string& example);

@@ -101,6 +101,7 @@ void describePicture(Visitor& visitor, render::Options& render) {
     visitor.integer("bounces", render.bounces, {.low = 0, .high = 64});
     visitor.number("gloss", render.gloss, kShare);
     visitor.number("roughness", render.roughness, kShare);
+    visitor.number("exposure", render.exposure, kPositive);
     visitor.flag("ground", render.surroundings.ground);
     visitor.vector("ground_color", render.surroundings.groundColor, kShare);
     visitor.flag("tank", render.surroundings.tank);

@@ -1,0 +1,91 @@
+#include "scenes/exemplars/scales.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace fluidtex::exemplars {
+
+namespace {
+
+using Pixels = std::vector<std::uint8_t>;
+
+Scales small() {
+  Scales options;
+  options.size = 96;
+  options.columns = 6;
+  options.rows = 8;
+  options.samples = 3;
+  return options;
+}
+
+// Mean absolute difference between each pixel of line a and its neighbour in line b; lines are columns or
+// rows.
+double step(const Pixels& pixels, int size, int a, int b, bool columns) {
+  double sum = 0.0;
+  for (int i = 0; i < size; ++i) {
+    for (int channel = 0; channel < 3; ++channel) {
+      const auto at = [&](int line) {
+        const int x = columns ? line : i, y = columns ? i : line;
+        return int(pixels[std::size_t((y * size + x) * 3 + channel)]);
+      };
+      sum += std::abs(at(a) - at(b));
+    }
+  }
+  return sum / (size * 3.0);
+}
+
+}  // namespace
+
+TEST_CASE("green scales: the image that ships is the generator's, pixel by pixel", "[scenes]") {
+  const Scales options;
+  const auto input = OIIO::ImageInput::open(FLUIDTEX_SOURCE_DIR "/scenes/exemplars/green_scales.png");
+  REQUIRE(input);
+  REQUIRE(input->spec().width == options.size);
+  REQUIRE(input->spec().height == options.size);
+  REQUIRE(input->spec().nchannels == 3);
+  Pixels shipped(std::size_t(options.size) * options.size * 3);
+  REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, shipped.data()));
+  CHECK((shipped == makeGreenScales(options)));
+}
+
+TEST_CASE("green scales: toroidal, the step over each edge is one of the usual steps", "[scenes]") {
+  const int size = small().size;
+  const Pixels pixels = makeGreenScales(small());
+  for (const bool columns : {true, false}) {
+    double largest = 0.0;
+    for (int i = 0; i + 1 < size; ++i) largest = std::max(largest, step(pixels, size, i, i + 1, columns));
+    CHECK(step(pixels, size, size - 1, 0, columns) <= largest);
+    CHECK(step(pixels, size, size / 2 + 5, 0, columns) > 0.0);
+  }
+}
+
+TEST_CASE("green scales: the seed alone decides", "[scenes]") {
+  Scales other = small();
+  CHECK((makeGreenScales(small()) == makeGreenScales(other)));
+  other.seed = small().seed + 1;
+  CHECK((makeGreenScales(small()) != makeGreenScales(other)));
+}
+
+TEST_CASE("green scales: green, neither black nor white, with light and dark", "[scenes]") {
+  const Pixels pixels = makeGreenScales(small());
+  double sum[3] = {0.0, 0.0, 0.0};
+  int darkest = 255, brightest = 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    sum[i % 3] += pixels[i];
+    if (i % 3 == 1) {
+      darkest = std::min(darkest, int(pixels[i]));
+      brightest = std::max(brightest, int(pixels[i]));
+    }
+  }
+  CHECK(sum[1] > 1.3 * sum[0]);
+  CHECK(sum[0] > sum[2]);
+  CHECK(darkest < 60);
+  CHECK(brightest > 150);
+  CHECK(brightest < 255);
+}
+
+}  // namespace fluidtex::exemplars

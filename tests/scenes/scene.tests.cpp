@@ -1,0 +1,363 @@
+#include "scenes/scene.h"
+
+#include "tests/scenes/scene_file.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <set>
+
+namespace fluidtex::scenes {
+
+namespace {
+
+using Json = nlohmann::json;
+
+Scene sceneOf(const std::string& text) {
+  const SceneFolder folder;
+  return loadScene(folder.write("s.toml", text));
+}
+
+// The keys of all tables, dotted, numbers of list members left out.
+void collectKeys(const Json& value, const std::string& path, std::set<std::string>& keys) {
+  if (value.is_object()) {
+    for (const auto& [key, inner] : value.items())
+      collectKeys(inner, path.empty() ? key : path + "." + key, keys);
+  } else if (value.is_array() && !value.empty() && value[0].is_object()) {
+    for (const Json& inner : value) collectKeys(inner, path, keys);
+  } else {
+    keys.insert(path);
+  }
+}
+
+// A scene in which every key of the schema is given, none with its default.
+const std::string kFullScene = R"(
+name = "all of it"
+frames = 5
+frame_rate = 30
+seed = 99
+[domain]
+size = [3, 2, 1.5]
+resolution = 48
+[fluid]
+density = 900
+viscosity = 0.5
+gravity = [1, 0, -3]
+[simulation]
+cfl = 1.5
+[[liquid]]
+box = { min = [0, 0.5, 0], max = [1, 1, 0.5] }
+velocity = [1, 2, 3]
+from = 0.25
+[[liquid]]
+union = [ { sphere = { center = [1, 1, 1], radius = 0.5 } }, { difference = [ { half_space = { point = [0, 0, 0.1], normal = [0, 0, 2] } }, { mesh = { file = "m.obj", scale = 2, translate = [3, 2, 1] } } ] } ]
+[[solid]]
+name = "gate"
+mesh = { file = "m.obj" }
+from = 0.5
+until = 0.75
+visible = false
+color = [1, 0.25, 0]
+[[solid]]
+sphere = { center = [1, 1, 1], radius = 0.5 }
+until = inf
+[texture]
+exemplar = "e.png"
+toroidal = true
+points = 1234
+method = "kwatra07"
+windows = [21, 11]
+first_iterations = [7, 8]
+later_iterations = [0, 2]
+robust_exponent = 1.5
+soft_constraint = 0.7
+histogram = 1
+usage = 2
+core = 0.9
+feature = 0.4
+gradient = 0.6
+keep_stretch = 2
+[texture.surface]
+points = "random"
+levels = 4
+repulsion_sweeps = 12
+[camera]
+from = [9, 8, 7]
+at = [1, 2, 3]
+fov = 50
+turn = -90
+[light]
+sun_direction = [0, 0, 1]
+sun_color = [1, 2, 3]
+sun_size = 1
+sky_color = [0.1, 0.2, 0.3]
+horizon_color = [0.4, 0.5, 0.6]
+[render]
+size = [320, 180]
+samples = 2
+bounces = 1
+gloss = 0.5
+roughness = 0.25
+exposure = 1.25
+ground = false
+ground_color = [0.1, 0.1, 0.1]
+tank = false
+tank_color = [0.2, 0.2, 0.2]
+)";
+
+}  // namespace
+
+TEST_CASE("scene: what is left out has the defaults of the options", "[scenes]") {
+  const Scene scene = sceneOf(kGoodScene);
+  CHECK(scene.name == "s");
+  CHECK(scene.frames == 72);
+  CHECK(scene.seed == 1);
+  const sim::Options sim;
+  CHECK(scene.sim.resolution == sim.resolution);
+  CHECK(scene.sim.gravity == sim.gravity);
+  CHECK(scene.sim.density == sim.density);
+  CHECK(scene.sim.viscosity == sim.viscosity);
+  CHECK(scene.sim.cfl == sim.cfl);
+  CHECK(scene.sim.frameRate == sim.frameRate);
+  CHECK(scene.sim.solids.empty());
+  const texture::Options texture;
+  CHECK(scene.texture.spacing == texture.spacing);
+  CHECK(scene.texture.points == texture.points);
+  CHECK(scene.texture.synthesis.windows == texture.synthesis.windows);
+  CHECK(scene.texture.synthesis.firstIterations == texture.synthesis.firstIterations);
+  CHECK(scene.texture.synthesis.laterIterations == texture.synthesis.laterIterations);
+  CHECK(scene.texture.synthesis.method == texture.synthesis.method);
+  CHECK(scene.texture.synthesis.softConstraint == texture.synthesis.softConstraint);
+  CHECK(scene.texture.surface.levels == texture.surface.levels);
+  const render::Options render;
+  CHECK(scene.render.width == render.width);
+  CHECK(scene.render.height == render.height);
+  CHECK(scene.render.samples == render.samples);
+  CHECK(scene.render.camera.fov == render.camera.fov);
+}
+
+TEST_CASE("scene: defaults that follow from other keys", "[scenes]") {
+  const Scene scene = sceneOf("seed = 7\ntexture.windows = [9]\n" + kGoodScene +
+                              "[[solid]]\nmesh = { file = 'm.obj' }\n[[solid]]\nmesh = { file = 'm.obj' }");
+  CHECK(scene.texture.surface.seed == 7);
+  CHECK(scene.texture.synthesis.seed == 7);
+  CHECK(scene.texture.synthesis.firstIterations == std::vector<int>{4});
+  CHECK(scene.texture.synthesis.laterIterations == std::vector<int>{1});
+  CHECK(scene.sim.solids[0].name == "solid 0");
+  CHECK(scene.sim.solids[1].name == "solid 1");
+  CHECK(scene.sim.solids[1].until == sim::kForever);
+  const render::Camera view;  // of a domain of 1 m; this one is 2 x 1 x 1 m
+  CHECK(scene.render.camera.at == view.at * sim::Vec3d(2, 1, 1));
+  CHECK(scene.render.camera.from == scene.render.camera.at + 2.0 * (view.from - view.at));
+
+  const Scene more = sceneOf("texture.windows = [33, 17, 9, 5]\n" + kGoodScene);
+  CHECK(more.texture.synthesis.firstIterations == std::vector<int>{4, 4, 5, 5});
+}
+
+TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
+  const SceneFolder folder;
+  const Scene scene = loadScene(folder.write("s.toml", kFullScene));
+  CHECK(scene.name == "all of it");
+  CHECK(scene.file == folder.path() / "s.toml");
+  CHECK(scene.frames == 5);
+  CHECK(scene.seed == 99);
+  const sim::Options& sim = scene.sim;
+  CHECK(sim.frameRate == 30.0);
+  CHECK(sim.size == sim::Vec3d(3, 2, 1.5));
+  CHECK(sim.resolution == 48);
+  CHECK(sim.density == 900.0);
+  CHECK(sim.viscosity == 0.5);
+  CHECK(sim.gravity == sim::Vec3d(1, 0, -3));
+  CHECK(sim.cfl == 1.5);
+  REQUIRE(sim.liquid.size() == 2);
+  CHECK(std::get<sim::Box>(sim.liquid[0].shape.kind).min == sim::Vec3d(0, 0.5, 0));
+  CHECK(std::get<sim::Box>(sim.liquid[0].shape.kind).max == sim::Vec3d(1, 1, 0.5));
+  CHECK(sim.liquid[0].velocity == sim::Vec3d(1, 2, 3));
+  CHECK(sim.liquid[0].from == 0.25);
+  const auto& both = std::get<sim::Union>(sim.liquid[1].shape.kind);
+  REQUIRE(both.parts.size() == 2);
+  CHECK(std::get<sim::Sphere>(both.parts[0].kind).radius == 0.5);
+  const auto& rest = std::get<sim::Difference>(both.parts[1].kind);
+  REQUIRE(rest.parts.size() == 2);
+  CHECK(std::get<sim::HalfSpace>(rest.parts[0].kind).normal == sim::Vec3d(0, 0, 2));
+  const auto& mesh = std::get<sim::MeshShape>(rest.parts[1].kind);
+  CHECK(mesh.file == folder.path() / "m.obj");
+  CHECK(mesh.scale == 2.0);
+  CHECK(mesh.translate == sim::Vec3d(3, 2, 1));
+  REQUIRE(sim.solids.size() == 2);
+  CHECK(sim.solids[0].name == "gate");
+  CHECK(sim.solids[0].from == 0.5);
+  CHECK(sim.solids[0].until == 0.75);
+  CHECK_FALSE(sim.solids[0].visible);
+  CHECK(sim.solids[0].color == sim::Vec3d(1, 0.25, 0));
+  CHECK(sim.solids[1].until == sim::kForever);
+  const texture::Options& texture = scene.texture;
+  CHECK(texture.exemplar.file == folder.path() / "e.png");
+  CHECK(texture.exemplar.toroidal);
+  CHECK(texture.points == 1234);
+  CHECK(texture.spacing == 0.0);
+  CHECK(texture.synthesis.method == texture::Method::kwatra07);
+  CHECK(texture.synthesis.windows == std::vector<int>{21, 11});
+  CHECK(texture.synthesis.firstIterations == std::vector<int>{7, 8});
+  CHECK(texture.synthesis.laterIterations == std::vector<int>{0, 2});
+  CHECK(texture.synthesis.robustExponent == 1.5);
+  CHECK(texture.synthesis.softConstraint == 0.7);
+  CHECK(texture.synthesis.histogram == 1.0);
+  CHECK(texture.synthesis.usage == 2.0);
+  CHECK(texture.synthesis.core == 0.9);
+  CHECK(texture.synthesis.featureWeight == 0.4);
+  CHECK(texture.synthesis.gradientWeight == 0.6);
+  CHECK(texture.synthesis.keepStretch == 2.0);
+  CHECK(texture.synthesis.seed == 99);
+  CHECK(texture.surface.seed == 99);
+  CHECK(texture.surface.points == texture::Points::random);
+  CHECK(texture.surface.levels == 4);
+  CHECK(texture.surface.repulsionSweeps == 12);
+  const render::Options& render = scene.render;
+  CHECK(render.camera.from == sim::Vec3d(9, 8, 7));
+  CHECK(render.camera.at == sim::Vec3d(1, 2, 3));
+  CHECK(render.camera.fov == 50.0);
+  CHECK(render.camera.turn == -90.0);
+  CHECK(render.light.sunDirection == sim::Vec3d(0, 0, 1));
+  CHECK(render.light.sunColor == sim::Vec3d(1, 2, 3));
+  CHECK(render.light.sunSize == 1.0);
+  CHECK(render.light.skyColor == sim::Vec3d(0.1, 0.2, 0.3));
+  CHECK(render.light.horizonColor == sim::Vec3d(0.4, 0.5, 0.6));
+  CHECK(render.width == 320);
+  CHECK(render.height == 180);
+  CHECK(render.samples == 2);
+  CHECK(render.bounces == 1);
+  CHECK(render.gloss == 0.5);
+  CHECK(render.roughness == 0.25);
+  CHECK(render.exposure == 1.25);
+  CHECK_FALSE(render.surroundings.ground);
+  CHECK(render.surroundings.groundColor == sim::Vec3d(0.1));
+  CHECK_FALSE(render.surroundings.tank);
+  CHECK(render.surroundings.tankColor == sim::Vec3d(0.2));
+}
+
+TEST_CASE("scene: the resolved scene has every key, given or not", "[scenes]") {
+  const std::string oneSolid = "[[solid]]\nmesh = { file = 'm.obj' }\n";
+  std::set<std::string> whole, defaults;
+  collectKeys(Json::parse(sceneOf(kFullScene).resolved), "", whole);
+  collectKeys(Json::parse(sceneOf(kGoodScene + oneSolid).resolved), "", defaults);
+  CHECK(whole.size() > 60);
+  for (const std::string& key : whole) {
+    INFO(key);
+    const bool shape = key.find("union") != std::string::npos || key.find("sphere") != std::string::npos;
+    CHECK((shape || defaults.contains(key)));
+  }
+  for (const std::string& key : defaults) {
+    INFO(key);
+    CHECK(whole.contains(key));
+  }
+}
+
+TEST_CASE("scene: the resolved scene holds the values that are used", "[scenes]") {
+  const Json full = Json::parse(sceneOf(kFullScene).resolved);
+  CHECK(full["quality"] == "default");
+  CHECK(full["domain"]["resolution"] == 48);
+  CHECK(full["fluid"]["gravity"] == Json::array({1.0, 0.0, -3.0}));
+  CHECK(full["liquid"][1]["union"][1]["difference"][1]["mesh"]["scale"] == 2.0);
+  CHECK(full["solid"][0]["until"] == 0.75);
+  CHECK(full["solid"][1]["until"].is_null());
+  CHECK(full["texture"]["method"] == "kwatra07");
+  CHECK(full["texture"]["points"] == 1234);
+  CHECK(full["texture"]["spacing"].is_null());
+  CHECK(full["render"]["size"] == Json::array({320, 180}));
+
+  const Json spaced = Json::parse(sceneOf("texture.spacing = 0.1\n" + kGoodScene).resolved);
+  CHECK(spaced["texture"]["spacing"] == 0.1);
+  CHECK(spaced["texture"]["points"].is_null());
+}
+
+TEST_CASE("scene: the resolved scene says the same when it is read twice", "[scenes]") {
+  const SceneFolder folder;
+  const std::filesystem::path file = folder.write("s.toml", kFullScene);
+  CHECK(loadScene(file).resolved == loadScene(file).resolved);
+}
+
+TEST_CASE("scene: files are found from the scene's folder, wherever it is read from", "[scenes]") {
+  const SceneFolder folder;
+  folder.write("pictures/p.png", "");
+  std::string text = kGoodScene;
+  text.replace(text.find("e.png"), 5, "../pictures/p.png");
+  std::filesystem::create_directories(folder.path() / "scenes");
+  const std::filesystem::path file = folder.write("scenes/s.toml", text);
+  const std::filesystem::path before = std::filesystem::current_path();
+  CHECK(loadScene(file).texture.exemplar.file == folder.path() / "pictures" / "p.png");
+  std::filesystem::current_path(folder.path());
+  const Scene fromAbove = loadScene("scenes/s.toml");
+  std::filesystem::current_path(folder.path() / "scenes");
+  const Scene fromBeside = loadScene("s.toml");
+  std::filesystem::current_path(before);
+  CHECK(fromAbove.texture.exemplar.file == "pictures/p.png");
+  CHECK(fromBeside.texture.exemplar.file == "../pictures/p.png");
+
+  text.replace(text.find("../pictures/p.png"), 17, (folder.path() / "e.png").string());
+  CHECK(loadScene(folder.write("absolute.toml", text)).texture.exemplar.file == folder.path() / "e.png");
+}
+
+TEST_CASE("scene: Windows line ends and a byte order mark do not matter", "[scenes]") {
+  std::string text = "\xef\xbb\xbf";
+  for (const char letter : kGoodScene) text += letter == '\n' ? std::string("\r\n") : std::string(1, letter);
+  CHECK(faultsOf(text).empty());
+}
+
+TEST_CASE("scene: the guide tells every key", "[scenes]") {
+  const std::string guide = textOf(FLUIDTEX_SOURCE_DIR "/scenes/README.md");
+  std::set<std::string> keys;
+  collectKeys(Json::parse(sceneOf(kFullScene).resolved), "", keys);
+  for (const std::string& key : keys) {
+    INFO(key);
+    std::string quoted("`");
+    quoted += key.substr(key.rfind('.') + 1);
+    quoted += "`";
+    CHECK(guide.find(quoted) != std::string::npos);
+  }
+}
+
+TEST_CASE("scene: the guide's defaults are the ones that are used", "[scenes]") {
+  const Json resolved = Json::parse(sceneOf(kGoodScene + "[[solid]]\nmesh = { file = 'm.obj' }\n").resolved);
+  std::istringstream guide(textOf(FLUIDTEX_SOURCE_DIR "/scenes/README.md"));
+  Json table = resolved;
+  int compared = 0;
+  // Heads: ## `[domain]` or ## `[[liquid]]`: ...; rows: | `key` | type | `default` | what it is |
+  for (std::string line; std::getline(guide, line);) {
+    if (line.starts_with("##")) {
+      table = resolved;
+      std::string head = line.substr(0, line.rfind(']') + 1);
+      head = head.substr(std::min(head.find('[') + 1, head.size()));
+      std::erase_if(head, [](char c) { return c == '[' || c == ']'; });
+      std::istringstream parts(head);
+      for (std::string part; std::getline(parts, part, '.');) {
+        if (table.contains(part)) table = table[part];
+      }
+      if (table.is_array()) table = table[0];
+    }
+    if (!line.starts_with("| `")) continue;
+    std::vector<std::string> cells;
+    std::istringstream stream(line.substr(1));
+    for (std::string cell; std::getline(stream, cell, '|');) cells.push_back(cell);
+    if (cells.size() != 4 || !cells[2].starts_with(" `")) continue;
+    const std::string key = cells[0].substr(2, cells[0].size() - 4),
+                      value = cells[2].substr(2, cells[2].size() - 4);
+    const Json expected = Json::parse(value, nullptr, false);
+    if (expected.is_discarded()) continue;  // told in words
+    INFO(line);
+    REQUIRE(table.contains(key));
+    CHECK(table[key] == expected);
+    ++compared;
+  }
+  CHECK(compared > 40);
+}
+
+TEST_CASE("scene: the guide's smallest scene is read", "[scenes]") {
+  const std::string guide = textOf(FLUIDTEX_SOURCE_DIR "/scenes/README.md");
+  const std::size_t start = guide.find("```toml\n") + 8;
+  std::string text = guide.substr(start, guide.find("```", start) - start);
+  text.replace(text.find("exemplars/green_scales.png"), 26, "e.png");
+  CHECK(faultsOf(text).empty());
+}
+
+}  // namespace fluidtex::scenes
