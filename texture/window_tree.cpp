@@ -9,7 +9,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -108,22 +107,37 @@ DescriptorBlocks kMeans(std::span<const float> descriptors, const Indices& membe
   return means;
 }
 
+// For each of `members`, which mean is nearest.
+Indices nearestMeans(const DescriptorBlocks& means, std::span<const float> descriptors,
+                     const Indices& members) {
+  Indices result(members.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members.size(), 1024), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      result[i] = nearestOf(means, descriptors.data() + std::size_t(members[i]) * kDescriptorSize);
+  });
+  return result;
+}
+
 // The members of each of `count` clusters, in the order of `members`.
 std::vector<Indices> clusters(std::span<const float> descriptors, const Indices& members, int count,
                               std::uint64_t seed) {
   std::vector<Indices> result(std::size_t(std::max(count, 1)));
-  if (count <= 1) {
+  if (count <= 1 || members.empty()) {
     result[0] = members;
     return result;
   }
-  const DescriptorBlocks means = kMeans(descriptors, members, count, seed);
-  Indices cluster(members.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members.size(), 1024), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i)
-      cluster[i] = nearestOf(means, descriptors.data() + std::size_t(members[i]) * kDescriptorSize);
-  });
-  for (std::size_t i = 0; i < members.size(); ++i) result[cluster[i]].push_back(members[i]);
+  const Indices nearest = nearestMeans(kMeans(descriptors, members, count, seed), descriptors, members);
+  for (std::size_t i = 0; i < members.size(); ++i) result[nearest[i]].push_back(members[i]);
   return result;
+}
+
+std::vector<double> meanOf(std::span<const float> descriptors, const Indices& members) {
+  std::vector<double> mean(kDescriptorSize, 0.0);
+  for (const std::uint32_t i : members)
+    for (std::size_t k = 0; k < kDescriptorSize; ++k)
+      mean[k] += descriptors[i * std::size_t(kDescriptorSize) + k];
+  for (double& value : mean) value /= double(members.size());
+  return mean;
 }
 
 void appendLeaf(WindowTree& tree, std::span<const float> descriptors, const Indices& members) {
@@ -148,28 +162,33 @@ WindowTree buildWindowTree(std::span<const float> descriptors, int leaves, std::
       clusters(descriptors, all, int(std::lround(std::sqrt(double(leaves)))), seed);
   std::vector<std::vector<Indices>> leavesOf(branches.size());
   tbb::parallel_for(std::size_t(0), branches.size(), [&](std::size_t b) {
-    if (branches[b].empty()) return;
     // Leaves of like size: a branch is cut into as many as its share.
     const double share = double(leaves) * double(branches[b].size()) / double(all.size());
     leavesOf[b] =
         clusters(descriptors, branches[b], std::max(1, int(std::lround(share))), randomBits(seed, b + 1));
   });
+  std::vector<std::vector<double>> mean;
+  for (const auto& branch : leavesOf)
+    for (const Indices& members : branch)
+      if (!members.empty()) mean.push_back(meanOf(descriptors, members));
+  DescriptorBlocks means = emptyBlocks(mean.size());
+  for (std::size_t m = 0; m < mean.size(); ++m) setLane(means, m, mean[m].data());
+
+  // Across the branches' borders another leaf's mean may be nearer. With every descriptor in the leaf of the
+  // nearest mean, a query that equals one is found by the first probe.
+  std::vector<Indices> members(mean.size());
+  const Indices nearest = nearestMeans(means, descriptors, all);
+  for (std::size_t i = 0; i < all.size(); ++i) members[nearest[i]].push_back(std::uint32_t(i));
 
   WindowTree tree;
   tree.firstBlock.push_back(0);
-  std::vector<std::array<double, kDescriptorSize>> mean;
-  for (const auto& branch : leavesOf)
-    for (const Indices& members : branch) {
-      if (members.empty()) continue;
-      appendLeaf(tree, descriptors, members);
-      auto& sum = mean.emplace_back();
-      for (const std::uint32_t i : members)
-        for (std::size_t k = 0; k < kDescriptorSize; ++k)
-          sum[k] += descriptors[i * std::size_t(kDescriptorSize) + k];
-      for (double& value : sum) value /= double(members.size());
-    }
-  tree.leafMean = emptyBlocks(mean.size());
-  for (std::size_t m = 0; m < mean.size(); ++m) setLane(tree.leafMean, m, mean[m].data());
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    if (members[m].empty()) continue;
+    const std::size_t leaf = tree.firstBlock.size() - 1;
+    if (leaf % kBlock == 0) addBlock(tree.leafMean);
+    setLane(tree.leafMean, leaf, mean[m].data());
+    appendLeaf(tree, descriptors, members[m]);
+  }
   return tree;
 }
 

@@ -48,7 +48,8 @@ struct TreeSearch {
   std::vector<Found> leaf, best;
 };
 
-// descriptors: #n x kDescriptorSize, n >= 1. About `leaves` leaves, fewer where n is small; none is empty.
+// descriptors: #n x kDescriptorSize, n >= 1. About `leaves` leaves, fewer where n is small; none is empty,
+// and each descriptor is in the leaf whose mean is nearest to it.
 WindowTree buildWindowTree(std::span<const float> descriptors, int leaves, std::uint64_t seed);
 
 // Leaves the `count` nearest descriptors of the `probes` leaves whose means are nearest in search.best,
