@@ -1,0 +1,237 @@
+// Based on: Turk, "Re-tiling polygonal surfaces" (1992). Two departures: a vertex of the old mesh that lies
+// next to a point moves there instead of being removed while the point is inserted; and removal is by edge
+// collapse.
+#include "texture/connect.h"
+
+#include "texture/remesh.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace fluidtex::texture {
+namespace {
+
+constexpr std::uint32_t kNone = EditableMesh::kNone;
+
+// Nearest vertex within half a cell, by a sort of all vertices into hashed cells.
+class VertexGrid {
+ public:
+  VertexGrid(const std::vector<Vec3f>& positions, float cell) : m_inverse(1.0f / cell) {
+    std::size_t capacity = 64;
+    while (capacity < positions.size()) capacity *= 2;
+    m_mask = capacity - 1;
+    m_first.assign(capacity + 1, 0);
+    std::vector<std::uint32_t> slots(positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const Vec3f p = positions[i] * m_inverse;
+      slots[i] = slot(int(std::floor(p.x())), int(std::floor(p.y())), int(std::floor(p.z())));
+      ++m_first[slots[i] + 1];
+    }
+    std::partial_sum(m_first.begin(), m_first.end(), m_first.begin());
+    m_items.resize(positions.size());
+    std::vector<std::uint32_t> cursor(m_first.begin(), m_first.end() - 1);
+    for (std::uint32_t i = 0; i < positions.size(); ++i) m_items[cursor[slots[i]]++] = {positions[i], i};
+  }
+  template <class Accept>
+  std::uint32_t nearest(const Vec3f& at, const Accept& accept) const {
+    const Vec3f p = at * m_inverse - Vec3f(0.5f);
+    const int x = int(std::floor(p.x())), y = int(std::floor(p.y())), z = int(std::floor(p.z()));
+    std::uint32_t best = kNone;
+    float bestDistance = 1e30f;
+    for (int n = 0; n < 8; ++n) {
+      const std::uint32_t s = slot(x + (n & 1), y + (n >> 1 & 1), z + (n >> 2));
+      for (std::uint32_t k = m_first[s]; k < m_first[s + 1]; ++k) {
+        const float distance = (m_items[k].position - at).lengthSqr();
+        const std::uint32_t v = m_items[k].vertex;
+        if (distance > bestDistance || (distance == bestDistance && v > best) || !accept(v)) continue;
+        best = v;
+        bestDistance = distance;
+      }
+    }
+    return best;
+  }
+
+ private:
+  struct Item {
+    Vec3f position;
+    std::uint32_t vertex;
+  };
+  std::uint32_t slot(int x, int y, int z) const {
+    std::uint64_t h = std::uint64_t(std::uint32_t(x)) * 0x9e3779b1u ^
+                      std::uint64_t(std::uint32_t(y)) * 0x85ebca77u ^
+                      std::uint64_t(std::uint32_t(z)) * 0xc2b2ae3du;
+    h *= 0x9e3779b97f4a7c15ULL;
+    return std::uint32_t(std::size_t(h >> 32) & m_mask);
+  }
+  float m_inverse;
+  std::size_t m_mask = 0;
+  std::vector<std::uint32_t> m_first;
+  std::vector<Item> m_items;
+};
+
+// The half-edge h whose triangle holds the foot of p, found by walking across edges from a vertex nearby;
+// `outside` is the barycentric weight of the corner opposite to h, the smallest of the three.
+struct Place {
+  std::uint32_t edge = kNone;
+  float smallest = -1e30f;
+};
+
+Place locate(const EditableMesh& mesh, std::uint32_t start, const Vec3f& p) {
+  constexpr int kSteps = 24;
+  Place best;
+  std::uint32_t h = mesh.outgoing[start];
+  std::uint32_t came = kNone;
+  for (int step = 0; step < kSteps; ++step) {
+    const std::uint32_t corner[3] = {h, EditableMesh::next(h), EditableMesh::previous(h)};
+    const Vec3f a = mesh.position[mesh.origin[corner[0]]], b = mesh.position[mesh.origin[corner[1]]],
+                c = mesh.position[mesh.origin[corner[2]]];
+    const Vec3f normal = (b - a).cross(c - a);
+    const float area2 = normal.lengthSqr();
+    if (area2 <= 0.0f) break;
+    const float wc = normal.dot((b - a).cross(p - a)) / area2;  // of the corner opposite to corner[0]'s edge
+    const float wa = normal.dot((c - b).cross(p - b)) / area2;
+    const float wb = 1.0f - wa - wc;
+    const float w[3] = {wc, wa, wb};
+    const int out = int(std::min_element(w, w + 3) - w);
+    if (w[out] > best.smallest) best = {corner[out], w[out]};
+    if (w[out] >= 0.0f) break;
+    const std::uint32_t across = mesh.twin[corner[out]];
+    if (across / 3 == came) break;  // back and forth over a crease: the point is nearest to that edge
+    came = h / 3;
+    h = across;
+  }
+  return best;
+}
+
+// Adds p to the mesh inside the triangle, or on the edge, where it lies. kNone if that would fold the mesh.
+std::uint32_t insertPoint(EditableMesh& mesh, std::uint32_t start, const Vec3f& p, const Vec3f& n,
+                          float minDistance, const std::vector<std::uint8_t>& keep) {
+  constexpr float kOnEdge = 0.08f;  // barycentric: nearer to an edge than this the edge is split
+  constexpr float kTooFar = -0.5f;  // barycentric: the walk has not found the point's foot
+  const Place place = locate(mesh, start, p);
+  if (place.edge == kNone || place.smallest < kTooFar) return kNone;
+  const std::uint32_t h = place.edge, t = mesh.twin[h];
+  for (std::uint32_t v : {mesh.origin[h], mesh.target(h), mesh.opposite(h)}) {
+    if (keep[v] && (mesh.position[v] - p).lengthSqr() < minDistance * minDistance) return kNone;
+  }
+  const auto folds = [&](std::uint32_t a, std::uint32_t b) {  // triangle a, b, p
+    const Vec3f corners[3] = {mesh.position[a], mesh.position[b], p};
+    const Vec3f normals[3] = {mesh.normal[a], mesh.normal[b], n};
+    return facing(corners, normals) < kFacing;
+  };
+  const std::uint32_t a = mesh.origin[h], b = mesh.target(h), c = mesh.opposite(h), d = mesh.opposite(t);
+  if (place.smallest >= kOnEdge && !folds(a, b) && !folds(b, c) && !folds(c, a))
+    return mesh.splitTriangle(h / 3, p, n);
+  if (!folds(b, c) && !folds(c, a) && !folds(a, d) && !folds(d, b)) return mesh.splitEdge(h, p, n);
+  return kNone;
+}
+
+// How good a triangle is: 1 for an equilateral one, 0 without area.
+float shape(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+  const float sum = (b - a).lengthSqr() + (c - b).lengthSqr() + (a - c).lengthSqr();
+  return sum > 0.0f ? 3.4641016f * (b - a).cross(c - a).length() / sum : 0.0f;
+}
+
+bool removeVertex(EditableMesh& mesh, std::uint32_t v) {
+  constexpr std::size_t kMost = 32;
+  std::uint32_t edges[kMost];
+  std::size_t count = 0;
+  mesh.around(v, [&](std::uint32_t h) {
+    if (count < kMost) edges[count++] = h;
+  });
+  std::pair<float, std::uint32_t> ranked[kMost];
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t u = mesh.target(edges[k]);
+    const Vec3f& at = mesh.position[u];
+    float worst = 1.0f;
+    for (std::size_t j = 0; j < count; ++j) {
+      const std::uint32_t b = mesh.target(edges[j]), c = mesh.opposite(edges[j]);
+      if (b != u && c != u) worst = std::min(worst, shape(at, mesh.position[b], mesh.position[c]));
+    }
+    ranked[k] = {-worst, edges[k]};
+  }
+  std::sort(ranked, ranked + count);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (tryCollapse(mesh, ranked[k].second)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void removeVertices(EditableMesh& mesh, std::vector<std::uint8_t>& keep) {
+  constexpr int kRounds = 3;  // what is stuck may come free after its surroundings have gone
+  std::vector<std::uint32_t> rest;
+  for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    if (!keep[v]) rest.push_back(v);
+  }
+  for (int round = 0; round < kRounds && !rest.empty(); ++round) {
+    const auto stuck =
+        std::remove_if(rest.begin(), rest.end(), [&](std::uint32_t v) { return removeVertex(mesh, v); });
+    rest.erase(stuck, rest.end());
+    flipToDelaunay(mesh);
+  }
+  for (std::uint32_t v : rest) keep[v] = 1;
+}
+
+EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const PointSet& points,
+                           float spacing) {
+  // Old vertices must be at least as dense as the points, so that most points find one of their own.
+  constexpr float kLongest = 1.4f;  // edges of the old mesh, in mean edge lengths
+  constexpr float kTooNear = 0.4f;  // spacings: two points in one place
+  EditableMesh mesh = makeEditableMesh(surface.positions, surface.triangles);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertexCount(), 1024), [&](const auto& range) {
+    for (std::size_t v = range.begin(); v < range.end(); ++v) {
+      const Vec3f gradient = phi.sample(mesh.position[v]).gradient;
+      const float length = gradient.length();
+      if (length > 0.0f) mesh.normal[v] = gradient / length;
+    }
+  });
+  if (kLongest * kEdgePerSpacing * spacing < 1.7f)
+    splitLongEdges(mesh, phi, kLongest * kEdgePerSpacing * spacing);
+
+  const VertexGrid grid(mesh.position, 2.0f * std::min(1.0f, kLongest * spacing));
+  const std::size_t count = points.position.size();
+  std::vector<std::uint32_t> nearest(count);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      nearest[i] = grid.nearest(points.position[i],
+                                [&](std::uint32_t v) { return mesh.normal[v].dot(points.normal[i]) > 0.3f; });
+    }
+  });
+  std::vector<std::uint32_t> owner(mesh.vertexCount(), kNone);
+  const auto distance = [&](std::uint32_t i, std::uint32_t v) {
+    return (points.position[i] - mesh.position[v]).lengthSqr();
+  };
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t v = nearest[i];
+    if (v != kNone && (owner[v] == kNone || distance(i, v) < distance(owner[v], v))) owner[v] = i;
+  }
+  std::vector<std::uint8_t> keep(mesh.vertexCount(), 0);
+  for (std::uint32_t v = 0; v < owner.size(); ++v) {
+    const std::uint32_t i = owner[v];
+    if (i == kNone) continue;
+    if (worstFacingAt(mesh, v, points.position[i], points.normal[i]) < kFacing) {
+      owner[v] = kNone;
+      continue;
+    }
+    mesh.position[v] = points.position[i];
+    mesh.normal[v] = points.normal[i];
+    keep[v] = 1;
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t v = nearest[i];
+    if (v == kNone || owner[v] == i) continue;
+    const std::uint32_t added =
+        insertPoint(mesh, v, points.position[i], points.normal[i], kTooNear * spacing, keep);
+    if (added != kNone) keep.push_back(1);
+  }
+  removeVertices(mesh, keep);
+  mesh.compact();
+  return mesh;
+}
+
+}  // namespace fluidtex::texture

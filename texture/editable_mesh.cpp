@@ -1,0 +1,285 @@
+// Half-edge operations after Botsch et al., "Polygon Mesh Processing" (2010), sec. 2 and 7; link condition
+// after Dey, Edelsbrunner, Guha, Nekhayev, "Topology preserving edge contraction" (1999).
+#include "texture/editable_mesh.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+namespace fluidtex::texture {
+
+bool EditableMesh::connected(std::uint32_t a, std::uint32_t b) const {
+  bool found = false;
+  around(a, [&](std::uint32_t h) { found = found || target(h) == b; });
+  return found;
+}
+
+bool EditableMesh::canFlip(std::uint32_t h) const {
+  const std::uint32_t t = twin[h];
+  const std::uint32_t c = opposite(h), d = opposite(t);
+  return c != d && valence(origin[h]) > 3 && valence(origin[t]) > 3 && !connected(c, d);
+}
+
+//        c                c
+//      / | \            /   \ .
+//     a--h-->b   ->    a     b      h: a->b becomes a->d, next(h): d->c
+//      \ | /            \   /
+//        d                d
+void EditableMesh::flip(std::uint32_t h) {
+  const std::uint32_t t = twin[h];
+  const std::uint32_t hn = next(h), hp = previous(h), tn = next(t), tp = previous(t);
+  const std::uint32_t a = origin[h], b = origin[t], c = origin[hp], d = origin[tp];
+  const std::uint32_t bc = twin[hn], ad = twin[tn];
+  origin[hn] = d;
+  origin[tn] = c;
+  link(h, ad);
+  link(t, bc);
+  link(hn, tn);
+  outgoing[a] = h;
+  outgoing[b] = t;
+  outgoing[c] = hp;
+  outgoing[d] = tp;
+}
+
+std::uint32_t EditableMesh::newTriangle() {
+  if (!free.empty()) {
+    const std::uint32_t t = free.back();
+    free.pop_back();
+    return 3 * t;
+  }
+  const std::size_t h = origin.size();
+  origin.resize(h + 3);
+  twin.resize(h + 3);
+  return std::uint32_t(h);
+}
+
+std::uint32_t EditableMesh::newVertex(const Vec3f& at, const Vec3f& atNormal) {
+  position.push_back(at);
+  normal.push_back(atNormal);
+  outgoing.push_back(kNone);
+  return std::uint32_t(position.size() - 1);
+}
+
+std::uint32_t EditableMesh::splitEdge(std::uint32_t h, const Vec3f& at, const Vec3f& atNormal) {
+  const std::uint32_t t = twin[h];
+  const std::uint32_t hn = next(h), hp = previous(h), tn = next(t), tp = previous(t);
+  const std::uint32_t a = origin[h], b = origin[t], c = origin[hp], d = origin[tp];
+  const std::uint32_t bc = twin[hn], ad = twin[tn];
+  const std::uint32_t m = newVertex(at, atNormal);
+  const std::uint32_t e = newTriangle(), g = newTriangle();
+  // h: a->m, hn: m->c, hp: c->a; e: m->b, b->c, c->m; t: b->m, tn: m->d, tp: d->b; g: m->a, a->d, d->m
+  origin[hn] = m;
+  origin[e] = m;
+  origin[e + 1] = b;
+  origin[e + 2] = c;
+  origin[tn] = m;
+  origin[g] = m;
+  origin[g + 1] = a;
+  origin[g + 2] = d;
+  link(h, g);
+  link(t, e);
+  link(e + 1, bc);
+  link(e + 2, hn);
+  link(g + 1, ad);
+  link(g + 2, tn);
+  outgoing[a] = h;
+  outgoing[b] = t;
+  outgoing[c] = hp;
+  outgoing[d] = tp;
+  outgoing[m] = e;
+  return m;
+}
+
+std::uint32_t EditableMesh::splitTriangle(std::uint32_t triangle, const Vec3f& at, const Vec3f& atNormal) {
+  const std::uint32_t h = 3 * triangle;
+  const std::uint32_t a = origin[h], b = origin[h + 1], c = origin[h + 2];
+  const std::uint32_t bc = twin[h + 1], ca = twin[h + 2];
+  const std::uint32_t m = newVertex(at, atNormal);
+  const std::uint32_t e = newTriangle(), g = newTriangle();
+  // h: a->b, b->m, m->a; e: b->c, c->m, m->b; g: c->a, a->m, m->c
+  origin[h + 2] = m;
+  origin[e] = b;
+  origin[e + 1] = c;
+  origin[e + 2] = m;
+  origin[g] = c;
+  origin[g + 1] = a;
+  origin[g + 2] = m;
+  link(e, bc);
+  link(g, ca);
+  link(h + 1, e + 2);
+  link(e + 1, g + 2);
+  link(g + 1, h + 2);
+  outgoing[a] = h;
+  outgoing[b] = e;
+  outgoing[c] = g;
+  outgoing[m] = h + 2;
+  return m;
+}
+
+bool EditableMesh::canCollapse(std::uint32_t h) const {
+  const std::uint32_t v = origin[h], u = target(h);
+  const std::uint32_t a = opposite(h), b = opposite(twin[h]);
+  if (a == b || valence(a) <= 3 || valence(b) <= 3) return false;
+  bool ok = true;
+  around(v, [&](std::uint32_t e) {
+    const std::uint32_t x = target(e);
+    if (ok && x != u && x != a && x != b) ok = !connected(u, x);
+  });
+  return ok;
+}
+
+void EditableMesh::collapse(std::uint32_t h) {
+  const std::uint32_t t = twin[h];
+  const std::uint32_t v = origin[h], u = origin[t];
+  const std::uint32_t hn = next(h), hp = previous(h), tn = next(t), tp = previous(t);
+  const std::uint32_t a = origin[hp], b = origin[tp];
+  const std::uint32_t ua = twin[hn], va = twin[hp], vb = twin[tn],
+                      ub = twin[tp];  // seen from outside the two triangles
+  around(v, [this, u](std::uint32_t e) { origin[e] = u; });
+  link(ua, va);
+  link(vb, ub);
+  outgoing[u] = va;
+  outgoing[a] = ua;
+  outgoing[b] = vb;
+  outgoing[v] = kNone;
+  for (std::uint32_t base : {h - h % 3, t - t % 3}) {
+    for (std::uint32_t k = 0; k < 3; ++k) origin[base + k] = twin[base + k] = kNone;
+    free.push_back(base / 3);
+  }
+}
+
+std::vector<std::uint32_t> EditableMesh::compact() {
+  std::vector<std::uint32_t> newVertexOf(position.size(), kNone), oldVertexOf;
+  for (std::uint32_t v = 0; v < position.size(); ++v) {
+    if (outgoing[v] == kNone) continue;
+    newVertexOf[v] = std::uint32_t(oldVertexOf.size());
+    oldVertexOf.push_back(v);
+  }
+  std::vector<std::uint32_t> newHalfEdgeOf(origin.size(), kNone);
+  std::uint32_t count = 0;
+  for (std::uint32_t h = 0; h < origin.size(); ++h) {
+    if (alive(h)) newHalfEdgeOf[h] = count++;
+  }
+  for (std::uint32_t v = 0; v < oldVertexOf.size(); ++v) {
+    position[v] = position[oldVertexOf[v]];
+    normal[v] = normal[oldVertexOf[v]];
+    outgoing[v] = newHalfEdgeOf[outgoing[oldVertexOf[v]]];
+  }
+  for (std::uint32_t h = 0; h < origin.size(); ++h) {
+    const std::uint32_t n = newHalfEdgeOf[h];
+    if (n == kNone) continue;
+    origin[n] = newVertexOf[origin[h]];
+    twin[n] = newHalfEdgeOf[twin[h]];
+  }
+  position.resize(oldVertexOf.size());
+  normal.resize(oldVertexOf.size());
+  outgoing.resize(oldVertexOf.size());
+  origin.resize(count);
+  twin.resize(count);
+  free.clear();
+  return oldVertexOf;
+}
+
+EditableMesh makeEditableMesh(std::vector<Vec3f> positions, const std::vector<Vec3I>& triangles) {
+  EditableMesh mesh;
+  mesh.position = std::move(positions);
+  const std::size_t vertices = mesh.position.size(), halfEdges = 3 * triangles.size();
+  mesh.normal.assign(vertices, Vec3f(0.0f));
+  mesh.outgoing.assign(vertices, EditableMesh::kNone);
+  mesh.origin.resize(halfEdges);
+  mesh.twin.assign(halfEdges, EditableMesh::kNone);
+  std::vector<std::uint32_t> first(vertices + 1, 0), starting(halfEdges);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = triangles[t][k];
+      mesh.origin[3 * t + std::size_t(k)] = v;
+      ++first[v + 1];
+    }
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::uint32_t> cursor(first.begin(), first.end() - 1);
+  for (std::uint32_t h = 0; h < halfEdges; ++h) {
+    starting[cursor[mesh.origin[h]]++] = h;
+    mesh.outgoing[mesh.origin[h]] = h;
+  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, halfEdges, 8192), [&](const auto& range) {
+    for (std::size_t h = range.begin(); h < range.end(); ++h) {
+      const std::uint32_t a = mesh.origin[h], b = mesh.target(std::uint32_t(h));
+      for (std::uint32_t k = first[b]; k < first[b + 1]; ++k) {
+        if (mesh.target(starting[k]) == a) mesh.twin[h] = starting[k];
+      }
+      assert(mesh.twin[h] != EditableMesh::kNone);
+    }
+  });
+  return mesh;
+}
+
+std::vector<Vec3I> trianglesOf(const EditableMesh& mesh) {
+  assert(mesh.free.empty());
+  std::vector<Vec3I> triangles(mesh.origin.size() / 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    triangles[t] = Vec3I(mesh.origin[3 * t], mesh.origin[3 * t + 1], mesh.origin[3 * t + 2]);
+  }
+  return triangles;
+}
+
+bool isClosedManifold(std::size_t vertices, const std::vector<Vec3I>& triangles) {
+  // Rings: around a vertex each triangle leads from one neighbour to the next.
+  struct Step {
+    std::uint32_t from, to;
+  };
+  std::vector<std::uint32_t> first(vertices + 1, 0);
+  for (const Vec3I& t : triangles) {
+    for (int k = 0; k < 3; ++k) {
+      if (t[k] >= vertices || t[k] == t[(k + 1) % 3]) return false;
+      ++first[t[k] + 1];
+    }
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::uint32_t> cursor(first.begin(), first.end() - 1);
+  std::vector<Step> steps(3 * triangles.size());
+  for (const Vec3I& t : triangles) {
+    for (int k = 0; k < 3; ++k) steps[cursor[t[k]]++] = {t[(k + 1) % 3], t[(k + 2) % 3]};
+  }
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const std::size_t n = first[v + 1] - first[v];
+    if (n < 3) return false;
+    const Step* ring = steps.data() + first[v];
+    std::size_t length = 0;
+    std::uint32_t at = ring[0].from;
+    do {
+      const Step* found = nullptr;
+      for (std::size_t k = 0; k < n; ++k) {
+        if (ring[k].from != at) continue;
+        if (found) return false;  // two edges between the same vertices
+        found = ring + k;
+      }
+      if (!found) return false;
+      at = found->to;
+      ++length;
+    } while (at != ring[0].from && length <= n);
+    if (length != n) return false;
+  }
+  return true;
+}
+
+std::vector<std::uint32_t> components(std::size_t vertices, const std::vector<Vec3I>& triangles) {
+  std::vector<std::uint32_t> root(vertices);
+  std::iota(root.begin(), root.end(), 0u);
+  const auto find = [&root](std::uint32_t v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (const Vec3I& t : triangles) {
+    for (int k = 1; k < 3; ++k) {
+      const std::uint32_t a = find(t[0]), b = find(t[k]);
+      root[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  for (std::uint32_t v = 0; v < vertices; ++v) root[v] = find(v);
+  return root;
+}
+
+}  // namespace fluidtex::texture

@@ -1,0 +1,217 @@
+// Repulsion after Turk, "Generating textures on arbitrary surfaces using reaction-diffusion" (1991), between
+// mesh neighbours instead of all points near by, with the mesh kept Delaunay as in Persson, Strang, "A simple
+// mesh generator in MATLAB" (2004).
+#include "texture/remesh.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace fluidtex::texture {
+namespace {
+
+constexpr std::uint32_t kNone = EditableMesh::kNone;
+
+struct Spreader {
+  EditableMesh& mesh;
+  const LevelSet& phi;
+  const EvenOptions& options;
+  const float edge = options.spacing * kEdgePerSpacing;  // mean length of an even mesh's edges
+  std::vector<std::uint8_t> awake{};                     // #V: out of balance, moving
+  std::vector<Vec3f> oldPosition{}, oldNormal{};         // #movers
+
+  float length(std::uint32_t h) const {
+    return (mesh.position[mesh.origin[h]] - mesh.position[mesh.target(h)]).length();
+  }
+
+  // Where repulsion drives a vertex in one sweep, tangent to the surface.
+  Vec3f push(std::uint32_t v) const {
+    // Neighbours repel up to 1.25 mean edge lengths: beyond it a Delaunay flip turns edges, and no force may
+    // jump there.
+    constexpr float kRange = 1.25f;
+    constexpr float kStep = 0.2f;  // of the distance that would undo the overlap: stable for six neighbours
+    constexpr float kLongest = 0.25f;  // mean edge lengths in one sweep
+    const Vec3f at = mesh.position[v];
+    Vec3f sum(0.0f);
+    mesh.around(v, [&](std::uint32_t h) {
+      const Vec3f away = at - mesh.position[mesh.target(h)];
+      const float distance = away.length();
+      if (distance > 0.0f && distance < kRange * edge) sum += away * ((kRange * edge - distance) / distance);
+    });
+    sum *= kStep;
+    sum -= mesh.normal[v] * mesh.normal[v].dot(sum);
+    const float size = sum.length();
+    if (size > kLongest * edge) sum *= kLongest * edge / size;
+    return sum;
+  }
+
+  // One sweep: all awake vertices move at once. Returns those that moved.
+  std::vector<std::uint32_t> sweep(float wake, float sleep) {
+    const std::size_t count = mesh.vertexCount();
+    std::vector<Vec3f> moves(count);
+    const auto parallel = [](std::size_t n, const auto& body) {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 1024), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
+      });
+    };
+    parallel(count, [&](std::size_t v) {
+      if (mesh.outgoing[v] == kNone) {
+        awake[v] = 0;
+        return;
+      }
+      const Vec3f move = push(std::uint32_t(v));
+      const float limit = (awake[v] ? sleep : wake) * edge;
+      awake[v] = move.lengthSqr() > limit * limit;
+      moves[v] = move;
+    });
+    std::vector<std::uint32_t> movers;
+    for (std::uint32_t v = 0; v < count; ++v) {
+      if (awake[v]) movers.push_back(v);
+    }
+    oldPosition.resize(movers.size());
+    oldNormal.resize(movers.size());
+    std::vector<std::uint8_t> undo(movers.size());
+    parallel(movers.size(), [&](std::size_t i) {
+      const std::uint32_t v = movers[i];
+      oldPosition[i] = mesh.position[v];
+      oldNormal[i] = mesh.normal[v];
+    });
+    parallel(movers.size(), [&](std::size_t i) {
+      const std::uint32_t v = movers[i];
+      const LevelSet::Projection p = phi.project(oldPosition[i] + moves[v], edge);
+      if (!p.known) return;
+      mesh.position[v] = p.position;
+      mesh.normal[v] = p.normal;
+    });
+    revertFolds(movers, undo);
+    return movers;
+  }
+
+  // Takes back moves until no triangle is folded that was not before. Ends: at worst all moves are taken
+  // back.
+  void revertFolds(const std::vector<std::uint32_t>& movers, std::vector<std::uint8_t>& undo) {
+    std::vector<std::uint32_t> suspects(movers.size());
+    for (std::uint32_t i = 0; i < movers.size(); ++i) suspects[i] = i;
+    std::vector<std::uint8_t> reverted(movers.size(), 0);
+    while (true) {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, suspects.size(), 512), [&](const auto& range) {
+        for (std::size_t k = range.begin(); k < range.end(); ++k) {
+          const std::uint32_t i = suspects[k];
+          undo[i] = !reverted[i] && worstFacing(mesh, movers[i]) < kFacing;
+        }
+      });
+      std::vector<std::uint32_t> left;
+      bool any = false;
+      for (std::uint32_t i : suspects) {
+        if (reverted[i]) continue;
+        if (!undo[i]) {
+          left.push_back(i);
+          continue;
+        }
+        any = true;
+        reverted[i] = 1;
+        mesh.position[movers[i]] = oldPosition[i];
+        mesh.normal[movers[i]] = oldNormal[i];
+      }
+      if (!any) return;
+      suspects.swap(left);
+    }
+  }
+
+  // Splits what is far too long, collapses what is far too short, and then the worst edges until the number
+  // of points is within `slack` of what it should be. Returns whether anything changed.
+  bool adjust(double slack) {
+    constexpr float kTooShort = 0.6f, kTooLong = 1.6f;  // mean edge lengths
+    constexpr float kShort = 0.95f, kLong = 1.1f;       // only these are touched for the sake of the number
+    struct Candidate {
+      float length;
+      std::uint32_t halfEdge;
+      std::uint32_t a, b;
+      bool operator<(const Candidate& o) const {
+        return length != o.length ? length < o.length : halfEdge < o.halfEdge;
+      }
+    };
+    std::vector<Candidate> shortest, longest;
+    std::size_t alive = 0;
+    for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) alive += mesh.outgoing[v] != kNone;
+    const double excess = double(alive) - options.points;
+    const bool many = excess > slack * options.points, few = -excess > slack * options.points;
+    for (std::uint32_t h = 0; h < mesh.halfEdgeCount(); ++h) {
+      if (!mesh.alive(h) || h > mesh.twin[h]) continue;
+      const float l = length(h) / edge;
+      const Candidate c{l, h, mesh.origin[h], mesh.target(h)};
+      if (l < (many ? kShort : kTooShort)) shortest.push_back(c);
+      if (l > (few ? kLong : kTooLong)) longest.push_back(c);
+    }
+    std::sort(shortest.begin(), shortest.end());
+    std::sort(longest.begin(), longest.end());
+    std::reverse(longest.begin(), longest.end());
+
+    std::vector<std::uint8_t> touched(mesh.vertexCount(), 0);
+    std::vector<std::uint32_t> dirty;
+    const auto same = [&](const Candidate& c) {  // the candidate's half-edge is still the edge it was
+      return mesh.alive(c.halfEdge) && mesh.origin[c.halfEdge] == c.a && mesh.target(c.halfEdge) == c.b &&
+             !touched[c.a] && !touched[c.b];
+    };
+    const auto touch = [&](std::uint32_t v) {
+      mesh.around(v, [&](std::uint32_t h) {
+        touched[mesh.target(h)] = 1;
+        dirty.push_back(mesh.target(h));
+      });
+      touched[v] = 1;
+      dirty.push_back(v);
+    };
+    double toRemove = many ? excess : 0.0, toAdd = few ? -excess : 0.0;
+    for (const Candidate& c : shortest) {
+      if (c.length >= kTooShort && toRemove < 1.0) break;
+      if (!same(c)) continue;
+      const std::uint32_t h = c.halfEdge, t = mesh.twin[h];
+      if (tryCollapse(mesh, h)) {
+        touch(c.b);
+      } else if (tryCollapse(mesh, t)) {
+        touch(c.a);
+      } else {
+        continue;
+      }
+      toRemove -= 1.0;
+    }
+    for (const Candidate& c : longest) {
+      if (c.length <= kTooLong && toAdd < 1.0) break;
+      if (!same(c)) continue;
+      const std::uint32_t m = splitOnSurface(mesh, c.halfEdge, phi);
+      touched.push_back(1);
+      awake.push_back(1);
+      touch(m);
+      toAdd -= 1.0;
+    }
+    for (std::uint32_t v : dirty) awake[v] = 1;
+    flipToDelaunay(mesh, &dirty);
+    return !dirty.empty();
+  }
+};
+
+}  // namespace
+
+void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options) {
+  // In sweeps' pushes, mean edge lengths: a vertex at rest wakes above kWake, and moves until it is below
+  // kSleep. The gap between them is what keeps a liquid at rest from shimmering.
+  constexpr float kWake = 0.03f, kSleep = 0.01f;
+  constexpr int kMostSweeps = 120;
+  constexpr double kSlack = 0.005, kSettledSlack = 0.015;
+  Spreader spreader{mesh, phi, options};
+  spreader.awake.assign(mesh.vertexCount(), options.settled ? 0 : 1);
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    // Numbers are put right early, more rarely as the mesh comes to rest.
+    const bool adjusting = sweep < 4 || sweep % 5 == 0;
+    bool changed = adjusting && spreader.adjust(options.settled ? kSettledSlack : kSlack);
+    const bool everything = !options.settled && sweep < options.sweeps;
+    const std::vector<std::uint32_t> movers = spreader.sweep(kWake, everything ? 0.0f : kSleep);
+    if (movers.empty() && !changed) break;
+    flipToDelaunay(mesh, &movers);
+  }
+  mesh.compact();
+}
+
+}  // namespace fluidtex::texture

@@ -1,0 +1,144 @@
+// Dart throwing on a surface after Cook, "Stochastic sampling in computer graphics" (1986), with a spatial
+// hash.
+#include "texture/points.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+
+namespace fluidtex::texture {
+namespace {
+
+// A hash of a counter (SplitMix64's finaliser): the same random number for the same key, in any order, on any
+// thread.
+std::uint64_t mix(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ x >> 27) * 0x94d049bb133111ebULL;
+  return x ^ x >> 31;
+}
+
+float unit(std::uint64_t random) {
+  return float(random >> 40) * 0x1p-24f;
+}
+
+// Points in cells of a given size, chained in a hash table.
+class GrowingGrid {
+ public:
+  GrowingGrid(float cell, std::size_t expected) : m_inverse(1.0f / cell) {
+    std::size_t capacity = 64;
+    while (capacity < 2 * expected) capacity *= 2;
+    m_head.assign(capacity, kNone);
+  }
+  void insert(const Vec3f& p, std::uint32_t index) {
+    std::uint32_t& head = m_head[slot(index3(p.x()), index3(p.y()), index3(p.z()))];
+    m_items.push_back({p, index, head});
+    head = std::uint32_t(m_items.size() - 1);
+  }
+  // Whether hit(index) holds for a point nearer than the cell's size.
+  template <class Hit>
+  bool anyWithin(const Vec3f& p, float radius, const Hit& hit) const {
+    const int x = index3(p.x()), y = index3(p.y()), z = index3(p.z());
+    // The point's own cell first: where the surface is covered already, it mostly decides.
+    if (cellHas(slot(x, y, z), p, radius, hit)) return true;
+    for (int dx = -1; dx <= 1; ++dx) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dz = -1; dz <= 1; ++dz) {
+          if ((dx | dy | dz) != 0 && cellHas(slot(x + dx, y + dy, z + dz), p, radius, hit)) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t(0);
+  struct Item {
+    Vec3f position;
+    std::uint32_t index, next;
+  };
+  int index3(float x) const { return int(std::floor(x * m_inverse)); }
+  std::size_t slot(int x, int y, int z) const {
+    std::uint64_t h = std::uint64_t(std::uint32_t(x)) * 0x9e3779b1u ^
+                      std::uint64_t(std::uint32_t(y)) * 0x85ebca77u ^
+                      std::uint64_t(std::uint32_t(z)) * 0xc2b2ae3du;
+    h *= 0x9e3779b97f4a7c15ULL;
+    return std::size_t(h >> 32) & (m_head.size() - 1);
+  }
+  template <class Hit>
+  bool cellHas(std::size_t s, const Vec3f& p, float radius, const Hit& hit) const {
+    for (std::uint32_t i = m_head[s]; i != kNone; i = m_items[i].next) {
+      if ((m_items[i].position - p).lengthSqr() < radius * radius && hit(m_items[i].index)) return true;
+    }
+    return false;
+  }
+  float m_inverse;
+  std::vector<std::uint32_t> m_head;
+  std::vector<Item> m_items;
+};
+
+}  // namespace
+
+PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std::vector<Vec3f>& seeds,
+                      float spacing, std::uint64_t key) {
+  // Seeds of a uniform set are never this near each other, so a liquid at rest loses none.
+  constexpr float kSeedDistance = 0.5f;
+  // Where points are even already no place on the surface is further than about 0.8 spacings from one.
+  constexpr float kDartDistance = 0.8f, kFillDistance = 0.95f;
+  constexpr float kDartsPerPoint = 5.0f;
+  constexpr float kReach = 1.5f;     // voxels from which a seed is still brought back
+  constexpr float kSnapped = 0.05f;  // voxels from the surface at most, after projection
+  constexpr float kStill = 1e-3f;    // voxels: a seed this near stays exactly where it is
+
+  const float dartRadius = (seeds.empty() ? kDartDistance : kFillDistance) * spacing;
+  const std::size_t expected =
+      std::size_t(area(surface.positions, surface.triangles) / (double(spacing) * spacing));
+  PointSet points;
+  points.position.reserve(expected + expected / 8 + 16);
+  points.normal.reserve(points.position.capacity());
+  GrowingGrid grid(dartRadius, expected);
+  const auto place = [&](const Vec3f& p, const Vec3f& n, float radius) {
+    const bool taken =
+        grid.anyWithin(p, radius, [&](std::uint32_t i) { return points.normal[i].dot(n) > 0.0f; });
+    if (taken) return;
+    grid.insert(p, std::uint32_t(points.position.size()));
+    points.position.push_back(p);
+    points.normal.push_back(n);
+  };
+
+  std::vector<LevelSet::Projection> projected(seeds.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seeds.size(), 1024), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      if (!std::isfinite(seeds[i].lengthSqr())) continue;
+      projected[i] = phi.project(seeds[i], kReach);
+      if ((projected[i].position - seeds[i]).lengthSqr() < kStill * kStill) projected[i].position = seeds[i];
+    }
+  });
+  for (const LevelSet::Projection& p : projected) {
+    if (p.known && p.distance < kSnapped) place(p.position, p.normal, kSeedDistance * spacing);
+  }
+
+  const float perArea = kDartsPerPoint / (spacing * spacing);
+  std::uint64_t ordinal = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    ordinal = t > 0 && surface.cells[t] == surface.cells[t - 1] ? ordinal + 1 : 0;
+    const openvdb::Coord& cell = surface.cells[t];
+    const std::uint64_t triangleKey =
+        mix(mix(mix(mix(key ^ std::uint32_t(cell.x())) ^ std::uint32_t(cell.y())) ^ std::uint32_t(cell.z())) ^
+            ordinal);
+    const Vec3f& a = surface.positions[surface.triangles[t][0]];
+    const Vec3f ab = surface.positions[surface.triangles[t][1]] - a,
+                ac = surface.positions[surface.triangles[t][2]] - a;
+    const Vec3f normal = ab.cross(ac);
+    const float length = normal.length();
+    const int darts = int(0.5f * length * perArea + unit(triangleKey));
+    for (int d = 0; d < darts; ++d) {
+      const std::uint64_t random = mix(triangleKey + std::uint64_t(d) + 1);
+      const float r = std::sqrt(unit(random)), s = unit(random << 24);
+      place(a + ab * (r * (1.0f - s)) + ac * (r * s), normal / length, dartRadius);
+    }
+  }
+  return points;
+}
+
+}  // namespace fluidtex::texture

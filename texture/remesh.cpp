@@ -1,0 +1,159 @@
+// Flips, splits and collapses after Botsch, Kobbelt, "A remeshing approach to multiresolution modeling"
+// (2004).
+#include "texture/remesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::texture {
+namespace {
+
+constexpr std::uint32_t kNone = EditableMesh::kNone;
+
+// Whether the angles opposite to an edge sum to more than pi, by more than rounding.
+bool violatesDelaunay(const EditableMesh& mesh, std::uint32_t h) {
+  constexpr double kSlack = 1e-4;
+  const std::uint32_t t = mesh.twin[h];
+  using Vec3d = openvdb::Vec3d;
+  const Vec3d a(mesh.position[mesh.origin[h]]), b(mesh.position[mesh.origin[t]]);
+  const Vec3d c(mesh.position[mesh.opposite(h)]), d(mesh.position[mesh.opposite(t)]);
+  const Vec3d ca = a - c, cb = b - c, da = a - d, db = b - d;
+  const double cosC = ca.dot(cb), cosD = da.dot(db);
+  if (cosC >= 0.0 && cosD >= 0.0) return false;
+  const double sinC = ca.cross(cb).length(), sinD = da.cross(db).length();
+  const double excess = cosC * sinD + cosD * sinC;
+  return excess < 0.0 &&
+         excess * excess > kSlack * kSlack * (cosC * cosC + sinC * sinC) * (cosD * cosD + sinD * sinD);
+}
+
+float facingOf(const EditableMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  const Vec3f p[3] = {mesh.position[a], mesh.position[b], mesh.position[c]};
+  const Vec3f n[3] = {mesh.normal[a], mesh.normal[b], mesh.normal[c]};
+  return facing(p, n);
+}
+
+bool flipFolds(const EditableMesh& mesh, std::uint32_t h) {
+  const std::uint32_t t = mesh.twin[h];
+  const std::uint32_t a = mesh.origin[h], b = mesh.origin[t], c = mesh.opposite(h), d = mesh.opposite(t);
+  const float now = std::min(facingOf(mesh, a, d, c), facingOf(mesh, d, b, c));
+  return now < kFacing && !mayFace(now, std::min(facingOf(mesh, a, b, c), facingOf(mesh, b, a, d)));
+}
+
+}  // namespace
+
+float facing(const Vec3f (&p)[3], const Vec3f (&n)[3]) {
+  const Vec3f normal = (p[1] - p[0]).cross(p[2] - p[0]);
+  const float length = normal.length();
+  const float longest2 =
+      std::max({(p[1] - p[0]).lengthSqr(), (p[2] - p[0]).lengthSqr(), (p[2] - p[1]).lengthSqr()});
+  if (!(length > 1e-5f * longest2)) return -1.0f;
+  return std::min({normal.dot(n[0]), normal.dot(n[1]), normal.dot(n[2])}) / length;
+}
+
+float worstFacingAt(const EditableMesh& mesh, std::uint32_t v, const Vec3f& at, const Vec3f& atNormal,
+                    std::uint32_t except) {
+  float worst = 1.0f;
+  mesh.around(v, [&](std::uint32_t h) {
+    const std::uint32_t b = mesh.target(h), c = mesh.opposite(h);
+    if (b == except || c == except) return;
+    const Vec3f p[3] = {at, mesh.position[b], mesh.position[c]};
+    const Vec3f n[3] = {atNormal, mesh.normal[b], mesh.normal[c]};
+    worst = std::min(worst, facing(p, n));
+  });
+  return worst;
+}
+
+float worstFacing(const EditableMesh& mesh, std::uint32_t v, std::uint32_t except) {
+  return worstFacingAt(mesh, v, mesh.position[v], mesh.normal[v], except);
+}
+
+void flipToDelaunay(EditableMesh& mesh, const std::vector<std::uint32_t>* dirty) {
+  std::vector<std::uint32_t> stack;
+  // Flipping ends by itself on a plane; on a coarsely sampled surface it might go round in a circle.
+  std::size_t budget = 10 * mesh.halfEdgeCount();
+  const auto settle = [&](std::uint32_t first) {
+    stack.push_back(first);
+    while (!stack.empty() && budget > 0) {
+      const std::uint32_t h = stack.back();
+      stack.pop_back();
+      --budget;
+      if (!violatesDelaunay(mesh, h) || !mesh.canFlip(h) || flipFolds(mesh, h)) continue;
+      mesh.flip(h);
+      const std::uint32_t n = EditableMesh::next(h), t = mesh.twin[n];
+      for (std::uint32_t e :
+           {h, EditableMesh::previous(n), EditableMesh::next(t), EditableMesh::previous(t)}) {
+        stack.push_back(e);
+      }
+    }
+    stack.clear();
+  };
+  if (dirty) {
+    std::vector<std::uint32_t> edges;
+    for (std::uint32_t v : *dirty) {
+      if (mesh.outgoing[v] == kNone) continue;
+      edges.clear();
+      mesh.around(v, [&](std::uint32_t h) {
+        edges.push_back(h);
+        edges.push_back(EditableMesh::next(h));
+      });
+      for (std::uint32_t h : edges) settle(h);
+    }
+  } else {
+    for (std::uint32_t h = 0; h < mesh.halfEdgeCount(); ++h) {
+      if (mesh.alive(h) && h < mesh.twin[h]) settle(h);
+    }
+  }
+}
+
+bool tryCollapse(EditableMesh& mesh, std::uint32_t h) {
+  const std::uint32_t v = mesh.origin[h], u = mesh.target(h);
+  const float now = worstFacingAt(mesh, v, mesh.position[u], mesh.normal[u], u);
+  if (now < kFacing && !mayFace(now, worstFacing(mesh, v))) return false;
+  if (!mesh.canCollapse(h)) return false;
+  mesh.collapse(h);
+  return true;
+}
+
+std::uint32_t splitOnSurface(EditableMesh& mesh, std::uint32_t h, const LevelSet& phi) {
+  const std::uint32_t a = mesh.origin[h], b = mesh.target(h), c = mesh.opposite(h),
+                      d = mesh.opposite(mesh.twin[h]);
+  const Vec3f middle = (mesh.position[a] + mesh.position[b]) * 0.5f;
+  Vec3f normal = mesh.normal[a] + mesh.normal[b];
+  normal.normalize();
+  const float length = (mesh.position[a] - mesh.position[b]).length();
+  const float before = std::min(facingOf(mesh, a, b, c), facingOf(mesh, b, a, d));
+  const LevelSet::Projection p = phi.project(middle, 0.5f * length);
+  const std::uint32_t m = mesh.splitEdge(h, middle, p.known ? p.normal : normal);
+  if (p.known && mayFace(worstFacingAt(mesh, m, p.position, p.normal), before)) mesh.position[m] = p.position;
+  return m;
+}
+
+void splitLongEdges(EditableMesh& mesh, const LevelSet& phi, float longest) {
+  const auto length2 = [&](std::uint32_t h) {
+    return (mesh.position[mesh.origin[h]] - mesh.position[mesh.target(h)]).lengthSqr();
+  };
+  constexpr int kRounds =
+      32;  // each halves lengths: enough for any ratio of voxel and spacing that fits into memory
+  std::vector<std::uint32_t> stack;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::size_t count = mesh.halfEdgeCount();
+    bool any = false;
+    for (std::uint32_t h = 0; h < count; ++h) {
+      if (!mesh.alive(h) || h > mesh.twin[h] || length2(h) <= longest * longest) continue;
+      // Only the longest edge of both its triangles is split, so that triangles keep their shape.
+      const std::uint32_t t = mesh.twin[h];
+      const float own = length2(h);
+      const auto longer = [&](std::uint32_t e) { return length2(e) > own; };
+      if (longer(EditableMesh::next(h)) || longer(EditableMesh::previous(h)) ||
+          longer(EditableMesh::next(t)) || longer(EditableMesh::previous(t))) {
+        any = true;
+        continue;
+      }
+      splitOnSurface(mesh, h, phi);
+      any = true;
+    }
+    if (!any) break;
+  }
+}
+
+}  // namespace fluidtex::texture

@@ -1,0 +1,57 @@
+// Moves that make a mesh on a level set even: Delaunay flips, splits of long and collapses of short edges,
+// repulsion.
+#pragma once
+
+#include "texture/editable_mesh.h"
+#include "texture/level_set.h"
+
+namespace fluidtex::texture {
+
+// Mean edge length of an even mesh that has one vertex per unit square.
+inline constexpr float kEdgePerSpacing = 1.0746f;
+
+// Smallest cosine between a triangle's normal and the level set's normals at its corners; -1 for a triangle
+// without area.
+float facing(const Vec3f (&p)[3], const Vec3f (&n)[3]);
+
+// A triangle with at least this cosine lies well on its surface. An operation may not make one that does not,
+// unless there was a worse one before: mayFace(now, before).
+inline constexpr float kFacing = 0.3f;
+inline bool mayFace(float now, float before) {
+  return now >= kFacing || now >= before;
+}
+
+// Smallest facing() of the triangles around v, without those that also touch `except`.
+float worstFacing(const EditableMesh& mesh, std::uint32_t v, std::uint32_t except = EditableMesh::kNone);
+
+// The same if v were at `at`.
+float worstFacingAt(const EditableMesh& mesh, std::uint32_t v, const Vec3f& at, const Vec3f& atNormal,
+                    std::uint32_t except = EditableMesh::kNone);
+
+// Turns edges until each has two opposite angles that sum to at most pi (Delaunay), where that folds nothing.
+// Starts from the edges around the vertices in `dirty`, or from all edges if it is null.
+void flipToDelaunay(EditableMesh& mesh, const std::vector<std::uint32_t>* dirty = nullptr);
+
+// Collapses h if topology and facing allow it.
+bool tryCollapse(EditableMesh& mesh, std::uint32_t h);
+
+// Splits an edge at its middle, brought onto the level set. Returns the new vertex.
+std::uint32_t splitOnSurface(EditableMesh& mesh, std::uint32_t h, const LevelSet& phi);
+
+// Splits edges longer than `longest` (voxels), longest first where they share a triangle, until there are
+// none.
+void splitLongEdges(EditableMesh& mesh, const LevelSet& phi, float longest);
+
+struct EvenOptions {
+  float spacing = 1.0f;  // voxels
+  double points = 0.0;   // how many there should be
+  int sweeps = 30;       // of repulsion while everything moves
+  bool settled = false;  // the points were even in the last frame: only those move that are out of balance
+};
+
+// Spreads the vertices evenly: repulsion between neighbours, restricted to the level set [Turk91], with the
+// mesh kept Delaunay and the number of vertices kept at options.points. Ends when every vertex is in balance,
+// so that a second call changes nothing.
+void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options);
+
+}  // namespace fluidtex::texture
