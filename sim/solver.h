@@ -6,14 +6,19 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 namespace fluidtex::sim {
 
+class Solids;
+struct SolidField;
+
 // All that the next step needs; writing and reading it back continues bit for bit.
 struct State {
-  int frame = 0;      // last finished frame, 0 before the first
-  double time = 0.0;  // s
+  int frame = 0;                    // last finished frame, 0 before the first
+  double time = 0.0;                // s
   openvdb::FloatGrid::Ptr phi;      // liquid, narrow band, metres, negative inside
   openvdb::FloatGrid::Ptr u, v, w;  // face velocities, m/s, of one topology; transforms as in Substep
   // Bodies of Options::liquid that have been put in already, by index.
@@ -31,15 +36,21 @@ class Solver {
   explicit Solver(const Options& options);
   Solver(const Options& options, State state);  // continues from a restored state
 
-  // The first call gives the initial state (frame 1, no substeps); each further call advances by one frame time.
-  // `progress`, where given, is called with the share of the frame done, 0..1.
+  // The first call gives the initial state (frame 1, no substeps); each further call advances by one frame
+  // time. `progress`, where given, is called with the share of the frame done, 0..1.
   Frame next(const std::function<void(double)>& progress = {});
 
   const State& state() const { return m_state; }
 
  private:
+  void start();
+  void applyEvents();
+  void advanceTo(double time, Frame& frame, const std::function<void(double)>& report);
+
   Options m_options;
   State m_state;
+  std::shared_ptr<Solids> m_solids;
+  std::shared_ptr<const SolidField> m_solid;  // at m_state.time
 };
 
 // The state as one .vdb file, uncompressed so that every value returns bit for bit.

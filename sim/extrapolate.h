@@ -1,0 +1,15 @@
+// Velocity beyond the liquid: every active face gets the value of the liquid nearest to it.
+#pragma once
+
+#include "sim/mac_grid.h"
+#include "sim/solids.h"
+
+namespace fluidtex::sim {
+
+// Fills every active face of u, v, w that is not in `valid`, constant along the normals: in the air along
+// those of phi's level sets, behind the surface of solids along those of the solid's distance. `phi` and
+// `solidPhi` in metres at cell centres, negative inside. A face that no valid face can reach gets 0. Other
+// faces stay as they are.
+void extrapolate(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi, const FloatGrid& solidPhi);
+
+}  // namespace fluidtex::sim

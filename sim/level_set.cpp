@@ -1,0 +1,180 @@
+#include "sim/level_set.h"
+
+#include "sim/leaf_table.h"
+
+#include <openvdb/tools/Prune.h>
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace fluidtex::sim {
+namespace {
+
+// Origins of all leaves that touch the box of cells [-margin, cells + margin).
+std::vector<Coord> allLeaves(const Coord& cells, int margin) {
+  std::vector<Coord> origins;
+  const int first = -margin & ~(kLeafDim - 1);
+  for (int i = first; i < cells.x() + margin; i += kLeafDim) {
+    for (int j = first; j < cells.y() + margin; j += kLeafDim) {
+      for (int k = first; k < cells.z() + margin; k += kLeafDim) origins.emplace_back(i, j, k);
+    }
+  }
+  return origins;
+}
+
+// A level set from blocks: fill(origin, values) writes the 512 values of a block; blocks beyond the band
+// become tiles.
+template <class Fill>
+void build(FloatTree& tree, const std::vector<Coord>& origins, const Fill& fill) {
+  const float background = tree.background();
+  std::vector<std::unique_ptr<FloatLeaf>> leaves(origins.size());
+  std::vector<std::uint8_t> inside(origins.size());
+  tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
+    auto leaf = std::make_unique<FloatLeaf>(origins[n], background, true);
+    float* values = leaf->buffer().data();
+    fill(origins[n], values);
+    bool near = false;
+    for (int i = 0; i < kLeafSize; ++i) {
+      values[i] = std::clamp(values[i], -background, background);
+      near = near || std::abs(values[i]) < background;
+    }
+    near = near ||
+           std::any_of(values, values + kLeafSize, [&](float v) { return (v < 0.0f) != (values[0] < 0.0f); });
+    inside[n] = values[0] < 0.0f;
+    if (near) leaves[n] = std::move(leaf);
+  });
+  for (std::size_t n = 0; n < origins.size(); ++n) {
+    if (leaves[n]) {
+      tree.addLeaf(leaves[n].release());
+    } else {
+      tree.addTile(1, origins[n], inside[n] != 0 ? -background : background, false);
+    }
+  }
+}
+
+// Sum of value(phi, solid) over the cells of the domain that may hold liquid.
+template <class Value>
+double sumOverCells(const FloatGrid& phi, const SolidField& solid, const Value& value) {
+  const auto origins = wetLeaves(phi, solid.cells, 0);
+  std::vector<double> sums(origins.size());
+  tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
+    float phiScratch[kLeafSize], solidScratch[kLeafSize];
+    const float* p = leafValues(phi.constTree(), origins[n], phiScratch);
+    const float* s = leafValues(solid.phi->constTree(), origins[n], solidScratch);
+    const Coord last = solid.cells - origins[n];
+    for (int i = 0; i < std::min(kLeafDim, last.x()); ++i) {
+      for (int j = 0; j < std::min(kLeafDim, last.y()); ++j) {
+        for (int k = 0; k < std::min(kLeafDim, last.z()); ++k) {
+          sums[n] += value(p[64 * i + 8 * j + k], s[64 * i + 8 * j + k]);
+        }
+      }
+    }
+  });
+  double sum = 0.0;
+  for (const double part : sums) sum += part;
+  return sum;
+}
+
+void setBand(FloatTree& tree, const FloatTree* solidPhi, float h) {
+  const float background = tree.background();
+  const auto leaves = leavesOf(tree);
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    float scratch[kLeafSize] = {};
+    const float* solid = solidPhi != nullptr ? leafValues(*solidPhi, leaves[n]->origin(), scratch) : scratch;
+    float* values = leaves[n]->buffer().data();
+    for (int i = 0; i < kLeafSize; ++i) {
+      const bool on = std::abs(values[i]) < background && solid[i] > -kSolidLayers * h;
+      leaves[n]->setActiveState(i, on);
+      if (!on) values[i] = values[i] < 0.0f ? -background : background;
+    }
+  });
+  openvdb::tools::pruneLevelSet(tree);
+}
+
+}  // namespace
+
+std::vector<Coord> wetLeaves(const FloatGrid& phi, const Coord& cells, int margin) {
+  std::vector<Coord> origins;
+  const openvdb::tree::ValueAccessor<const FloatTree, false> accessor(phi.constTree());
+  for (const Coord& origin : allLeaves(cells, margin)) {
+    if (accessor.probeConstLeaf(origin) != nullptr || accessor.getValue(origin) < 0.0f)
+      origins.push_back(origin);
+  }
+  return origins;
+}
+
+void cutSolids(FloatGrid& phi, const FloatGrid& solidPhi, const openvdb::MaskGrid& where) {
+  const float background = phi.background();
+  openvdb::tree::ValueAccessor<FloatTree> accessor(phi.tree());
+  const auto solid = solidPhi.getConstUnsafeAccessor();
+  for (auto leaf = where.constTree().cbeginLeaf(); leaf; ++leaf) {
+    for (auto it = leaf->cbeginValueOn(); it; ++it) {
+      const float cut = std::max(accessor.getValue(it.getCoord()), -solid.getValue(it.getCoord()));
+      accessor.setValue(it.getCoord(), std::clamp(cut, -background, background));
+    }
+  }
+}
+
+void trimBand(FloatGrid& phi, const FloatGrid& solidPhi) {
+  setBand(phi.tree(), &solidPhi.constTree(), static_cast<float>(phi.voxelSize()[0]));
+}
+
+void unite(FloatGrid& phi, const std::function<double(const Vec3d&)>& distance, const Coord& cells,
+           int margin) {
+  const double h = phi.voxelSize()[0], background = phi.background();
+  auto united = FloatGrid::create(phi.background());
+  build(united->tree(), allLeaves(cells, margin), [&](const Coord& origin, float* values) {
+    const float* was = leafValues(phi.constTree(), origin, values);
+    if (was != values) std::copy_n(was, kLeafSize, values);
+    // Farther than the band from the whole block: the sign at its centre is that of all.
+    const double centre =
+        distance(phi.indexToWorld(Vec3d(origin.x() + 3.5, origin.y() + 3.5, origin.z() + 3.5)));
+    const double halfDiagonal = 0.5 * std::sqrt(3.0) * (kLeafDim - 1) * h;
+    if (std::abs(centre) > background + halfDiagonal) {
+      if (centre < 0.0) std::fill_n(values, kLeafSize, static_cast<float>(-background));
+      return;
+    }
+    for (int i = 0; i < kLeafSize; ++i) {
+      const Coord ijk = origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7);
+      values[i] = std::min(values[i], static_cast<float>(distance(phi.indexToWorld(ijk))));
+    }
+  });
+  phi.setTree(united->treePtr());
+}
+
+FloatGrid::Ptr visibleSurface(const FloatGrid& phi, const SolidField& solid, int halfWidth) {
+  const double h = phi.voxelSize()[0];
+  FloatGrid::Ptr surface = makePhi(h, halfWidth * h);
+  surface->setName("surface");
+  const float background = surface->background();
+  build(surface->tree(), wetLeaves(phi, solid.cells, kLeafDim), [&](const Coord& origin, float* values) {
+    float scratch[kLeafSize];
+    const float* p = leafValues(phi.constTree(), origin, scratch);
+    const float* s = leafValues(solid.phi->constTree(), origin, values);
+    // The solid's distance is known to 3 h only: beyond, it says no more than its sign.
+    for (int i = 0; i < kLeafSize; ++i) {
+      const float outside = s[i] >= static_cast<float>(2.999 * h) ? -background : -s[i];
+      values[i] = std::max(p[i], outside);
+    }
+  });
+  const auto nothing = FloatGrid::create(static_cast<float>(3.0 * h));
+  reinitialize(*surface, *nothing, {.iterations = 2 * halfWidth + 2});
+  setBand(surface->tree(), nullptr, static_cast<float>(h));
+  return surface;
+}
+
+double liquidVolume(const FloatGrid& phi, const SolidField& solid) {
+  const double h = phi.voxelSize()[0];
+  const double cells = sumOverCells(
+      phi, solid, [&](float p, float s) { return std::clamp(0.5 - std::max<double>(p, -s) / h, 0.0, 1.0); });
+  return cells * h * h * h;
+}
+
+std::int64_t liquidCells(const FloatGrid& phi, const SolidField& solid) {
+  return static_cast<std::int64_t>(
+      sumOverCells(phi, solid, [](float p, float s) { return p < 0.0f && s >= 0.0f ? 1.0 : 0.0; }));
+}
+
+}  // namespace fluidtex::sim

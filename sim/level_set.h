@@ -1,0 +1,79 @@
+// The liquid's surface: phi, a narrow-band level set in metres, negative inside, at cell centres.
+// Active voxels: |phi| < the grid's background and not deep in a solid. All others hold +-background.
+// All functions change phi in place and need no other order than the one they are called in by the solver.
+#pragma once
+
+#include "sim/mac_grid.h"
+#include "sim/solids.h"
+
+#include <functional>
+
+namespace fluidtex::sim {
+
+// Moves phi with the velocity for dt seconds:  d(phi)/dt + u . grad(phi) = 0, by fifth-order WENO differences
+// (Hamilton-Jacobi form) and the third-order TVD Runge-Kutta scheme, in as many sub-steps as dt
+// (|u|+|v|+|w|)/h < 1 asks for. Leaves are added where the surface can get to. Values outside the velocity's
+// leaves stay.
+void advectPhi(FloatGrid& phi, const Velocity& velocity, double dt);
+
+// Cells deeper in a solid than this many voxels hold what extendIntoSolids gives them; no face of such a cell
+// is open, but for a sliver.
+inline constexpr float kDeepInSolid = 0.49f;
+
+// Layers of cells behind a solid's surface that hold values of phi and velocity, in voxels of depth. The
+// solid's distance is known that far.
+inline constexpr float kSolidLayers = 2.99f;
+
+struct ReinitOptions {
+  int iterations = 8;  // of 0.45 h each: how far from the surface the distance is made right
+  // Leave cells next to the surface as they are (the others are still made right). The surface does not move
+  // at all, but what the flow did to the slope there stays.
+  bool keepNear = false;
+};
+
+// Turns phi into a signed distance near the surface, which itself stays where it is: cells next to it use its
+// place between the cell centres. Cells in solids more than half a cell deep are left alone (see
+// extendIntoSolids).
+void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, const ReinitOptions& options = {});
+
+// Root mean square of |grad phi| - 1 over the cells next to the surface, solids left out; 0 without a
+// surface.
+double slopeError(const FloatGrid& phi, const FloatGrid& solidPhi);
+
+// Whether the liquid in this cell has let go of the solid beside it.
+using LetGo = std::function<bool(const Coord&)>;
+
+// Gives the cells more than half a cell deep in solids, in the leaves that phi has, values such that the
+// surface runs on into the solid: constant along the solid's normal, or linear where that holds more liquid
+// (thin films). Where the liquid let go of the solid always linear, so that the gap is kept. Without `letGo`
+// a gap that is there (air behind the solid's surface, liquid before it) stays, and none opens.
+void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo = {});
+
+// Takes solids out of the liquid, phi = max(phi, -solidPhi), in the cells active in `where`.
+void cutSolids(FloatGrid& phi, const FloatGrid& solidPhi, const openvdb::MaskGrid& where);
+
+// Sets the active voxels anew, clamps all others, and drops leaves without any.
+void trimBand(FloatGrid& phi, const FloatGrid& solidPhi);
+
+// phi = min(phi, distance) over all cells of the domain and `margin` cells around it, in full leaves, liquid
+// inside included: call reinitialize and trimBand afterwards. distance: at world positions; at least its sign
+// and a lower bound of its magnitude are right.
+void unite(FloatGrid& phi, const std::function<double(const Vec3d&)>& distance, const Coord& cells,
+           int margin);
+
+// The textured surface: liquid with solids taken out, max(phi, -solidPhi), a distance `halfWidth` voxels
+// either side.
+FloatGrid::Ptr visibleSurface(const FloatGrid& phi, const SolidField& solid, int halfWidth);
+
+// Cubic metres of liquid outside solids: each cell's share of liquid from phi and of open space from
+// solidPhi.
+double liquidVolume(const FloatGrid& phi, const SolidField& solid);
+
+// Cells of the domain with phi < 0 whose centre is not in a solid.
+std::int64_t liquidCells(const FloatGrid& phi, const SolidField& solid);
+
+// Leaf origins in the box of cells [-margin, cells + margin) where phi has a leaf or is inside: all liquid,
+// and the band.
+std::vector<Coord> wetLeaves(const FloatGrid& phi, const Coord& cells, int margin);
+
+}  // namespace fluidtex::sim

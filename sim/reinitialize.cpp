@@ -1,0 +1,213 @@
+// Based on: Sussman, Smereka and Osher 1994 (the equation  d(phi)/dtau = sign(phi0) (1 - |grad phi|));
+// Russo and Smereka, "A remark on computing distance functions", 2000 (the surface's place kept within
+// cells); Min, "On reinitializing level set functions", 2010 (second-order differences, quadratic place,
+// local steps).
+#include "sim/leaf_table.h"
+#include "sim/level_set.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::sim {
+namespace {
+
+constexpr int kHalo = 2;
+constexpr int kSide = kLeafDim + 2 * kHalo;  // 12
+constexpr int kBlock = kSide * kSide * kSide;
+constexpr int kStride[3] = {kSide * kSide, kSide, 1};
+constexpr float kCourant = 0.45f;
+
+inline float minmod(float a, float b) {
+  return a * b <= 0.0f ? 0.0f : (std::abs(a) < std::abs(b) ? a : b);
+}
+
+inline int blockIndex(int offset) {
+  return (((offset >> 6) + kHalo) * kSide + ((offset >> 3) & 7) + kHalo) * kSide + (offset & 7) + kHalo;
+}
+
+// A cell next to the surface, in units of h: how far the surface is towards -x, +x, -y, ... (1 where it is
+// farther).
+struct NearCell {
+  int offset;
+  std::array<float, 6> reach;
+};
+
+// Where between two cells (0: at the first) the cubic-free ENO parabola through phi vanishes [Min10 eq. 9].
+float crossing(float before, float here, float there, float after) {
+  const float curvature = minmod(before - 2.0f * here + there, here - 2.0f * there + after);
+  const float linear = here / (here - there);
+  // A flatter parabola than this is a line within float precision.
+  if (std::abs(curvature) < 1e-4f * std::abs(here - there)) return linear;
+  const float half = 0.5f * curvature - here - there;
+  const float root = std::sqrt(std::max(0.0f, half * half - 4.0f * here * there));
+  const float side = here > there ? 1.0f : -1.0f;
+  return 0.5f + (here - there - side * root) / curvature;
+}
+
+std::vector<NearCell> nearCells(const float* block) {
+  std::vector<NearCell> cells;
+  for (int offset = 0; offset < kLeafSize; ++offset) {
+    const float* p = block + blockIndex(offset);
+    NearCell cell{offset, {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f}};
+    bool near = false;
+    for (int direction = 0; direction < 6; ++direction) {
+      const int d = (direction & 1) != 0 ? kStride[direction >> 1] : -kStride[direction >> 1];
+      if ((p[0] < 0.0f) == (p[d] < 0.0f)) continue;
+      near = true;
+      // Closer than this the local step would be too short to get anywhere; the error is as small.
+      constexpr float kClosest = 1e-3f;
+      cell.reach[direction] = std::clamp(crossing(p[-d], p[0], p[d], p[2 * d]), kClosest, 1.0f);
+    }
+    if (near) cells.push_back(cell);
+  }
+  return cells;
+}
+
+// Godunov's choice of one-sided slopes, squared; `inside`: information comes from larger values.
+inline float upwindSquare(float minus, float plus, bool inside) {
+  const float a = inside ? std::min(minus, 0.0f) : std::max(minus, 0.0f);
+  const float b = inside ? std::max(plus, 0.0f) : std::min(plus, 0.0f);
+  return std::max(a * a, b * b);
+}
+
+// |grad phi|^2 of a regular cell's row of 8, second-order ENO.
+void addSlopes(const float* block, int stride, float* square) {
+  for (int i = 0; i < kLeafDim; ++i) {
+    for (int j = 0; j < kLeafDim; ++j) {
+      const float* p = block + ((i + kHalo) * kSide + j + kHalo) * kSide + kHalo;
+      float* out = square + 64 * i + 8 * j;
+      for (int k = 0; k < kLeafDim; ++k) {
+        const float m2 = p[k - 2 * stride], m1 = p[k - stride], c = p[k];
+        const float p1 = p[k + stride], p2 = p[k + 2 * stride];
+        const float below = m2 - 2.0f * m1 + c, here = m1 - 2.0f * c + p1, above = c - 2.0f * p1 + p2;
+        const float minus = c - m1 + 0.5f * minmod(here, below);
+        const float plus = p1 - c - 0.5f * minmod(here, above);
+        out[k] += upwindSquare(minus, plus, c < 0.0f);
+      }
+    }
+  }
+}
+
+// The same for one cell next to the surface: differences end at the surface, where phi is 0.
+float nearSlope(const float* p, const NearCell& cell) {
+  float square = 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int d = kStride[axis];
+    const float below = p[-2 * d] - 2.0f * p[-d] + p[0], here = p[-d] - 2.0f * p[0] + p[d],
+                above = p[0] - 2.0f * p[d] + p[2 * d];
+    const float left = cell.reach[2 * axis], right = cell.reach[2 * axis + 1];
+    const bool crossLeft = (p[0] < 0.0f) != (p[-d] < 0.0f), crossRight = (p[0] < 0.0f) != (p[d] < 0.0f);
+    const float minus = (crossLeft ? p[0] / left : p[0] - p[-d]) + 0.5f * left * minmod(here, below);
+    const float plus = (crossRight ? -p[0] / right : p[d] - p[0]) - 0.5f * right * minmod(here, above);
+    square += upwindSquare(minus, plus, p[0] < 0.0f);
+  }
+  return square;
+}
+
+enum CellKind : std::uint8_t { kRegular = 0, kHeld = 1 };
+
+struct LeafPlan {
+  std::vector<NearCell> near;
+  std::array<std::uint8_t, kLeafSize> kind;
+};
+
+LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h,
+                  bool keepNear) {
+  float block[kBlock] = {};
+  gather(phi, origin, kHalo, block, true);
+  LeafPlan plan{nearCells(block), {}};
+  float scratch[kLeafSize];
+  const float* solid = leafValues(solidPhi, origin, scratch);
+  for (int i = 0; i < kLeafSize; ++i) plan.kind[i] = solid[i] < -kDeepInSolid * h ? kHeld : kRegular;
+  for (const NearCell& cell : plan.near) {
+    if (keepNear) plan.kind[cell.offset] = kHeld;
+  }
+  std::erase_if(plan.near, [&](const NearCell& cell) { return plan.kind[cell.offset] == kHeld; });
+  return plan;
+}
+
+// One Euler step, to = from + dtau L(from); or, the second half of Heun's rule, the mean of that and of what
+// `to` was.
+void eulerStep(const FloatTree& from, FloatLeaf& to, const LeafPlan& plan, float h, float background,
+               bool average) {
+  float block[kBlock] = {};
+  gather(from, to.origin(), kHalo, block, true);
+  const float inverse = 1.0f / h;
+  for (float& value : block) value *= inverse;
+  float square[kLeafSize] = {};
+  for (int axis = 0; axis < 3; ++axis) addSlopes(block, kStride[axis], square);
+  float step[kLeafSize];
+  std::fill_n(step, kLeafSize, kCourant);
+  for (const NearCell& cell : plan.near) {
+    square[cell.offset] = nearSlope(block + blockIndex(cell.offset), cell);
+    step[cell.offset] = kCourant * *std::min_element(cell.reach.begin(), cell.reach.end());
+  }
+  float* out = to.buffer().data();
+  for (int i = 0; i < kLeafDim; ++i) {
+    for (int j = 0; j < kLeafDim; ++j) {
+      const float* p = block + ((i + kHalo) * kSide + j + kHalo) * kSide + kHalo;
+      const int row = 64 * i + 8 * j;
+      for (int k = 0; k < kLeafDim; ++k) {
+        const float now = p[k];
+        const float change = step[row + k] * (1.0f - std::sqrt(square[row + k]));
+        float next = h * (now + (now < 0.0f ? -change : change));
+        if (average) next = 0.5f * (next + out[row + k]);
+        next = std::clamp(next, -background, background);
+        // The sign never changes: that would be a surface made from nothing.
+        if ((next < 0.0f) != (now < 0.0f)) next = h * now;
+        out[row + k] = plan.kind[row + k] == kHeld ? out[row + k] : next;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, const ReinitOptions& options) {
+  const float h = static_cast<float>(phi.voxelSize()[0]);
+  const auto leaves = leavesOf(phi.tree());
+  std::vector<LeafPlan> plans(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    plans[n] = planLeaf(phi.constTree(), solidPhi.constTree(), leaves[n]->origin(), h, options.keepNear);
+  });
+  FloatTree predicted(phi.constTree());
+  const auto predictedLeaves = leavesOf(predicted);
+  for (int iteration = 0; iteration < options.iterations; ++iteration) {
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      eulerStep(phi.constTree(), *predictedLeaves[n], plans[n], h, phi.background(), false);
+    });
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      eulerStep(predicted, *leaves[n], plans[n], h, phi.background(), true);
+    });
+  }
+}
+
+double slopeError(const FloatGrid& phi, const FloatGrid& solidPhi) {
+  const float h = static_cast<float>(phi.voxelSize()[0]);
+  const auto leaves = leavesOf(phi.constTree());
+  std::vector<double> sums(leaves.size()), counts(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    const LeafPlan plan = planLeaf(phi.constTree(), solidPhi.constTree(), leaves[n]->origin(), h, false);
+    if (plan.near.empty()) return;
+    float block[kBlock] = {};
+    gather(phi.constTree(), leaves[n]->origin(), kHalo, block, true);
+    for (const NearCell& cell : plan.near) {
+      const float* p = block + blockIndex(cell.offset);
+      double square = 0.0;
+      for (const int d : kStride) square += 0.25 * (p[d] - p[-d]) * (p[d] - p[-d]);
+      const double error = std::sqrt(square) / h - 1.0;
+      sums[n] += error * error;
+      counts[n] += 1.0;
+    }
+  });
+  double sum = 0.0, count = 0.0;
+  for (std::size_t n = 0; n < leaves.size(); ++n) {
+    sum += sums[n];
+    count += counts[n];
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+}  // namespace fluidtex::sim

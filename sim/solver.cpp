@@ -1,0 +1,172 @@
+#include "sim/solver.h"
+
+#include "sim/advect_velocity.h"
+#include "sim/level_set.h"
+#include "sim/mac_grid.h"
+#include "sim/shapes.h"
+#include "sim/solids.h"
+#include "sim/step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace fluidtex::sim {
+namespace {
+
+// Half width of the textured surface's band, voxels.
+constexpr int kSurfaceBand = 5;
+// How often a step that fails is halved.
+constexpr int kMaxHalvings = 6;
+// Times closer than this share of a frame are one.
+constexpr double kSameTime = 1e-6;
+
+Liquid liquidOf(const State& state) {
+  return {state.phi, {{state.u, state.v, state.w}}};
+}
+
+void store(State& state, const Liquid& liquid) {
+  state.phi = liquid.phi;
+  state.u = liquid.velocity.component[0];
+  state.v = liquid.velocity.component[1];
+  state.w = liquid.velocity.component[2];
+}
+
+double frameTime(const Options& options, int frame) {
+  return (frame - 1) / options.frameRate;
+}
+
+// The longest step the CFL number allows. The second term stands for what gravity adds within one cell, so
+// that liquid at rest does not take a step of any length [Bridson, Fluid Simulation for Computer Graphics,
+// sec. 3.3].
+double longestStep(const Options& options, double fastest) {
+  const double h = options.voxelSize();
+  const double speed = fastest + std::sqrt(options.gravity.length() * h);
+  const double frame = 1.0 / options.frameRate;
+  return speed > 0.0 ? std::min(frame, std::min(options.cfl, kMaxTrace - 1.0) * h / speed) : frame;
+}
+
+[[noreturn]] void fail(double time, double dt, const PressureReport& report) {
+  std::ostringstream message;
+  message << "the simulation cannot go on at time " << time << " s: ";
+  if (report.converged) {
+    message << "a velocity is not finite";
+  } else {
+    message << "the pressure solve did not converge (relative residual " << report.residual << " after "
+            << report.iterations << " iterations)";
+  }
+  message << ", even with a step of " << dt << " s; a smaller cfl or a finer resolution may help";
+  throw SolverError(message.str());
+}
+
+}  // namespace
+
+Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_shared<Solids>(options)) {
+  const double h = options.voxelSize();
+  m_state.poured.assign(options.liquid.size(), false);
+  store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h)});
+  m_solid = m_solids->at(0.0);
+}
+
+Solver::Solver(const Options& options, State state)
+    : m_options(options), m_state(std::move(state)), m_solids(std::make_shared<Solids>(options)) {
+  m_state.poured.resize(options.liquid.size(), false);
+  m_solid = m_solids->at(m_state.time);
+}
+
+// Pours what is due and takes over solids that come or go at the present time.
+void Solver::applyEvents() {
+  const double now = m_state.time;
+  const auto solid = m_solids->at(now);
+  bool changed = m_state.frame == 0;
+  Liquid liquid{m_state.phi->deepCopy(), liquidOf(m_state).velocity};
+  if (solid != m_solid) {
+    changeSolids(liquid, *m_solid, *solid);
+    m_solid = solid;
+    changed = true;
+  }
+  for (std::size_t n = 0; n < m_options.liquid.size(); ++n) {
+    const LiquidBody& body = m_options.liquid[n];
+    if (m_state.poured[n] || body.from > now) continue;
+    const ShapeDistance distance(body.shape, m_options.voxelSize());
+    pour(
+        liquid, [&](const Vec3d& x) { return distance(x); }, body.velocity, *solid);
+    m_state.poured[n] = true;
+    changed = true;
+  }
+  if (!changed) return;
+  PressureReport report;
+  if (!settle(liquid, *solid, m_options, &report)) fail(now, 1.0 / m_options.frameRate, report);
+  store(m_state, liquid);
+}
+
+void Solver::advanceTo(double time, Frame& frame, const std::function<void(double)>& report) {
+  while (m_state.time < time) {
+    Liquid liquid = liquidOf(m_state);
+    if (isEmpty(liquid)) {
+      m_state.time = time;
+      return;
+    }
+    const double remaining = time - m_state.time;
+    const double longest = longestStep(m_options, maxAbs(liquid.velocity));
+    double dt = remaining / std::ceil(remaining / longest * (1.0 - kSameTime));
+    bool last = dt > (1.0 - kSameTime) * remaining;
+
+    PressureReport pressure;
+    std::optional<Liquid> next;
+    for (int halving = 0;; ++halving) {
+      next = step(liquid, *m_solid, dt, m_options, &pressure);
+      if (next) break;
+      if (halving == kMaxHalvings) fail(m_state.time, dt, pressure);
+      dt *= 0.5;
+      last = false;
+    }
+    const auto& [u, v, w] = liquid.velocity.component;
+    frame.substeps.push_back({dt, u, v, w});
+    FrameStats& stats = frame.stats;
+    stats.dtMin = stats.dtMin > 0.0 ? std::min(stats.dtMin, dt) : dt;
+    stats.pressureIterations += pressure.iterations;
+    stats.pressureResidual = std::max(stats.pressureResidual, pressure.residual);
+    store(m_state, *next);
+    m_state.time = last ? time : m_state.time + dt;
+    if (report) report(m_state.time);
+  }
+}
+
+Frame Solver::next(const std::function<void(double)>& progress) {
+  Frame frame;
+  frame.index = m_state.frame + 1;
+  frame.time = frameTime(m_options, frame.index);
+  const double start = m_state.time, length = 1.0 / m_options.frameRate, tolerance = kSameTime * length;
+  const auto report = [&](double time) {
+    if (progress) progress(std::clamp((time - start) / length, 0.0, 1.0));
+  };
+  if (m_state.frame == 0) {
+    applyEvents();
+  } else {
+    while (m_state.time < frame.time) {
+      double event = m_solids->nextChange(m_state.time);
+      for (std::size_t n = 0; n < m_options.liquid.size(); ++n) {
+        if (!m_state.poured[n]) event = std::min(event, m_options.liquid[n].from);
+      }
+      // An event within rounding of the frame's end belongs to that frame.
+      const double target = event < frame.time + tolerance ? event : frame.time;
+      if (target - m_state.time > tolerance) {
+        advanceTo(target, frame, report);
+      } else {
+        m_state.time = target;
+      }
+      if (target == event) applyEvents();
+      if (std::abs(m_state.time - frame.time) < tolerance) m_state.time = std::max(m_state.time, frame.time);
+    }
+  }
+  m_state.frame = frame.index;
+  frame.surfacePhi = visibleSurface(*m_state.phi, *m_solid, kSurfaceBand);
+  frame.solidPhi = m_solid->phi;
+  frame.stats.cells = liquidCells(*m_state.phi, *m_solid);
+  frame.stats.volume = liquidVolume(*m_state.phi, *m_solid);
+  report(start + length);
+  return frame;
+}
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,176 @@
+#include "sim/step.h"
+
+#include "sim/advect_velocity.h"
+#include "sim/extrapolate.h"
+#include "sim/leaf_table.h"
+#include "sim/level_set.h"
+
+#include <openvdb/tools/Morphology.h>
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::sim {
+namespace {
+
+// Layers of voxels outside the domain in which phi and velocity may have leaves.
+constexpr int kMargin = kLeafDim;
+
+double voxelSize(const Liquid& liquid) {
+  return liquid.phi->voxelSize()[0];
+}
+
+// Zero velocity with a topology for this phi: liquid, the band around it, and the first layers of solids
+// there.
+Velocity velocityFor(const FloatGrid& phi, const SolidField& solid) {
+  const auto origins = wetLeaves(phi, solid.cells, kMargin);
+  FloatTree topology(0.0f);
+  for (const Coord& origin : origins) topology.touchLeaf(origin);
+  const auto leaves = leavesOf(topology);
+  const float deepest = -kSolidLayers * static_cast<float>(phi.voxelSize()[0]);
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    float phiScratch[kLeafSize], solidScratch[kLeafSize];
+    const float* p = leafValues(phi.constTree(), leaves[n]->origin(), phiScratch);
+    const float* s = leafValues(solid.phi->constTree(), leaves[n]->origin(), solidScratch);
+    for (int i = 0; i < kLeafSize; ++i)
+      leaves[n]->setActiveState(i, p[i] < phi.background() && s[i] > deepest);
+  });
+  return makeVelocity(phi.voxelSize()[0], topology);
+}
+
+void addGravity(Velocity& velocity, const Vec3d& change) {
+  for (int a = 0; a < 3; ++a) {
+    const float add = static_cast<float>(change[a]);
+    const auto leaves = leavesOf(velocity.component[a]->tree());
+    if (add == 0.0f) continue;
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      for (auto it = leaves[n]->beginValueOn(); it; ++it) it.setValue(*it + add);
+    });
+  }
+}
+
+// From here on the surface knows where liquid has let go of a solid: there a gap opens, elsewhere it is
+// closed.
+void openGaps(FloatGrid& phi, const SolidField& solid, const openvdb::MaskGrid& separating) {
+  if (!separating.empty()) {
+    // The cut reaches the cells beside those that let go; leaves are needed as deep as stencils reach.
+    openvdb::MaskGrid around(separating);
+    openvdb::tools::dilateActiveValues(around.tree(), 1, openvdb::tools::NN_FACE);
+    cutSolids(phi, *solid.phi, around);
+    openvdb::tools::dilateActiveValues(around.tree(), 3, openvdb::tools::NN_FACE);
+    for (auto leaf = around.constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
+  }
+  extendIntoSolids(phi, *solid.phi, [&](const Coord& ijk) { return separating.constTree().isValueOn(ijk); });
+  trimBand(phi, *solid.phi);
+}
+
+bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& options,
+             PressureReport* report) {
+  PressureOptions pressure;
+  pressure.suction = 0.1 * options.density * options.gravity.length() * voxelSize(liquid);
+  auto& [u, v, w] = liquid.velocity.component;
+  const Projection projection = project(*u, *v, *w, *liquid.phi, solid, dt, options.density, pressure);
+  if (report != nullptr) *report = projection.report;
+  if (!projection.report.converged) return false;
+  extrapolate(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
+  constrainToSolids(*u, *v, *w, *liquid.phi, solid, projection.valid, *projection.separating);
+  openGaps(*liquid.phi, solid, *projection.separating);
+  return std::isfinite(maxAbs(liquid.velocity));
+}
+
+}  // namespace
+
+int bandWidth(double cfl) {
+  return std::max(6, static_cast<int>(std::ceil(std::min(cfl, kMaxTrace))) + 4);
+}
+
+bool isEmpty(const Liquid& liquid) {
+  return liquid.phi->empty();
+}
+
+std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, const Options& options,
+                           PressureReport* report) {
+  Liquid next{liquid.phi->deepCopy(), {}};
+  advectPhi(*next.phi, liquid.velocity, dt);
+  extendIntoSolids(*next.phi, *solid.phi);
+  reinitialize(*next.phi, *solid.phi);
+  trimBand(*next.phi, *solid.phi);
+
+  next.velocity = velocityFor(*next.phi, solid);
+  advectVelocity(liquid.velocity, next.velocity, *liquid.phi, *next.phi, dt);
+  addGravity(next.velocity, options.gravity * dt);
+  if (!project(next, solid, dt, options, report)) return std::nullopt;
+  return next;
+}
+
+void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, const Vec3d& velocity,
+          const SolidField& solid) {
+  unite(*liquid.phi, distance, solid.cells, kMargin);
+  const Velocity before = liquid.velocity;
+  liquid.velocity = velocityFor(*liquid.phi, solid);
+  const double h = voxelSize(liquid);
+  for (int a = 0; a < 3; ++a) {
+    FloatGrid& grid = *liquid.velocity.component[a];
+    const auto leaves = leavesOf(grid.tree());
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      FloatLeaf& leaf = *leaves[n];
+      float scratch[kLeafSize];
+      const float* was = leafValues(before.component[a]->constTree(), leaf.origin(), scratch);
+      for (auto it = leaf.beginValueOn(); it; ++it) {
+        // Faces of the body's cells: within half a cell of it.
+        const bool inBody = distance(grid.indexToWorld(it.getCoord())) < 0.5 * h;
+        it.setValue(inBody ? static_cast<float>(velocity[a]) : was[it.pos()]);
+      }
+    });
+  }
+}
+
+void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& after) {
+  const float h = static_cast<float>(voxelSize(liquid));
+  openvdb::MaskGrid left;
+  for (const Coord& origin : wetLeaves(*liquid.phi, after.cells, 0)) {
+    float beforeScratch[kLeafSize], afterScratch[kLeafSize];
+    const float* was = leafValues(before.phi->constTree(), origin, beforeScratch);
+    const float* is = leafValues(after.phi->constTree(), origin, afterScratch);
+    for (int i = 0; i < kLeafSize; ++i) {
+      if (was[i] < h && is[i] > was[i]) left.tree().setValueOn(origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7));
+    }
+  }
+  cutSolids(*liquid.phi, *before.phi, left);
+}
+
+bool settle(Liquid& liquid, const SolidField& solid, const Options& options, PressureReport* report) {
+  FloatGrid& phi = *liquid.phi;
+  for (const Coord& origin : wetLeaves(phi, solid.cells, kMargin)) phi.tree().touchLeaf(origin);
+  for (auto leaf = solid.phi->constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
+  // A body that ends at a wall has its surface there; extending and reinitialising in turn makes it go on
+  // behind.
+  const double reachPerIteration = 0.45;
+  constexpr int kIterations = 4;
+  const int rounds =
+      static_cast<int>(phi.background() / (voxelSize(liquid) * reachPerIteration * kIterations)) + 2;
+  const LetGo never = [](const Coord&) { return false; };
+  for (int n = 0; n < rounds; ++n) {
+    extendIntoSolids(phi, *solid.phi, never);
+    reinitialize(phi, *solid.phi, {.iterations = kIterations});
+  }
+  extendIntoSolids(phi, *solid.phi, never);
+  trimBand(phi, *solid.phi);
+
+  const Velocity before = liquid.velocity;
+  liquid.velocity = velocityFor(phi, solid);
+  for (int a = 0; a < 3; ++a) {
+    const auto leaves = leavesOf(liquid.velocity.component[a]->tree());
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      float scratch[kLeafSize];
+      const float* was = leafValues(before.component[a]->constTree(), leaves[n]->origin(), scratch);
+      for (auto it = leaves[n]->beginValueOn(); it; ++it) it.setValue(was[it.pos()]);
+    });
+  }
+  if (isEmpty(liquid)) return true;
+  return project(liquid, solid, 1.0 / options.frameRate, options, report);
+}
+
+}  // namespace fluidtex::sim

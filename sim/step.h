@@ -1,0 +1,43 @@
+// One substep of the liquid, and the two other ways in which a state comes about: pouring, and a change of
+// solids.
+#pragma once
+
+#include "sim/mac_grid.h"
+#include "sim/pressure.h"
+#include "sim/solids.h"
+
+#include <functional>
+#include <optional>
+
+namespace fluidtex::sim {
+
+// phi and the velocity that belongs to it: projected, extrapolated, at rest relative to solids.
+struct Liquid {
+  FloatGrid::Ptr phi;
+  Velocity velocity;
+};
+
+// Half the width of phi's band in voxels, for steps of at most `cfl` cells.
+int bandWidth(double cfl);
+
+// Whether there is any.
+bool isEmpty(const Liquid& liquid);
+
+// The liquid dt seconds later. Nothing when the pressure solve does not converge or a velocity is not finite:
+// try a smaller dt. `report`, where given, is filled either way.
+std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, const Options& options,
+                           PressureReport* report = nullptr);
+
+// Adds liquid where distance(x) < 0, of that velocity. The velocity of the whole is projected by settle().
+void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, const Vec3d& velocity,
+          const SolidField& solid);
+
+// Empties the places that solids leave when `before` turns into `after`.
+void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& after);
+
+// Makes phi a distance and the velocity free of divergence after pouring or a change of solids. False when
+// the pressure solve does not converge.
+[[nodiscard]] bool settle(Liquid& liquid, const SolidField& solid, const Options& options,
+                          PressureReport* report = nullptr);
+
+}  // namespace fluidtex::sim
