@@ -1,0 +1,146 @@
+#include "transport/velocity_sampler.h"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace fluidtex::transport {
+namespace {
+
+using openvdb::Coord;
+
+// Bits of a leaf's value mask: one 64-bit word per x, bit 8 y + z. These four are (y, z), (y, z+1), (y+1, z),
+// (y+1, z+1).
+constexpr std::uint64_t kSquare = 0x303;
+
+}  // namespace
+
+VelocitySampler::VelocitySampler(const sim::Substep& substep) {
+  const std::array<openvdb::FloatGrid::ConstPtr, 3> grids{substep.u, substep.v, substep.w};
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    Component& component = m_components[axis];
+    component.grid = grids[axis];
+    if (!component.grid) continue;
+    const openvdb::math::Transform& transform = component.grid->transform();
+    if (!transform.isLinear()) throw std::invalid_argument("velocity grid: its transform is not linear");
+    const Vec3d origin = transform.worldToIndex(Vec3d(0.0));
+    for (int j = 0; j < 3; ++j) {
+      Vec3d unit(0.0);
+      unit[j] = 1.0;
+      const Vec3d image = transform.worldToIndex(unit) - origin;
+      for (int i = 0; i < 3; ++i) {
+        if (i != j && std::abs(image[i]) > 1e-9 * std::abs(image[j])) {
+          throw std::invalid_argument("velocity grid: its transform turns or shears");
+        }
+      }
+      component.scale[j] = image[j];
+      smallest = std::min(smallest, 1.0 / std::abs(image[j]));
+    }
+    component.shift = origin;
+    component.accessor =
+        std::make_unique<openvdb::FloatGrid::ConstAccessor>(component.grid->getConstAccessor());
+  }
+  m_voxelSize = std::isfinite(smallest) ? smallest : 0.0;
+}
+
+void VelocitySampler::fetch(Component& component, unsigned which) {
+  Leaves& near = component.near;
+  const Coord corner = near.origin + Coord(which & 4 ? 8 : 0, which & 2 ? 8 : 0, which & 1 ? 8 : 0);
+  near.leaf[which] = component.accessor->probeConstLeaf(corner);
+  near.values[which] = near.leaf[which] ? near.leaf[which]->buffer().data() : nullptr;
+  near.fetched |= 1u << which;
+}
+
+unsigned VelocitySampler::valuesAround(Component& component, const Coord& lower,
+                                       std::array<double, 8>& values) {
+  Leaves& near = component.near;
+  const Coord origin(lower.x() & ~7, lower.y() & ~7, lower.z() & ~7);
+  if (origin != near.origin) {
+    near.origin = origin;
+    near.fetched = 0;
+  }
+  const unsigned i = lower.x() & 7, j = lower.y() & 7, k = lower.z() & 7;
+  if (i < 7 && j < 7 && k < 7) {
+    if (!(near.fetched & 1u)) fetch(component, 0);
+    if (const Leaf* leaf = near.leaf[0]) {
+      const std::uint64_t square = kSquare << (8 * j + k);
+      const bool active = (leaf->valueMask().getWord<std::uint64_t>(i) & square) == square &&
+                          (leaf->valueMask().getWord<std::uint64_t>(i + 1) & square) == square;
+      if (active) {
+        const float* corner = near.values[0] + (64 * i + 8 * j + k);
+        values = {corner[0], corner[1], corner[8], corner[9], corner[64], corner[65], corner[72], corner[73]};
+        return 0xffu;
+      }
+    }
+  }
+  unsigned active = 0;
+  for (unsigned tap = 0; tap < 8; ++tap) {
+    const unsigned x = i + (tap >> 2), y = j + ((tap >> 1) & 1), z = k + (tap & 1);
+    const unsigned which = ((x >> 3) << 2) | ((y >> 3) << 1) | (z >> 3);
+    if (!(near.fetched & (1u << which))) fetch(component, which);
+    const unsigned offset = 64 * (x & 7) + 8 * (y & 7) + (z & 7);
+    if (const Leaf* leaf = near.leaf[which]) {
+      values[tap] = near.values[which][offset];
+      active |= unsigned(leaf->isValueOn(offset)) << tap;
+    } else {
+      float tile = 0.0f;
+      active |= unsigned(component.accessor->probeValue(origin + Coord(int(x), int(y), int(z)), tile)) << tap;
+      values[tap] = tile;
+    }
+  }
+  return active;
+}
+
+template <bool kGradient>
+double VelocitySampler::sampleComponent(Component& component, const Vec3d& x, double& value,
+                                        Vec3d& gradient) {
+  if (!component.grid) return 0.0;
+  const Vec3d index = component.scale * x + component.shift;
+  const Vec3d floor(std::floor(index.x()), std::floor(index.y()), std::floor(index.z()));
+  const double fx = index.x() - floor.x(), fy = index.y() - floor.y(), fz = index.z() - floor.z();
+  std::array<double, 8> c;
+  const unsigned active = valuesAround(component, Coord(int(floor.x()), int(floor.y()), int(floor.z())), c);
+  if (active == 0) return 0.0;
+  double known = 1.0;
+  if (active != 0xffu) {
+    double mean = 0.0;
+    for (unsigned tap = 0; tap < 8; ++tap) mean += active >> tap & 1 ? c[tap] : 0.0;
+    mean /= std::popcount(active);
+    for (unsigned tap = 0; tap < 8; ++tap) c[tap] = active >> tap & 1 ? c[tap] : mean;
+    known = std::popcount(active) / 8.0;
+  }
+  const double c00 = c[0] + fz * (c[1] - c[0]), c01 = c[2] + fz * (c[3] - c[2]);
+  const double c10 = c[4] + fz * (c[5] - c[4]), c11 = c[6] + fz * (c[7] - c[6]);
+  const double c0 = c00 + fy * (c01 - c00), c1 = c10 + fy * (c11 - c10);
+  value = c0 + fx * (c1 - c0);
+  if constexpr (kGradient) {
+    const double dz0 = (c[1] - c[0]) + fy * ((c[3] - c[2]) - (c[1] - c[0]));
+    const double dz1 = (c[5] - c[4]) + fy * ((c[7] - c[6]) - (c[5] - c[4]));
+    gradient = component.scale *
+               Vec3d(c1 - c0, (c01 - c00) + fx * ((c11 - c10) - (c01 - c00)), dz0 + fx * (dz1 - dz0));
+  }
+  return known;
+}
+
+template <bool kGradient>
+VelocitySample VelocitySampler::sample(const Vec3d& x) {
+  VelocitySample result;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3d row(0.0);
+    result.known += sampleComponent<kGradient>(m_components[axis], x, result.velocity[axis], row) / 3.0;
+    if constexpr (kGradient) result.gradient.setRow(axis, row);
+  }
+  return result;
+}
+
+VelocitySample VelocitySampler::velocity(const Vec3d& x) {
+  return sample<false>(x);
+}
+
+VelocitySample VelocitySampler::velocityAndGradient(const Vec3d& x) {
+  return sample<true>(x);
+}
+
+}  // namespace fluidtex::transport

@@ -1,0 +1,65 @@
+// Trilinear velocity and velocity gradient from the staggered grids of one substep.
+#pragma once
+
+#include "sim/frame.h"
+
+#include <array>
+
+namespace fluidtex::transport {
+
+using openvdb::Mat3d;
+using openvdb::Vec3d;
+
+struct VelocitySample {
+  Vec3d velocity{0.0};  // m/s
+  Mat3d gradient;       // gradient[i][j] = d u_i / d x_j, 1/s; only where asked for
+  double known = 0.0;   // share of the values around that are active in their grid, 0..1
+};
+
+// Reads the grids in place, each component through its own transform, leaf by leaf. Where some of the values
+// around a position are inactive the mean of the others stands for them; where all are, the velocity is zero.
+// Remembers the last leaves, so that neighbouring positions are cheap: make one for each thread.
+class VelocitySampler {
+ public:
+  // Throws std::invalid_argument if a grid's transform is not a scaling (one factor per axis) and a shift.
+  // A grid that is null counts as inactive everywhere.
+  explicit VelocitySampler(const sim::Substep& substep);
+
+  VelocitySample velocity(const Vec3d& x);
+  VelocitySample velocityAndGradient(const Vec3d& x);
+
+  double voxelSize() const {
+    return m_voxelSize;
+  }  // smallest over axes and components, metres; 0 without grids
+
+ private:
+  using Leaf = openvdb::FloatTree::LeafNodeType;
+  // The leaf that holds a position's lower corner, and its seven neighbours in the direction of the upper
+  // one.
+  struct Leaves {
+    openvdb::Coord origin = openvdb::Coord::max();
+    std::array<const Leaf*, 8> leaf{};
+    std::array<const float*, 8> values{};
+    unsigned fetched = 0;  // bit i: leaf[i] has been looked up
+  };
+  struct Component {
+    openvdb::FloatGrid::ConstPtr grid;
+    std::unique_ptr<openvdb::FloatGrid::ConstAccessor> accessor;
+    Vec3d scale{0.0}, shift{0.0};  // index = scale * x + shift
+    Leaves near;
+  };
+
+  static void fetch(Component& component, unsigned which);
+  // The eight values around, [4 dx + 2 dy + dz]; the same bit of the result is set where the value is active.
+  static unsigned valuesAround(Component& component, const openvdb::Coord& lower,
+                               std::array<double, 8>& values);
+  template <bool kGradient>
+  static double sampleComponent(Component& component, const Vec3d& x, double& value, Vec3d& gradient);
+  template <bool kGradient>
+  VelocitySample sample(const Vec3d& x);
+
+  std::array<Component, 3> m_components;
+  double m_voxelSize = 0.0;
+};
+
+}  // namespace fluidtex::transport
