@@ -23,32 +23,6 @@ void forEachVertex(std::size_t count, const Body& body) {
                     });
 }
 
-// On a toroidal exemplar positions differ by whole turns without meaning it.
-Vec2f difference(const TexelImage& image, const Vec2f& a, const Vec2f& b) {
-  Vec2f d = a - b;
-  if (image.toroidal) {
-    d[0] -= float(image.width) * std::round(d[0] / float(image.width));
-    d[1] -= float(image.height) * std::round(d[1] / float(image.height));
-  }
-  return d;
-}
-
-// A label moved to another vertex: `l` and `rotation` as in Connection, from the new vertex to the old one.
-Label moved(const TexelImage& image, const Label& label, const Complexf& l, const Complexf& rotation) {
-  // l lies in the new vertex's axes; in the old one's it is conj(rotation) * l, and the way back is its
-  // negative.
-  Label result;
-  result.texel = image.brought(label.at(-conjugateProduct(rotation, l)));
-  const std::array<float, 4>& j = label.jacobian;
-  const float c = rotation.real(), s = -rotation.imag();  // conj(rotation) as the matrix (c, -s; s, c)
-  result.jacobian = {j[0] * c + j[1] * s, j[1] * c - j[0] * s, j[2] * c + j[3] * s, j[3] * c - j[2] * s};
-  return result;
-}
-
-float length(const Float8& value, const Float8& weight) {
-  return std::sqrt(sum8(weight * value * value));
-}
-
 }  // namespace
 
 Label unstretched(const Vec2f& texel, const Complexf& turn) {
@@ -189,70 +163,23 @@ Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const Surfa
   return result;
 }
 
-float disagreement(const MeshView& view, const TexelImage& image, const Labels& labels, std::uint32_t v,
-                   std::uint32_t h) {
-  const std::uint32_t u = view.graph.neighbor[h];
-  const Complexf& edge = view.connection.edge[h];
-  const Complexf back = -conjugateProduct(view.connection.rotation[h], edge);
-  const float here = difference(image, labels[v].at(edge), labels[u].texel).length();
-  const float there = difference(image, labels[u].at(back), labels[v].texel).length();
-  return 0.5f * (here + there);
-}
-
-std::vector<float> seamContrast(const MeshView& view, const TexelImage& image, const Labels& labels,
-                                const Float8& channelWeight) {
-  std::vector<float> contrast(labels.size());
-  forEachVertex(labels.size(), [&](std::uint32_t v) {
-    float sum = 0.0f;
-    const Float8 own = image.sample(labels[v].texel);
-    for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
-      if (disagreement(view, image, labels, v, h) < kCoherent) continue;
-      const std::uint32_t u = view.graph.neighbor[h];
-      const Complexf& edge = view.connection.edge[h];
-      const Complexf back = -conjugateProduct(view.connection.rotation[h], edge);
-      sum += 0.5f * (length(image.sample(labels[v].at(edge)) - image.sample(labels[u].texel), channelWeight) +
-                     length(image.sample(labels[u].at(back)) - own, channelWeight));
-    }
-    contrast[v] = sum / float(view.graph.around(v).size());
-  });
-  return contrast;
-}
-
-std::size_t despeckle(const MeshView& view, const TexelImage& image, Labels& labels,
-                      const std::vector<std::uint8_t>& free, int least, int sweeps) {
-  const std::size_t count = labels.size();
-  std::vector<std::uint8_t> everChanged(count, 0);
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    Labels next = labels;
-    std::vector<std::uint8_t> changed(count, 0);
-    forEachVertex(count, [&](std::uint32_t v) {
-      if (!free.empty() && !free[v]) return;
-      const std::uint32_t begin = view.graph.first[v], end = view.graph.first[v + 1];
-      const auto agreeing = [&](const Label& label) {
-        int votes = 0;
-        for (std::uint32_t h = begin; h < end; ++h) {
-          const Label other = moved(image, labels[view.graph.neighbor[h]], view.connection.edge[h],
-                                    view.connection.rotation[h]);
-          votes += difference(image, other.texel, label.texel).length() < kCoherent;
-        }
-        return votes;
-      };
-      const int own = agreeing(labels[v]);
-      if (own >= least) return;
-      int most = own;
-      for (std::uint32_t h = begin; h < end; ++h) {
-        const Label other = moved(image, labels[view.graph.neighbor[h]], view.connection.edge[h],
-                                  view.connection.rotation[h]);
-        const int votes = agreeing(other);
-        if (votes > std::max(most, 1)) most = votes, next[v] = other, changed[v] = 1;
-      }
-    });
-    labels.swap(next);
-    std::size_t found = 0;
-    for (std::size_t v = 0; v < count; ++v) found += changed[v], everChanged[v] |= changed[v];
-    if (found == 0) break;
+Vec2f texelDifference(const TexelImage& image, const Vec2f& a, const Vec2f& b) {
+  Vec2f d = a - b;
+  if (image.toroidal) {
+    d[0] -= float(image.width) * std::round(d[0] / float(image.width));
+    d[1] -= float(image.height) * std::round(d[1] / float(image.height));
   }
-  return std::size_t(std::count(everChanged.begin(), everChanged.end(), 1));
+  return d;
+}
+
+Label continued(const TexelImage& image, const Label& label, const Complexf& edge, const Complexf& rotation) {
+  // In the label's own axes the edge is conj(rotation) * edge; the way to the neighbour is its negative.
+  Label result;
+  result.texel = image.brought(label.at(-conjugateProduct(rotation, edge)));
+  const std::array<float, 4>& j = label.jacobian;
+  const float c = rotation.real(), s = -rotation.imag();  // conj(rotation) as the matrix (c, -s; s, c)
+  result.jacobian = {j[0] * c + j[1] * s, j[1] * c - j[0] * s, j[2] * c + j[3] * s, j[3] * c - j[2] * s};
+  return result;
 }
 
 }  // namespace fluidtex::texture

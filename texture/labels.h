@@ -48,24 +48,15 @@ Labels blockLabels(const MeshView& view, const TexelImage& image, float size, st
 Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const SurfaceMesh& fine,
                     const TexelImage& fineImage);
 
-// What two neighbouring labels, at v and over its edge h, disagree on: the distance in texels between what
-// each puts at the other's place (the mean of both ends).
-float disagreement(const MeshView& view, const TexelImage& image, const Labels& labels, std::uint32_t v,
-                   std::uint32_t h);
+// a - b; on an exemplar that wraps, positions differ by whole turns without meaning it.
+Vec2f texelDifference(const TexelImage& image, const Vec2f& a, const Vec2f& b);
 
-// Below this disagreement, in texels, two labels continue each other.
+// A label continued to a neighbouring vertex; `edge` and `rotation` are that vertex's, towards the label's
+// own.
+Label continued(const TexelImage& image, const Label& label, const Complexf& edge, const Complexf& rotation);
+
+// Two labels continue each other where each puts, at the other's place, a texel this near to the other's (the
+// mean of both).
 inline constexpr float kCoherent = 0.75f;
-
-// Mean visible difference at each vertex's seams: over its edges, zero where the labels continue each other,
-// else |A(v) - B(v)| + |A(u) - B(u)| halved, A and B being what the two labels put at a place; channels
-// weighted, not squared (then it is a metric [Kwatra03]).
-std::vector<float> seamContrast(const MeshView& view, const TexelImage& image, const Labels& labels,
-                                const Float8& channelWeight);
-
-// Each free vertex (free empty: all) that fewer than `least` neighbours agree with takes the label that most
-// of its neighbours would give it, if that is more than its own have. Repeated `sweeps` times. Returns how
-// many changed.
-std::size_t despeckle(const MeshView& view, const TexelImage& image, Labels& labels,
-                      const std::vector<std::uint8_t>& free, int least, int sweeps);
 
 }  // namespace fluidtex::texture

@@ -12,14 +12,11 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr float kSeamWeight = 1.5f;
+constexpr float kSeamWeight = 0.75f;
 constexpr float kLostStretch = 4.0f;
 constexpr float kLowTrust = 0.3f;
 constexpr float kSameTexel = 0.7f;  // a proposal this near to the carried texel says the same
-// A seam is bad where its badness, averaged over a few rings, exceeds that of texture stretched
-// kSeamTolerance times as much (in the logarithm) as is kept.
-constexpr float kSeamTolerance = 1.0f;
-constexpr int kSeamBlurSweeps = 4;
+constexpr int kBlurSweeps = 8;      // badness is averaged over about this many edges' reach in all
 
 template <typename Body>
 void forEachVertex(std::size_t count, const Body& body) {
@@ -40,46 +37,47 @@ float stretchBadness(const TexelImage& image, const Label& label, float trust) {
   return lost(image, label, trust) ? std::max(amount, std::log(kLostStretch)) : amount;
 }
 
-std::vector<float> seamBadness(const MeshView& view, const TexelImage& image, const Labels& labels,
-                               const Float8& channelWeight) {
-  std::vector<float> result = seamContrast(view, image, labels, channelWeight);
-  const float scale = kSeamWeight / std::max(randomDifference(image, channelWeight), 1e-6f);
-  for (float& value : result) value *= scale;
-  return result;
+// Smooth noise in 0..1 over the exemplar: random values at the corners of a grid, interpolated.
+float noiseAt(const Vec2f& texel, std::uint64_t seed) {
+  constexpr float kCell = 24.0f;  // texels
+  const float x = texel[0] / kCell, y = texel[1] / kCell;
+  const float i = std::floor(x), j = std::floor(y);
+  const auto corner = [&](int di, int dj) {
+    return float(randomUnit(
+        seed, randomBits(std::uint64_t(std::int64_t(i) + di), std::uint64_t(std::int64_t(j) + dj))));
+  };
+  const float above = corner(0, 0) + (x - i) * (corner(1, 0) - corner(0, 0));
+  const float below = corner(0, 1) + (x - i) * (corner(1, 1) - corner(0, 1));
+  return above + (y - j) * (below - above);
 }
 
 }  // namespace
 
-std::vector<float> badness(const MeshView& view, const TexelImage& image, const Labels& labels,
-                           const std::vector<float>& trust, const Float8& channelWeight) {
-  std::vector<float> result = seamBadness(view, image, labels, channelWeight);
-  forEachVertex(result.size(),
-                [&](std::uint32_t v) { result[v] += stretchBadness(image, labels[v], trust[v]); });
+std::vector<float> badness(const SeamModel& model, const Labels& labels, const std::vector<float>& trust) {
+  std::vector<float> result = seamCosts(model, labels);
+  forEachVertex(result.size(), [&](std::uint32_t v) {
+    result[v] = kSeamWeight * result[v] + stretchBadness(model.image, labels[v], trust[v]);
+  });
   return result;
 }
 
-std::vector<std::uint8_t> worthRenewing(const MeshView& view, const TexelImage& image, const Labels& labels,
-                                        const std::vector<float>& trust, const Float8& channelWeight,
-                                        double keepStretch, std::uint64_t seed) {
-  std::vector<float> seams = seamBadness(view, image, labels, channelWeight), blurred(seams.size());
-  for (int sweep = 0; sweep < kSeamBlurSweeps; ++sweep) {
-    forEachVertex(seams.size(), [&](std::uint32_t v) {
-      float sum = seams[v];
-      const auto around = view.graph.around(v);
-      for (const std::uint32_t u : around) sum += seams[u];
+std::vector<std::uint8_t> worthRenewing(const SeamModel& model, const Labels& labels,
+                                        const std::vector<float>& trust, double keepStretch,
+                                        std::uint64_t seed) {
+  std::vector<float> bad = badness(model, labels, trust), blurred(bad.size());
+  for (int sweep = 0; sweep < kBlurSweeps; ++sweep) {
+    forEachVertex(bad.size(), [&](std::uint32_t v) {
+      float sum = bad[v];
+      const auto around = model.view.graph.around(v);
+      for (const std::uint32_t u : around) sum += bad[u];
       blurred[v] = sum / float(around.size() + 1);
     });
-    seams.swap(blurred);
+    bad.swap(blurred);
   }
   const auto kept = float(std::log(keepStretch));
   std::vector<std::uint8_t> result(labels.size());
   forEachVertex(labels.size(), [&](std::uint32_t v) {
-    constexpr float kCell = 12.0f;  // texels
-    const auto column = std::uint64_t(std::int64_t(std::floor(labels[v].texel[0] / kCell)));
-    const auto row = std::uint64_t(std::int64_t(std::floor(labels[v].texel[1] / kCell)));
-    const auto jitter = float(0.8 + 0.4 * randomUnit(seed, randomBits(column, row)));
-    result[v] =
-        stretchBadness(image, labels[v], trust[v]) > kept * jitter || seams[v] > kSeamTolerance * kept;
+    result[v] = bad[v] > kept * (0.8f + 0.4f * noiseAt(labels[v].texel, seed));
   });
   return result;
 }
@@ -96,14 +94,13 @@ std::vector<std::uint8_t> grown(const VertexGraph& graph, std::vector<std::uint8
   return mask;
 }
 
-Labels settle(const MeshView& view, const TexelImage& image, const Labels& carried, const Labels& proposed,
-              const std::vector<float>& trust, const Float8& channelWeight,
-              std::vector<std::uint8_t>& renewed) {
+Labels settle(const SeamModel& model, const Labels& carried, const Labels& proposed,
+              const std::vector<float>& trust, std::vector<std::uint8_t>& renewed) {
   const std::size_t count = carried.size();
   Labels result = carried;
   renewed.assign(count, 0);
   forEachVertex(count, [&](std::uint32_t v) {
-    const Vec2f difference = proposed[v].texel - carried[v].texel;
+    const Vec2f difference = texelDifference(model.image, proposed[v].texel, carried[v].texel);
     if (difference.lengthSqr() <= kSameTexel * kSameTexel &&
         stretch(carried[v]) <= stretch(proposed[v]) + 0.05f)
       return;
@@ -111,9 +108,9 @@ Labels settle(const MeshView& view, const TexelImage& image, const Labels& carri
     result[v] = proposed[v];
   });
 
-  const std::vector<float> before = badness(view, image, carried, trust, channelWeight);
+  const std::vector<float> before = badness(model, carried, trust);
   const std::vector<float> trusted(count, 1.0f);  // what is proposed does not depend on what was carried
-  const std::vector<float> after = badness(view, image, result, trusted, channelWeight);
+  const std::vector<float> after = badness(model, result, trusted);
   std::vector<std::uint8_t> seen(count, 0);
   std::vector<std::uint32_t> piece;
   for (std::uint32_t start = 0; start < count; ++start) {
@@ -123,7 +120,7 @@ Labels settle(const MeshView& view, const TexelImage& image, const Labels& carri
     double change = 0.0;
     for (std::size_t i = 0; i < piece.size(); ++i) {
       change += double(after[piece[i]]) - double(before[piece[i]]);
-      for (const std::uint32_t u : view.graph.around(piece[i])) {
+      for (const std::uint32_t u : model.view.graph.around(piece[i])) {
         if (!renewed[u]) continue;
         if (!seen[u]) seen[u] = 1, piece.push_back(u);
       }

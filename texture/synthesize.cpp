@@ -33,9 +33,10 @@ constexpr float kBlockSize = 64.0f;
 constexpr int kCoarseIterations = 3;
 // Around what is worth renewing, this many rings may change with it, so that seams find a place.
 constexpr int kRenewalRim = 3;
-// A label that fewer of the about six neighbours agree with is a speck.
-constexpr int kLeastAgreeing = 2;
-constexpr int kDespeckleSweeps = 3;
+// How near straightened seams stay to the last average, on the first frame and later.
+constexpr float kFirstData = 0.15f, kLaterData = 0.4f;
+constexpr float kStretchCost = 1.0f;
+constexpr int kSeamSweeps = 8;
 
 using Progress = std::function<void(double)>;
 
@@ -170,7 +171,8 @@ State synthesizeFirst(Synthesizer& synthesizer, const Surface& surface, int fram
               });
     done += share;
     if (synthesizer.options.method == Method::coordinates)
-      despeckle(level.view, image, state.labels, {}, kLeastAgreeing, kDespeckleSweeps);
+      straightenSeams(makeSeamModel(level.view, image, seamChannels(synthesizer)),
+                      {kStretchCost, kFirstData, &state.average}, {}, nullptr, kSeamSweeps, state.labels);
   }
   return state;
 }
@@ -180,24 +182,25 @@ State synthesizeLater(Synthesizer& synthesizer, const MeshView& view, const Carr
                       std::vector<std::uint8_t>& renewed, SynthesisStats& stats, const Progress& progress) {
   const SynthesisOptions& options = synthesizer.options;
   const TexelImage& image = synthesizer.tables->image.front();
-  const Float8 seen = seamChannels(synthesizer);
+  const SeamModel seams = makeSeamModel(view, image, seamChannels(synthesizer));
   const Labels before = labelsOf(view.mesh, carried.coordinate, carried.gradient);
   renewed.assign(before.size(), 0);
 
   State state;
   state.labels = before;
   Level level{view, image, synthesizer.tables->histogram.front(), {}, {}};
-  level.wanted = grown(
-      view.graph, worthRenewing(view, image, before, carried.trust, seen, options.keepStretch, options.seed),
-      kRenewalRim);
+  level.wanted =
+      grown(view.graph, worthRenewing(seams, before, carried.trust, options.keepStretch, options.seed),
+            kRenewalRim);
   if (std::find(level.wanted.begin(), level.wanted.end(), 1) == level.wanted.end()) return state;
 
   state.value = lookUp(image, before);
   level.constraint.value = state.value;
   level.constraint.weight = constraintWeights(view, state.value, carried.trust, options.softConstraint);
   runPasses(synthesizer, level, 0, frame, options.laterIterations, 1, false, state, stats, progress);
-  despeckle(view, image, state.labels, level.wanted, kLeastAgreeing, kDespeckleSweeps);
-  state.labels = settle(view, image, before, state.labels, carried.trust, seen, renewed);
+  straightenSeams(seams, {kStretchCost, kLaterData, &state.average}, level.wanted, &before, kSeamSweeps,
+                  state.labels);
+  state.labels = settle(seams, before, state.labels, carried.trust, renewed);
   return state;
 }
 
