@@ -1,0 +1,143 @@
+// Seam cost after Kwatra, Schoedl, Essa, Turk, Bobick: Graphcut Textures (2003); minimised vertex by vertex
+// (iterated conditional modes).
+#include "texture/seams.h"
+
+#include "texture/complex.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::texture {
+namespace {
+
+template <typename Body>
+void forEach(std::size_t count, const Body& body) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 256),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i != range.end(); ++i) body(std::uint32_t(i));
+                    });
+}
+
+float length(const Float8& difference, const Float8& weight) {
+  return std::sqrt(sum8(weight * difference * difference));
+}
+
+float ownCost(const SeamModel& model, const LabelTerms& terms, const Label& label, std::uint32_t v) {
+  float cost = terms.stretch * std::log(stretch(label));
+  if (terms.wanted)
+    cost += terms.data * length(model.image.sample(label.texel) - (*terms.wanted)[v], model.channelWeight) /
+            model.unit;
+  return cost;
+}
+
+// The free vertices by colour, no two neighbours in one.
+std::vector<std::vector<std::uint32_t>> colored(const VertexGraph& graph,
+                                                const std::vector<std::uint8_t>& free) {
+  const std::size_t count = graph.first.size() - 1;
+  std::vector<std::vector<std::uint32_t>> classes;
+  std::vector<std::int16_t> color(count, -1);
+  for (std::uint32_t v = 0; v < count; ++v) {
+    if (!free.empty() && !free[v]) continue;
+    std::uint64_t taken = 0;
+    for (const std::uint32_t u : graph.around(v))
+      if (color[u] >= 0) taken |= std::uint64_t(1) << std::min<int>(color[u], 63);
+    int own = 0;
+    while (own < 63 && (taken >> own & 1)) ++own;
+    if (own == 63) continue;  // a vertex with that many neighbours stays as it is
+    color[v] = std::int16_t(own);
+    if (std::size_t(own) >= classes.size()) classes.resize(std::size_t(own) + 1);
+    classes[std::size_t(own)].push_back(v);
+  }
+  return classes;
+}
+
+}  // namespace
+
+SeamModel makeSeamModel(const MeshView& view, const TexelImage& image, const Float8& channelWeight) {
+  return {view, image, channelWeight, std::max(randomDifference(image, channelWeight), 1e-6f)};
+}
+
+float seamCost(const SeamModel& model, const Label& atV, const Label& atU, std::uint32_t, std::uint32_t h) {
+  const Complexf& edge = model.view.connection.edge[h];
+  const Complexf back = -conjugateProduct(model.view.connection.rotation[h], edge);
+  const Vec2f vThere = atV.at(edge), uHere = atU.at(back);
+  const float here = texelDifference(model.image, uHere, atV.texel).length();
+  const float there = texelDifference(model.image, vThere, atU.texel).length();
+  if (here + there < 2.0f * kCoherent) return 0.0f;
+  const Float8 atEnd = model.image.sample(vThere) - model.image.sample(atU.texel);
+  const Float8 atStart = model.image.sample(uHere) - model.image.sample(atV.texel);
+  return kSeamLength +
+         (length(atEnd, model.channelWeight) + length(atStart, model.channelWeight)) / model.unit;
+}
+
+std::vector<float> seamCosts(const SeamModel& model, const Labels& labels) {
+  const VertexGraph& graph = model.view.graph;
+  std::vector<float> costs(labels.size());
+  forEach(labels.size(), [&](std::uint32_t v) {
+    float sum = 0.0f;
+    for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h)
+      sum += seamCost(model, labels[v], labels[graph.neighbor[h]], v, h);
+    costs[v] = sum / float(graph.around(v).size());
+  });
+  return costs;
+}
+
+void straightenSeams(const SeamModel& model, const LabelTerms& terms, const std::vector<std::uint8_t>& free,
+                     const Labels* alternative, int sweeps, Labels& labels) {
+  const VertexGraph& graph = model.view.graph;
+  const std::vector<std::vector<std::uint32_t>> classes = colored(graph, free);
+  std::vector<std::uint8_t> active(labels.size(),
+                                   1);  // whose surroundings have changed since it was last looked at
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    std::vector<std::uint8_t> changed(labels.size(), 0);
+    for (const std::vector<std::uint32_t>& members : classes) {
+      forEach(members.size(), [&](std::uint32_t i) {
+        const std::uint32_t v = members[i];
+        if (!active[v]) return;
+        const std::uint32_t begin = graph.first[v], end = graph.first[v + 1];
+        const auto costOf = [&](const Label& label, float bound) {
+          float cost = ownCost(model, terms, label, v);
+          for (std::uint32_t h = begin; h < end && cost < bound; ++h)
+            cost += seamCost(model, label, labels[graph.neighbor[h]], v, h);
+          return cost;
+        };
+        constexpr float kAny = 1e30f;
+        constexpr float kGain = 1e-4f;  // less is rounding
+        const float present = costOf(labels[v], kAny);
+        float least = present;
+        Label best = labels[v];
+        const auto offer = [&](const Label& label) {
+          if (texelDifference(model.image, label.texel, best.texel).lengthSqr() < 0.04f) return;
+          const float cost = costOf(label, least);
+          if (cost < least - kGain) least = cost, best = label;
+        };
+        for (std::uint32_t h = begin; h < end; ++h) {
+          const Label& other = labels[graph.neighbor[h]];
+          const Label here =
+              continued(model.image, other, model.view.connection.edge[h], model.view.connection.rotation[h]);
+          if (texelDifference(model.image, here.texel, labels[v].texel).lengthSqr() > kCoherent * kCoherent)
+            offer(here);
+        }
+        if (alternative) offer((*alternative)[v]);
+        if (least < present) {
+          labels[v] = best;
+          changed[v] = 1;
+        }
+      });
+    }
+    std::fill(active.begin(), active.end(), 0);
+    bool any = false;
+    for (std::uint32_t v = 0; v < labels.size(); ++v) {
+      if (!changed[v]) continue;
+      any = true;
+      active[v] = 1;
+      for (const std::uint32_t u : graph.around(v)) active[u] = 1;
+    }
+    if (!any) break;
+  }
+}
+
+}  // namespace fluidtex::texture
