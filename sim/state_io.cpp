@@ -7,6 +7,8 @@
 namespace fluidtex::sim {
 namespace {
 
+using openvdb::FloatGrid;
+
 constexpr const char* kGridNames[4] = {"phi", "u", "v", "w"};
 
 }  // namespace
@@ -51,7 +53,7 @@ State readState(const std::filesystem::path& file) {
   FloatGrid::Ptr* grids[4] = {&state.phi, &state.u, &state.v, &state.w};
   for (int n = 0; n < 4; ++n) {
     if (!vdb.hasGrid(kGridNames[n])) throw openvdb::IoError(file.string() + " has no grid " + kGridNames[n]);
-    *grids[n] = openvdb::gridPtrCast<openvdb::FloatGrid>(vdb.readGrid(kGridNames[n]));
+    *grids[n] = openvdb::gridPtrCast<FloatGrid>(vdb.readGrid(kGridNames[n]));
     if (!*grids[n]) throw openvdb::IoError(file.string() + ": grid " + kGridNames[n] + " is not of floats");
   }
   vdb.close();
