@@ -98,22 +98,19 @@ Exemplar prepare(Image color, bool toroidal, const SynthesisOptions& synthesis, 
 }  // namespace
 
 void sampleBilinear(const Image& image, bool toroidal, const Vec2f& texel, float* out) {
-  float x = texel[0], y = texel[1];
-  int x0, y0, x1, y1;
-  if (toroidal) {
-    x0 = int(std::floor(x)), y0 = int(std::floor(y));
-    x -= float(x0), y -= float(y0);
-    const auto wrapped = [](int i, int n) { return (i %= n) < 0 ? i + n : i; };
-    x0 = wrapped(x0, image.width), y0 = wrapped(y0, image.height);
-    x1 = x0 + 1 == image.width ? 0 : x0 + 1, y1 = y0 + 1 == image.height ? 0 : y0 + 1;
-  } else {
-    // Written so that a coordinate that is not a number reads the first texel instead of outside.
-    x = x > 0.0f ? std::min(x, float(image.width - 1)) : 0.0f;
-    y = y > 0.0f ? std::min(y, float(image.height - 1)) : 0.0f;
-    x0 = int(x), y0 = int(y);
-    x -= float(x0), y -= float(y0);
-    x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
-  }
+  // Comparisons are written so that a coordinate that is not a number reads some texel instead of outside.
+  const auto wrapped = [](float t, int size) {
+    if (t >= 0.0f && t < float(size)) return t;
+    t -= float(size) * std::floor(t / float(size));
+    return t >= 0.0f && t < float(size) ? t : 0.0f;
+  };
+  const auto clamped = [](float t, int size) { return t > 0.0f ? std::min(t, float(size - 1)) : 0.0f; };
+  float x = toroidal ? wrapped(texel[0], image.width) : clamped(texel[0], image.width);
+  float y = toroidal ? wrapped(texel[1], image.height) : clamped(texel[1], image.height);
+  const int x0 = int(x), y0 = int(y);
+  x -= float(x0), y -= float(y0);
+  const int x1 = x0 + 1 < image.width ? x0 + 1 : toroidal ? 0 : x0;
+  const int y1 = y0 + 1 < image.height ? y0 + 1 : toroidal ? 0 : y0;
   const float *a = image.at(x0, y0), *b = image.at(x1, y0), *c = image.at(x0, y1), *d = image.at(x1, y1);
   for (int k = 0; k < image.channels; ++k) {
     const float above = a[k] + x * (b[k] - a[k]), below = c[k] + x * (d[k] - c[k]);
