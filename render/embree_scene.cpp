@@ -16,6 +16,7 @@ namespace fluidtex::render {
 struct EmbreeScene::Handles {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  std::uint32_t added = 0;
 
   ~Handles() {
     if (scene) rtcReleaseScene(scene);
@@ -93,20 +94,20 @@ EmbreeScene::~EmbreeScene() = default;
 
 std::uint32_t EmbreeScene::add(const std::vector<Vec3f>& positions,
                                const std::vector<texture::Vec3I>& triangles) {
+  const std::uint32_t number = m_handles->added++;
+  if (triangles.empty()) return number;
   RTCDevice device = m_handles->device;
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  if (!triangles.empty()) {
-    void* vertexBuffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                 sizeof(Vec3f), positions.size());
-    void* indexBuffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                sizeof(texture::Vec3I), triangles.size());
-    if (vertexBuffer && indexBuffer) {
-      std::memcpy(vertexBuffer, positions.data(), positions.size() * sizeof(Vec3f));
-      std::memcpy(indexBuffer, triangles.data(), triangles.size() * sizeof(texture::Vec3I));
-      rtcCommitGeometry(geometry);
-    }
+  void* vertexBuffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                               sizeof(Vec3f), positions.size());
+  void* indexBuffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                              sizeof(texture::Vec3I), triangles.size());
+  if (vertexBuffer && indexBuffer) {
+    std::memcpy(vertexBuffer, positions.data(), positions.size() * sizeof(Vec3f));
+    std::memcpy(indexBuffer, triangles.data(), triangles.size() * sizeof(texture::Vec3I));
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(m_handles->scene, geometry, number);
   }
-  const std::uint32_t number = rtcAttachGeometry(m_handles->scene, geometry);
   rtcReleaseGeometry(geometry);
   check(device, "adding a mesh");
   return number;
@@ -121,7 +122,11 @@ void EmbreeScene::commit() {
 void EmbreeScene::intersect(std::span<Ray> rays, Coherence coherence) const {
   RTCIntersectContext context = makeContext(coherence);
   const auto store = [](Ray& ray, std::uint32_t geometry, std::uint32_t triangle, float u, float v) {
-    ray.geometry = geometry == RTC_INVALID_GEOMETRY_ID ? kNothing : geometry;
+    if (geometry == RTC_INVALID_GEOMETRY_ID) {
+      ray.geometry = ray.triangle = kNothing;
+      return;
+    }
+    ray.geometry = geometry;
     ray.triangle = triangle;
     ray.u = u;
     ray.v = v;

@@ -46,6 +46,12 @@ struct World {
   std::uint32_t frame;
 };
 
+// Weight of a sample drawn with density `pdf` where the other way of sampling would have drawn it with
+// density `other`.
+float powerWeight(float pdf, float other) {
+  return pdf * pdf / (pdf * pdf + other * other);
+}
+
 class TileTracer {
  public:
   TileTracer(const World& world, int x0, int y0, int x1, int y1)
@@ -101,7 +107,7 @@ class TileTracer {
     const Sky& sky = m_world.sky;
     Vec3f radiance = sky.radiance(direction);
     if (path.pdf > 0.0f && sky.inSun(direction))
-      radiance += sky.sunRadiance * (path.pdf / (path.pdf + sky.sunPdf));
+      radiance += sky.sunRadiance * powerWeight(path.pdf, sky.sunPdf);
     return radiance * path.throughput;
   }
 
@@ -204,7 +210,7 @@ class TileTracer {
     const Vec3f direction = Axes(sky.sunDirection).world(uniformCone(u, sky.sunCosine));
     const Scattering scattering = evaluate(point.material, wo, axes.local(direction));
     if (!(scattering.pdf > 0.0f)) return;
-    const float weight = sky.sunPdf / (sky.sunPdf + scattering.pdf);
+    const float weight = powerWeight(sky.sunPdf, scattering.pdf);
     const Vec3f light = sky.sunColor * scattering.value * path.throughput * weight;
     if (!(largest(light) > 0.0f)) return;
     m_sunRays.push_back({point.origin, direction});

@@ -1,0 +1,94 @@
+#include "render/embree_scene.h"
+#include "render/sampling.h"
+#include "shapes.h"
+
+#include <catch2/catch.hpp>
+
+using namespace fluidtex::render;
+
+namespace {
+
+std::vector<Ray> raysTowards(const Vec3f& from, int count) {
+  std::vector<Ray> rays;
+  for (int i = 0; i < count; ++i) {
+    const Vec2f u = PixelSamples(i, 0, 1, 1).point(0, 0);
+    const Vec3f to(2.0f * u[0] - 1.0f, 2.0f * u[1] - 1.0f, 0.0f);
+    rays.push_back({from, normalized(to - from)});
+  }
+  return rays;
+}
+
+}  // namespace
+
+TEST_CASE("embree scene: hits are where the triangles are", "[render]") {
+  EmbreeScene scene;
+  const Solid square = shapes::square(-0.5f, 0.5f, 0.0f, Vec3d(1.0));
+  REQUIRE(scene.add({}, {}) == 0);
+  REQUIRE(scene.add(square.positions, square.triangles) == 1);
+  scene.commit();
+  std::vector<Ray> rays = raysTowards(Vec3f(0.1f, -0.2f, 3.0f), 1003);
+  scene.intersect(rays, Coherence::alike);
+  int hits = 0;
+  for (const Ray& ray : rays) {
+    const Vec3f at = ray.origin - ray.direction * (ray.origin[2] / ray.direction[2]);
+    const float edge = std::max(std::abs(at[0]), std::abs(at[1]));
+    if (std::abs(edge - 0.5f) < 1e-5f) continue;
+    REQUIRE(ray.hit() == (edge < 0.5f));
+    if (!ray.hit()) continue;
+    ++hits;
+    REQUIRE(ray.geometry == 1);
+    const auto& t = square.triangles[ray.triangle];
+    const Vec3f p = square.positions[t[0]] * (1.0f - ray.u - ray.v) + square.positions[t[1]] * ray.u +
+                    square.positions[t[2]] * ray.v;
+    REQUIRE((p - at).length() < 1e-5f);
+  }
+  REQUIRE(hits > 150);
+}
+
+TEST_CASE("embree scene: rays traced together and alone agree, for hits and for shadows", "[render]") {
+  const auto ball = shapes::sphere(Vec3f(0.0f), 0.6f, 3, Vec4f(1.0f));
+  EmbreeScene scene;
+  scene.add(ball.positions, ball.triangles);
+  scene.commit();
+  for (const int count : {1, 7, 8, 9, 500}) {
+    std::vector<Ray> together = raysTowards(Vec3f(0.3f, 0.2f, 2.0f), count), alone = together;
+    std::vector<std::uint8_t> blockedTogether(count), blockedAlone(count);
+    scene.occluded(together, blockedTogether, Coherence::alike);
+    scene.occluded(alone, blockedAlone, Coherence::scattered);
+    scene.intersect(together, Coherence::alike);
+    scene.intersect(alone, Coherence::scattered);
+    for (int i = 0; i < count; ++i) {
+      REQUIRE(together[i].hit() == alone[i].hit());
+      REQUIRE(together[i].triangle == alone[i].triangle);
+      REQUIRE(static_cast<bool>(blockedTogether[i]) == together[i].hit());
+      REQUIRE(blockedTogether[i] == blockedAlone[i]);
+    }
+  }
+}
+
+TEST_CASE("embree scene: a closed mesh has no cracks along its edges", "[render]") {
+  const auto ball = shapes::sphere(Vec3f(0.0f), 1.0f, 4, Vec4f(1.0f));
+  EmbreeScene scene;
+  scene.add(ball.positions, ball.triangles);
+  scene.commit();
+  std::vector<Ray> rays;  // from the middle
+  for (std::size_t i = 0; i < ball.triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const Vec3f &a = ball.positions[ball.triangles[i][k]],
+                  &b = ball.positions[ball.triangles[i][(k + 1) % 3]];
+      const float share = 0.05f + 0.9f * PixelSamples(static_cast<int>(i), k, 1, 1).point(0, 0)[0];
+      rays.push_back({Vec3f(0.0f), normalized(a * share + b * (1.0f - share))});
+    }
+  for (const Coherence coherence : {Coherence::alike, Coherence::scattered}) {
+    scene.intersect(rays, coherence);
+    REQUIRE(std::count_if(rays.begin(), rays.end(), [](const Ray& ray) { return !ray.hit(); }) == 0);
+  }
+}
+
+TEST_CASE("embree scene: an empty scene blocks nothing", "[render]") {
+  EmbreeScene scene;
+  scene.commit();
+  std::vector<Ray> rays = raysTowards(Vec3f(0.0f, 0.0f, 1.0f), 9);
+  scene.intersect(rays, Coherence::alike);
+  for (const Ray& ray : rays) REQUIRE_FALSE(ray.hit());
+}

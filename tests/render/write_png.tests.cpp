@@ -1,0 +1,74 @@
+#include "render/render.h"
+
+#include <OpenImageIO/imageio.h>
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+using namespace fluidtex::render;
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path scratch(const std::string& name) {
+  const fs::path folder = fs::temp_directory_path() / "fluidtex_test_render_png";
+  fs::create_directories(folder);
+  return folder / name;
+}
+
+std::string bytesOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+TEST_CASE("png: flat sRGB colours come back exactly", "[render]") {
+  // All 256 values of a channel: linear by the standard's own formula, in double.
+  Picture picture{256, 3, {}};
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 256; ++x)
+      for (int k = 0; k < 3; ++k) {
+        const double c = (k == y ? x : 255 - x) / 255.0;
+        picture.rgb.push_back(
+            static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4)));
+      }
+  const fs::path file = scratch("flat.png.tmp");
+  writePng(picture, file);
+  auto input = OIIO::ImageInput::open(file.string());
+  REQUIRE(input);
+  REQUIRE(std::string(input->format_name()) == "png");
+  REQUIRE(input->spec().width == 256);
+  REQUIRE(input->spec().height == 3);
+  REQUIRE(input->spec().nchannels == 3);
+  std::vector<std::uint8_t> pixels(256 * 3 * 3);
+  REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, pixels.data()));
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 256; ++x)
+      for (int k = 0; k < 3; ++k) REQUIRE(pixels[(y * 256 + x) * 3 + k] == (k == y ? x : 255 - x));
+}
+
+TEST_CASE("png: values out of range are clipped", "[render]") {
+  const fs::path file = scratch("clipped.png");
+  writePng({2, 1, {-1.0f, 2.0f, std::nanf(""), 1e30f, -0.0f, 1.0f}}, file);
+  auto input = OIIO::ImageInput::open(file.string());
+  std::vector<std::uint8_t> pixels(6);
+  REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, pixels.data()));
+  REQUIRE(pixels == std::vector<std::uint8_t>{0, 255, 0, 255, 0, 255});
+}
+
+TEST_CASE("png: the same picture gives the same bytes", "[render]") {
+  Picture picture{31, 17, std::vector<float>(31 * 17 * 3)};
+  for (std::size_t i = 0; i < picture.rgb.size(); ++i) picture.rgb[i] = static_cast<float>(i % 97) / 97.0f;
+  writePng(picture, scratch("a.png"));
+  writePng(picture, scratch("b.png"));
+  REQUIRE(bytesOf(scratch("a.png")).size() > 100);
+  REQUIRE(bytesOf(scratch("a.png")) == bytesOf(scratch("b.png")));
+}
+
+TEST_CASE("png: a place that cannot be written is named", "[render]") {
+  REQUIRE_THROWS_WITH(writePng({1, 1, {0, 0, 0}}, "/nonexistent_folder/x.png"),
+                      Catch::StartsWith("/nonexistent_folder/x.png: the picture could not be written: "));
+}

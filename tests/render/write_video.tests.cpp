@@ -1,0 +1,117 @@
+#include "render/render.h"
+
+#include <catch2/catch.hpp>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+using namespace fluidtex::render;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A fresh folder with frames FIRST..LAST in which the brightness rises.
+fs::path frames(const std::string& name, int first, int last, int width, int height) {
+  const fs::path folder = fs::temp_directory_path() / "fluidtex_test_render_video" / name;
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  for (int frame = first; frame <= last; ++frame) {
+    char file[16];
+    std::snprintf(file, sizeof file, "%04d.png", frame);
+    const float grey = 0.1f * static_cast<float>(frame - first + 1);
+    writePng({width, height, std::vector<float>(static_cast<std::size_t>(width) * height * 3, grey)},
+             folder / file);
+  }
+  return folder;
+}
+
+std::string probe(const fs::path& video, const std::string& entries) {
+  const std::string command =
+      "ffprobe -v error -count_frames -select_streams v -of csv=p=0 -show_entries stream=" + entries + " '" +
+      video.string() + "'";
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), &pclose);
+  std::array<char, 256> line{};
+  REQUIRE(pipe);
+  REQUIRE(std::fgets(line.data(), line.size(), pipe.get()));
+  std::string text = line.data();
+  while (!text.empty() && (text.back() == '\n' || text.back() == ',')) text.pop_back();
+  return text;
+}
+
+std::string bytesOf(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+TEST_CASE("video: frames, size, rate, format and colours are as said", "[render]") {
+  const fs::path folder = frames("plain", 3, 7, 64, 36);
+  const fs::path video = folder / "out.tmp";
+  writeVideo(folder, 3, 7, 24.0, video);
+  REQUIRE(probe(video, "nb_read_frames") == "5");
+  REQUIRE(probe(video, "codec_name,width,height,pix_fmt") == "h264,64,36,yuv420p");
+  REQUIRE(probe(video, "r_frame_rate") == "24/1");
+  REQUIRE(probe(video, "color_range,color_space,color_transfer,color_primaries") == "tv,bt709,bt709,bt709");
+}
+
+TEST_CASE("video: odd sizes and names with special characters work", "[render]") {
+  const fs::path folder = frames("odd %03d 'x' $HOME", 1, 2, 33, 17);
+  const fs::path video = folder / "a b.mp4";
+  writeVideo(folder, 1, 2, 29.97, video);
+  REQUIRE(bytesOf(video).size() > 200);
+  fs::rename(video, folder.parent_path() / "odd.mp4");
+  REQUIRE(probe(folder.parent_path() / "odd.mp4", "nb_read_frames,width,height") == "32,16,2");
+}
+
+TEST_CASE("video: the same frames give the same bytes", "[render]") {
+  const fs::path folder = frames("twice", 1, 4, 48, 48);
+  writeVideo(folder, 1, 4, 24.0, folder / "a.mp4");
+  writeVideo(folder, 1, 4, 24.0, folder / "b.mp4");
+  REQUIRE(bytesOf(folder / "a.mp4").size() > 200);
+  REQUIRE(bytesOf(folder / "a.mp4") == bytesOf(folder / "b.mp4"));
+}
+
+TEST_CASE("video: a missing frame is named", "[render]") {
+  const fs::path folder = frames("gap", 1, 3, 16, 16);
+  fs::remove(folder / "0002.png");
+  REQUIRE_THROWS_WITH(
+      writeVideo(folder, 1, 3, 24.0, folder / "v.mp4"),
+      Catch::Contains("v.mp4: the video could not be written: ") && Catch::Contains("0002.png is missing"));
+  REQUIRE_THROWS_AS(writeVideo(folder, 2, 1, 24.0, folder / "v.mp4"), std::runtime_error);
+  REQUIRE_THROWS_AS(writeVideo(folder, 1, 1, 0.0, folder / "v.mp4"), std::runtime_error);
+}
+
+TEST_CASE("video: what ffmpeg complains about is passed on in one line", "[render]") {
+  const fs::path folder = frames("fails", 1, 1, 16, 16);
+  try {
+    writeVideo(folder, 1, 1, 24.0, "/nonexistent_folder/v.mp4");
+    FAIL("nothing was thrown");
+  } catch (const std::runtime_error& error) {
+    const std::string what = error.what();
+    CAPTURE(what);
+    REQUIRE(what.find("/nonexistent_folder/v.mp4: the video could not be written: ffmpeg: ") == 0);
+    REQUIRE(what.find("No such file or directory") != std::string::npos);
+    REQUIRE(what.find('\n') == std::string::npos);
+  }
+  std::ofstream(folder / "0001.png") << "no picture";
+  REQUIRE_THROWS_WITH(writeVideo(folder, 1, 1, 24.0, folder / "v.mp4"), Catch::Contains("ffmpeg: "));
+}
+
+TEST_CASE("video: a machine without ffmpeg is told so", "[render]") {
+  const fs::path folder = frames("without", 1, 1, 16, 16);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder.c_str(), 1);
+  std::string what;
+  try {
+    writeVideo(folder, 1, 1, 24.0, folder / "v.mp4");
+  } catch (const std::runtime_error& error) {
+    what = error.what();
+  }
+  setenv("PATH", path.c_str(), 1);
+  REQUIRE(what.find("ffmpeg could not be started: No such file or directory") != std::string::npos);
+}
