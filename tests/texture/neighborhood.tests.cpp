@@ -1,6 +1,6 @@
 #include "texture/neighborhood.h"
 
-#include "tests/texture/closed_meshes.h"
+#include "tests/texture/oriented_mesh.h"
 #include "texture/complex.h"
 
 #include <tbb/global_control.h>
@@ -15,22 +15,6 @@ using namespace fluidtex::testing;
 
 namespace {
 
-// A mesh with everything that neighbourhoods need.
-struct Oriented {
-  SurfaceMesh mesh;
-  VertexGraph graph;
-  Connection connection;
-  MeshView view() const { return {mesh, graph, connection}; }
-};
-
-Oriented oriented(SurfaceMesh mesh) {
-  Oriented result{std::move(mesh), {}, {}};
-  if (result.mesh.orientation.empty()) result.mesh.orientation = referenceVectors(result.mesh.normals);
-  result.graph = buildVertexGraph(result.mesh);
-  result.connection = buildConnection(result.mesh, result.graph, result.mesh.orientation);
-  return result;
-}
-
 float noise(std::uint32_t i) {
   std::uint32_t x = i * 747796405u + 2891336453u;
   x = ((x >> ((x >> 28) + 4)) ^ x) * 277803737u;
@@ -39,7 +23,7 @@ float noise(std::uint32_t i) {
 
 // A flat box, 60 x 60 cells of one unit: its top is a plane far from the rim in the middle. Points on the top
 // are shifted within the plane, and the orientation turns from vertex to vertex.
-Oriented plane(bool disturbed) {
+OrientedMesh plane(bool disturbed) {
   SurfaceMesh mesh = boxMesh({0, 0, 0}, {60, 60, 2}, {60, 60, 2});
   mesh.spacing = 1.0;
   mesh.orientation = referenceVectors(mesh.normals);
@@ -51,23 +35,16 @@ Oriented plane(bool disturbed) {
     const float angle = 0.1f * x.x() + 6.0f * noise(3 * v + 2);
     mesh.orientation[v] = Vec3f(std::cos(angle), std::sin(angle), 0.0f);
   }
-  return oriented(std::move(mesh));
-}
-
-std::uint32_t nearest(const SurfaceMesh& mesh, const Vec3f& x) {
-  std::uint32_t best = 0;
-  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
-    if ((mesh.positions[v] - x).lengthSqr() < (mesh.positions[best] - x).lengthSqr()) best = v;
-  return best;
+  return orientedMesh(std::move(mesh));
 }
 
 }  // namespace
 
 TEST_CASE("neighborhood: positions on a plane are exact whatever the orientation does") {
-  const Oriented surface = plane(true);
+  const OrientedMesh surface = plane(true);
   const SurfaceMesh& mesh = surface.mesh;
   for (const int window : {9, 17, 33}) {
-    const std::uint32_t p = nearest(mesh, Vec3f(30.2f, 29.8f, 2.0f));
+    const std::uint32_t p = nearestVertex(mesh, Vec3f(30.2f, 29.8f, 2.0f));
     const Neighborhoods result = buildNeighborhoods(surface.view(), window, {p});
     REQUIRE(result.size() == 1);
     CHECK_FALSE(result.shrunk(0));
@@ -99,7 +76,7 @@ TEST_CASE("neighborhood: positions on a plane are exact whatever the orientation
 }
 
 TEST_CASE("neighborhood: both kinds agree for what is linear in the local coordinates, on a curved mesh") {
-  const Oriented surface = oriented(torusMesh(90, 36));
+  const OrientedMesh surface = orientedMesh(torusMesh(90, 36));
   const std::vector<std::uint32_t> centers{5, 700, 1500, 3000};
   PixelNeighborhoods pixels;
   const int window = 9;
@@ -127,8 +104,8 @@ TEST_CASE("neighborhood: both kinds agree for what is linear in the local coordi
 }
 
 TEST_CASE("neighborhood: on a mesh aligned with the pixels, every pixel is one vertex") {
-  Oriented surface = plane(false);
-  const std::uint32_t p = nearest(surface.mesh, Vec3f(30, 30, 2));
+  OrientedMesh surface = plane(false);
+  const std::uint32_t p = nearestVertex(surface.mesh, Vec3f(30, 30, 2));
   PixelNeighborhoods pixels;
   const Neighborhoods result = buildNeighborhoods(surface.view(), 17, {p}, &pixels);
   REQUIRE_FALSE(result.shrunk(0));
@@ -146,12 +123,12 @@ TEST_CASE("neighborhood: on a mesh aligned with the pixels, every pixel is one v
 }
 
 TEST_CASE("neighborhood: every vertex is covered, also on thin sheets and small drops") {
-  std::vector<Oriented> surfaces;
-  surfaces.push_back(oriented(sphereMesh(12)));
-  surfaces.push_back(oriented(sphereMesh(2)));  // smaller than any window
-  surfaces.push_back(oriented(boxMesh({0, 0, 0}, {30, 30, 0.2}, {30, 30, 1})));
-  surfaces.push_back(oriented(torusMesh(200, 8, 1.0, 0.04)));  // a thin ring: windows meet themselves
-  for (const Oriented& surface : surfaces) {
+  std::vector<OrientedMesh> surfaces;
+  surfaces.push_back(orientedMesh(sphereMesh(12)));
+  surfaces.push_back(orientedMesh(sphereMesh(2)));  // smaller than any window
+  surfaces.push_back(orientedMesh(boxMesh({0, 0, 0}, {30, 30, 0.2}, {30, 30, 1})));
+  surfaces.push_back(orientedMesh(torusMesh(200, 8, 1.0, 0.04)));  // a thin ring: windows meet themselves
+  for (const OrientedMesh& surface : surfaces) {
     for (const int window : {9, 33}) {
       const Neighborhoods result = coverSurface(surface.view(), window);
       std::vector<int> covered(surface.mesh.positions.size(), 0);
@@ -175,7 +152,7 @@ TEST_CASE("neighborhood: every vertex is covered, also on thin sheets and small 
 }
 
 TEST_CASE("neighborhood: centres lie a quarter window apart and keep to the wanted part") {
-  const Oriented surface = plane(true);
+  const OrientedMesh surface = plane(true);
   std::vector<std::uint8_t> wanted(surface.mesh.positions.size(), 0);
   for (std::uint32_t v = 0; v < wanted.size(); ++v) wanted[v] = surface.mesh.positions[v].x() < 20.0f;
   const float radius = 17.0f / 4.0f;
@@ -198,7 +175,7 @@ TEST_CASE("neighborhood: centres lie a quarter window apart and keep to the want
 }
 
 TEST_CASE("neighborhood: overlaps hold every entry once, links are centres") {
-  const Oriented surface = oriented(sphereMesh(20));
+  const OrientedMesh surface = orientedMesh(sphereMesh(20));
   const std::size_t count = surface.mesh.positions.size();
   const Neighborhoods windows = coverSurface(surface.view(), 9);
   const Overlaps byVertex = overlaps(windows, count);
@@ -223,7 +200,7 @@ TEST_CASE("neighborhood: overlaps hold every entry once, links are centres") {
 }
 
 TEST_CASE("neighborhood: the same on one thread and on many") {
-  const Oriented surface = oriented(torusMesh(120, 50));
+  const OrientedMesh surface = orientedMesh(torusMesh(120, 50));
   const auto build = [&](std::size_t threads) {
     tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     PixelNeighborhoods pixels;
@@ -241,7 +218,7 @@ TEST_CASE("neighborhood: the same on one thread and on many") {
 }
 
 TEST_CASE("neighborhood: an even or tiny window is refused") {
-  const Oriented surface = oriented(sphereMesh(4));
+  const OrientedMesh surface = orientedMesh(sphereMesh(4));
   CHECK_THROWS_AS(buildNeighborhoods(surface.view(), 8, {0}), std::invalid_argument);
   CHECK_THROWS_AS(buildNeighborhoods(surface.view(), 1, {0}), std::invalid_argument);
 }
