@@ -1,0 +1,64 @@
+#include "texture/histogram.h"
+
+#include "tests/texture/test_images.h"
+
+#include <catch2/catch.hpp>
+
+#include <numeric>
+
+using namespace fluidtex::texture;
+using namespace fluidtex::testing;
+
+namespace {
+
+Values texels(const TexelImage& image) {
+  Values values;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) values.push_back(image.sampleInside(float(x), float(y)));
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("histogram: shares sum to one and count what is there") {
+  const TexelImage image = makeTexelImage(
+      imageOf(64, 48, 2, [](int x, int y, int c) { return c == 0 ? float(x) : float(y % 2); }), false, 3);
+  const HistogramTarget target = makeHistogramTarget(image);
+  for (int b = 0; b < kHistogramBins; ++b) {
+    CHECK(target.exemplar.share[0][b] == Approx(1.0 / 16));  // 64 columns: four a bin
+    CHECK(target.exemplar.share[1][b] == Approx(b == 0 || b == 15 ? 0.5 : 0.0));
+  }
+  const Histogram own = histogramOf(target, texels(image), image.channels);
+  CHECK(own.share == target.exemplar.share);
+}
+
+TEST_CASE("histogram: a surface with the exemplar's own shares weighs all texels alike") {
+  const TexelImage image = makeTexelImage(blobImage(50, 40, 3, 8.0, 1), false, 3);
+  const HistogramTarget target = makeHistogramTarget(image);
+  const std::vector<float> weights =
+      histogramWeights(target, histogramOf(target, texels(image), 3), image, 3.0);
+  REQUIRE(weights.size() == image.data.size());
+  for (const float w : weights) CHECK(w == Approx(1.0f).margin(1e-4));
+}
+
+TEST_CASE("histogram: what the surface has too much of weighs less, in proportion to the strength") {
+  const TexelImage image =
+      makeTexelImage(imageOf(64, 4, 1, [](int x, int, int) { return float(x) / 63.0f; }), false, 3);
+  const HistogramTarget target = makeHistogramTarget(image);
+  Values dark = texels(image);
+  for (Float8& value : dark) value[0] *= 0.5f;  // the darker half twice, the brighter not at all
+  const Histogram surface = histogramOf(target, dark, 1);
+  for (const double strength : {1.0, 3.0}) {
+    const std::vector<float> weights = histogramWeights(target, surface, image, strength);
+    CHECK(weights[image.nearest(2, 1)] == Approx(1.0 / (1.0 + strength)).epsilon(0.1));
+    CHECK(weights[image.nearest(60, 1)] == 1.0f);
+  }
+  for (const float w : histogramWeights(target, surface, image, 0.0)) CHECK(w == 1.0f);
+}
+
+TEST_CASE("histogram: a plain image is no trouble") {
+  const TexelImage image = makeTexelImage(imageOf(20, 20, 3, [](int, int, int) { return 0.4f; }), false, 3);
+  const HistogramTarget target = makeHistogramTarget(image);
+  for (const float w : histogramWeights(target, histogramOf(target, texels(image), 3), image, 3.0))
+    CHECK(w == 1.0f);
+}
