@@ -174,6 +174,8 @@ void complete(Scene& scene, const Reader& reader) {
 void check(const Scene& scene, Reader& reader) {
   if (reader.clean("name") && scene.name.find_first_of("/\\") != std::string::npos)
     reader.fault("name", "\"" + scene.name + "\" holds a slash", "give a name that can be a file's");
+  if (reader.clean("name") && (scene.name == "." || scene.name == ".."))
+    reader.fault("name", "\"" + scene.name + "\" is a folder", "give a name that can be a file's");
   checkDomain(scene, reader);
   checkBodies(scene, reader);
   checkTexture(scene, reader);

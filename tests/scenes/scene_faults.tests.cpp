@@ -286,6 +286,8 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
        "domain.resolution, so that it is 4 or more"},
       {"name = 'a/b'\n" + kGoodScene,
        "s.toml:1:1: error: name: \"a/b\" holds a slash; give a name that can be a file's"},
+      {"name = '..'\n" + kGoodScene,
+       "s.toml:1:1: error: name: \"..\" is a folder; give a name that can be a file's"},
       {"name = ''\n" + kGoodScene,
        "s.toml:1:1: error: name: an empty string; give a name or leave the key out"},
   });
