@@ -39,7 +39,8 @@ struct LiquidCell {
   std::array<float, kSides> open;   // area share
   std::array<float, kSides> theta;  // to the surface, in cells; 0 where the neighbour is not air
   double outflow = 0.0;             // before projection: sum of open area times outward velocity
-  bool atSolid = false;
+  float closed = 0.0f;              // sum of closed area
+  float leaving = 0.0f;             // before projection: sum of closed area times velocity away from it
 };
 
 struct Liquid {
@@ -125,8 +126,10 @@ Liquid gatherLiquid(const FloatTree& phi, const SolidField& solid,
           const int face = here + up * kStride[axis];
           const int beside = up ? here + kStride[axis] : here - kStride[axis];
           cell.open[s] = open[axis][face];
-          cell.atSolid = cell.atSolid || cell.open[s] < 1.0f;
-          cell.outflow += static_cast<double>(cell.open[s]) * (up ? speed[axis][face] : -speed[axis][face]);
+          const float outward = up ? speed[axis][face] : -speed[axis][face];
+          cell.outflow += static_cast<double>(cell.open[s]) * outward;
+          cell.closed += 1.0f - cell.open[s];
+          cell.leaving += (1.0f - cell.open[s]) * std::max(0.0f, -outward);
           const float inside = distance[here], outside = distance[beside];
           cell.theta[s] = cell.open[s] > 0.0f && outside >= 0.0f
                               ? std::max(kMinTheta, inside / (inside - outside))
@@ -200,7 +203,7 @@ bool updateDetached(const Liquid& liquid, const std::vector<double>& q, const st
   std::vector<char> changed(n, 0);
   tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
     for (int i = range.begin(); i < range.end(); ++i) {
-      if (!liquid.cells[i].atSolid) continue;
+      if (liquid.cells[i].closed <= 0.0f) continue;
       changed[i] = detached[i] ? projectedOutflow(liquid, q, i) < 0.0 : q[i] < -suction && !enclosed[i];
     }
   });
@@ -278,10 +281,12 @@ openvdb::MaskGrid::Ptr updateFaces(const Liquid& liquid, const SolidField& solid
         if (std::abs(slope) < kSquare * solid.voxelSize || wet < 0) continue;
         double away = 0.0;
         if (detached[wet]) {
-          // What the cell loses through its open faces comes off the wall: no divergence there either.
-          double closed = 0.0;
-          for (const float open : liquid.cells[wet].open) closed += 1.0 - open;
-          away = std::max(0.0, projectedOutflow(liquid, q, wet) / closed);
+          // What the cell loses through its open faces comes off its walls, so that there is no divergence
+          // there either; from each in proportion to the speed at which the liquid was about to leave it.
+          const auto& [open, theta, outflow, closed, leaving] = liquid.cells[wet];
+          const float ready = std::max(0.0f, solidBelow ? leaf.getValue(c) : -leaf.getValue(c));
+          const double share = leaving > 0.0f ? ready / leaving : 1.0f / closed;
+          away = std::max(0.0, projectedOutflow(liquid, q, wet)) * share;
         }
         leaf.setValueOn(c, static_cast<float>(solidBelow ? away : -away));
         masks[n]->setValueOn(c);

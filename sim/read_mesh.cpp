@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iostream>
 #include <map>
 #include <stdexcept>
 
@@ -29,6 +30,13 @@ using Polygon = std::vector<std::size_t>;
 [[noreturn]] void fail(const MeshShape& shape, const std::string& what) {
   throw std::runtime_error(shape.file.string() + ": " + what);
 }
+
+// CGAL's PLY reader writes to std::cerr as it gives up; the caller reports the fault instead.
+struct QuietErrors {
+  const std::ios::iostate before = std::cerr.rdstate();
+  QuietErrors() { std::cerr.setstate(std::ios::failbit); }
+  ~QuietErrors() { std::cerr.clear(before); }
+};
 
 // Edges used by an odd number of polygons: where the surface has a rim.
 std::size_t openEdges(const std::vector<Polygon>& polygons) {
@@ -59,6 +67,7 @@ TriangleMesh readMesh(const MeshShape& shape) {
   std::vector<Polygon> polygons;
   bool read = false;
   try {
+    const QuietErrors quiet;
     const std::string file = shape.file.string();
     read = extension == ".obj"   ? CGAL::IO::read_OBJ(file, points, polygons)
            : extension == ".ply" ? CGAL::IO::read_PLY(file, points, polygons)
@@ -66,6 +75,7 @@ TriangleMesh readMesh(const MeshShape& shape) {
   } catch (const std::exception& error) {
     fail(shape, std::string("cannot be read as a mesh: ") + error.what());
   }
+  if (!read && !points.empty() && polygons.empty()) fail(shape, "has no faces");
   if (!read) fail(shape, "cannot be read as a mesh: the file is damaged or of another format");
   if (polygons.empty()) fail(shape, "has no faces");
   for (const Point& p : points) {

@@ -1,0 +1,386 @@
+#include "sim/pressure.h"
+
+#include "sim/mac_grid.h"
+#include "sim/poisson.h"
+
+#include <tbb/global_control.h>
+#include <catch2/catch.hpp>
+
+#include <cstring>
+#include <functional>
+#include <numbers>
+#include <random>
+
+using namespace fluidtex::sim;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+constexpr double kGravity = 9.81, kDensity = 1000.0, kDt = 0.01;
+constexpr double kStep = kGravity * kDt;  // the velocity gravity gives in one step
+
+// A tank of unit side with liquid where `level` is negative; velocities in and around it set by `velocity`.
+struct Scene {
+  Options options;
+  double h;
+  std::shared_ptr<const SolidField> solid;
+  FloatGrid::Ptr phi;
+  Velocity velocity;
+
+  Scene(int n, std::vector<Shape> shapes, const std::function<double(const Vec3d&)>& level,
+        Vec3d size = Vec3d(1.0)) {
+    options.size = size;
+    options.resolution = n;
+    for (Shape& shape : shapes) {
+      options.solids.emplace_back();
+      options.solids.back().shape = std::move(shape);
+    }
+    h = options.voxelSize();
+    solid = Solids(options).at(0.0);
+    phi = makePhi(h, 3 * h);
+    velocity = makeVelocity(h);
+    const Coord cells = solid->cells;
+    for (int i = -2; i < cells[0] + 2; ++i) {
+      for (int j = -2; j < cells[1] + 2; ++j) {
+        for (int k = -2; k < cells[2] + 2; ++k) {
+          const Coord c(i, j, k);
+          phi->tree().setValueOn(c, static_cast<float>(level(phi->indexToWorld(c))));
+        }
+      }
+    }
+    setVelocity([](const Vec3d&) { return Vec3d(0.0, 0.0, -kStep); });
+  }
+
+  void setVelocity(const std::function<Vec3d(const Vec3d&)>& speed) {
+    for (int a = 0; a < 3; ++a) {
+      FloatGrid& grid = *velocity.component[a];
+      for (auto it = phi->cbeginValueOn(); it; ++it) {
+        const Coord c = it.getCoord();
+        grid.tree().setValueOn(c, static_cast<float>(speed(grid.indexToWorld(c))[a]));
+      }
+    }
+  }
+
+  Projection projected(PressureOptions pressureOptions = {}) {
+    pressureOptions.keepPressure = true;
+    Projection result = project(*velocity.component[0], *velocity.component[1], *velocity.component[2], *phi,
+                                *solid, kDt, kDensity, pressureOptions);
+    CHECK(result.report.converged);
+    return result;
+  }
+
+  float open(int axis, const Coord& c) const {
+    return (axis == 0 ? solid->openU : axis == 1 ? solid->openV : solid->openW)->tree().getValue(c);
+  }
+
+  // Largest sum of open area times outward velocity over the liquid's cells, leaving out those in `except`.
+  double largestDivergence(const openvdb::MaskGrid& except) const {
+    double largest = 0.0;
+    for (auto it = phi->cbeginValueOn(); it; ++it) {
+      const Coord c = it.getCoord();
+      if (*it >= 0.0f || except.tree().isValueOn(c)) continue;
+      double sum = 0.0;
+      for (int a = 0; a < 3; ++a) {
+        Coord up = c;
+        ++up[a];
+        sum += open(a, up) * velocity.component[a]->tree().getValue(up) -
+               open(a, c) * velocity.component[a]->tree().getValue(c);
+      }
+      largest = std::max(largest, std::abs(sum));
+    }
+    return largest;
+  }
+
+  // Largest speed on the faces that the projection answers for.
+  double largestSpeed(const FaceMasks& valid) const {
+    double largest = 0.0;
+    const openvdb::MaskGrid* masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
+    for (int a = 0; a < 3; ++a) {
+      for (auto it = masks[a]->cbeginValueOn(); it; ++it) {
+        largest = std::max(largest, std::abs(double(velocity.component[a]->tree().getValue(it.getCoord()))));
+      }
+    }
+    return largest;
+  }
+};
+
+PressureOptions precise() {
+  PressureOptions options;
+  options.tolerance = 1e-11;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("pressure: a column at rest stays at rest, whatever the height of its surface", "[sim]") {
+  const int n = 16;
+  const double share = GENERATE(0.0, 0.003, 0.1, 0.37, 0.5, 0.63, 0.999);
+  const double surface = (9 + share) / n;
+  CAPTURE(share);
+  Scene scene(n, {}, [&](const Vec3d& x) { return x.z() - surface; });
+  const Projection result = scene.projected(precise());
+  CHECK(scene.largestSpeed(result.valid) < 1e-6 * kStep);
+  CHECK(result.separating->empty());
+  // Linear in depth; the surface is where phi says, but for the smallest theta.
+  for (auto it = result.pressure->cbeginValueOn(); it; ++it) {
+    const double depth = surface - result.pressure->indexToWorld(it.getCoord()).z();
+    REQUIRE_THAT(*it, WithinAbs(kDensity * kGravity * depth, kDensity * kGravity * 0.0101 / n));
+  }
+  CHECK(result.report.cells == n * n * (share > 0.5 ? 10 : 9));
+}
+
+TEST_CASE("pressure: a column at rest stays at rest at the default tolerance", "[sim]") {
+  Scene scene(32, {}, [](const Vec3d& x) { return x.z() - 0.53; });
+  const Projection result = scene.projected();
+  CHECK(scene.largestSpeed(result.valid) < 1e-4 * kStep);
+}
+
+TEST_CASE("pressure: hydrostatic liquid on tilted walls and around a sphere stays at rest", "[sim]") {
+  const double angle = 20.0 * std::numbers::pi / 180.0;
+  Scene scene(24,
+              {Shape{HalfSpace{Vec3d(0.0, 0.0, 0.15), Vec3d(-std::sin(angle), 0.0, std::cos(angle))}},
+               Shape{Sphere{Vec3d(0.3, 0.4, 0.45), 0.13}}},
+              [](const Vec3d& x) { return x.z() - 0.617; });
+  const Projection result = scene.projected(precise());
+  CHECK(scene.largestSpeed(result.valid) < 1e-6 * kStep);
+  CHECK(result.separating->empty());
+}
+
+TEST_CASE("pressure: a drop in the air falls as it is", "[sim]") {
+  Scene scene(24, {}, [](const Vec3d& x) { return (x - Vec3d(0.5)).length() - 0.23; });
+  const Projection result = scene.projected(precise());
+  for (auto it = result.valid.w->cbeginValueOn(); it; ++it) {
+    REQUIRE_THAT(scene.velocity.component[2]->tree().getValue(it.getCoord()), WithinRel(-kStep, 1e-6));
+  }
+  CHECK(result.valid.w->activeVoxelCount() > 500);
+  CHECK(result.separating->empty());
+}
+
+TEST_CASE("pressure: no divergence is left in any cell, cut or whole", "[sim]") {
+  Scene scene(
+      24, {Shape{Sphere{Vec3d(0.5, 0.5, 0.2), 0.21}}, Shape{HalfSpace{Vec3d(0.1, 0, 0), Vec3d(2, 1, 0.5)}}},
+      [](const Vec3d& x) { return x.z() - 0.6 - 0.1 * std::sin(9 * x.x()) * std::cos(7 * x.y()); });
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  scene.setVelocity([&](const Vec3d&) { return Vec3d(uniform(random), uniform(random), uniform(random)); });
+  PressureOptions options = precise();
+  SECTION("liquid that may not let go") {
+    options.maxSeparationPasses = 0;
+    const Projection result = scene.projected(options);
+    CHECK(result.separating->empty());
+    CHECK(scene.largestDivergence(*result.separating) < 2e-6);
+  }
+  SECTION("liquid that may: only where it does, and nowhere does it pile up") {
+    options.maxSeparationPasses = 20;
+    const Projection result = scene.projected(options);
+    CHECK(result.report.separationPasses < 20);
+    CHECK(result.separating->activeVoxelCount() > 0);
+    CHECK(scene.largestDivergence(*result.separating) < 2e-6);
+    double lowest = 0.0;
+    for (auto it = result.pressure->cbeginValueOn(); it; ++it) {
+      const Coord c = it.getCoord();
+      bool atSolid = false;
+      for (int a = 0; a < 3; ++a) {
+        Coord up = c;
+        ++up[a];
+        atSolid = atSolid || scene.open(a, c) < 1.0f || scene.open(a, up) < 1.0f;
+      }
+      if (atSolid) lowest = std::min(lowest, *it);
+    }
+    CHECK(lowest > -0.01 * kDensity / kDt / 24);  // no suction at solids, but for rounding
+  }
+}
+
+TEST_CASE("pressure: projecting twice changes nothing more", "[sim]") {
+  Scene scene(16, {}, [](const Vec3d& x) { return x.z() - 0.55 - 0.2 * x.x(); });
+  scene.projected(precise());
+  const FloatGrid::Ptr once = scene.velocity.component[2]->deepCopy();
+  scene.projected(precise());
+  for (auto it = once->cbeginValueOn(); it; ++it) {
+    REQUIRE_THAT(scene.velocity.component[2]->tree().getValue(it.getCoord()), WithinAbs(*it, 1e-6 * kStep));
+  }
+}
+
+TEST_CASE("pressure: liquid under a ceiling comes off and falls", "[sim]") {
+  const int n = 16;
+  Scene scene(n, {}, [](const Vec3d& x) { return 0.69 - x.z(); });
+  PressureOptions options = precise();
+  options.suction = 0.1 * kDensity * kGravity / n;
+  const Projection result = scene.projected(options);
+  CHECK(result.separating->activeVoxelCount() > 0);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      for (int k = 11; k <= n; ++k) {
+        const Coord c(i, j, k);
+        REQUIRE(result.valid.w->tree().isValueOn(c));
+        REQUIRE_THAT(scene.velocity.component[2]->tree().getValue(c), WithinRel(-kStep, 1e-6));
+      }
+    }
+  }
+  options.maxSeparationPasses = 0;
+  scene.setVelocity([](const Vec3d&) { return Vec3d(0.0, 0.0, -kStep); });
+  const Projection glued = scene.projected(options);
+  CHECK(glued.separating->empty());
+  CHECK(scene.largestSpeed(glued.valid) < 1e-6 * kStep);  // else it hangs there
+}
+
+TEST_CASE("pressure: liquid thrown at a wall turns, liquid pulled off it leaves", "[sim]") {
+  const int n = 16;
+  const double sign = GENERATE(-1.0, 1.0);
+  Scene scene(n, {}, [](const Vec3d& x) { return x.x() - 0.5; });  // a block against the wall x = 0
+  scene.setVelocity([&](const Vec3d&) { return Vec3d(sign, 0.0, 0.0); });
+  const Projection result = scene.projected(precise());
+  const float atWall = scene.velocity.component[0]->tree().getValue(Coord(0, 8, 8));
+  CHECK(result.valid.u->tree().isValueOn(Coord(0, 8, 8)));
+  if (sign < 0.0) {
+    CHECK(atWall == 0.0f);
+    CHECK(result.separating->empty());
+  } else {
+    CHECK_THAT(atWall, WithinRel(1.0, 1e-5));  // the whole block, unhindered
+    CHECK_THAT(scene.velocity.component[0]->tree().getValue(Coord(5, 8, 8)), WithinRel(1.0, 1e-5));
+  }
+}
+
+TEST_CASE("pressure: a pocket without surface is solved, beside liquid that has one", "[sim]") {
+  const int n = 20;
+  // A full chamber for x < 0.4 behind a wall; a tank half full beyond it.
+  Scene scene(n, {Shape{Box{Vec3d(0.4, -1.0, -1.0), Vec3d(0.5, 2.0, 2.0)}}},
+              [](const Vec3d& x) { return x.x() < 0.45 ? -0.2 : x.z() - 0.5; });
+  scene.setVelocity([](const Vec3d& x) { return Vec3d(std::sin(5 * x.y()), std::cos(4 * x.x()), -kStep); });
+  PressureOptions options = precise();
+  options.maxSeparationPasses = 0;
+  const Projection result = scene.projected(options);
+  CHECK(scene.largestDivergence(*result.separating) < 2e-6);
+  double sum = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    for (int j = 0; j < n; ++j) {
+      for (int k = 0; k < n; ++k) sum += result.pressure->tree().getValue(Coord(i, j, k));
+    }
+  }
+  CHECK_THAT(sum / (8 * n * n), WithinAbs(0.0, 1e-6));  // the free constant: mean 0
+
+  // Full and closed, it cannot let go of anything: gravity alone leaves it still.
+  scene.setVelocity([](const Vec3d&) { return Vec3d(0.0, 0.0, -kStep); });
+  const Projection still = scene.projected(precise());
+  CHECK(still.separating->empty());
+  CHECK(scene.largestSpeed(still.valid) < 1e-6 * kStep);
+}
+
+TEST_CASE("pressure: single cells by hand", "[sim]") {
+  // One liquid cell in the air, divergence d: every theta is 1/2, so 6 q / (1/2) = -d and each face moves by
+  // d / 6.
+  Scene scene(8, {}, [](const Vec3d& x) { return (x - Vec3d(0.4375)).length() - 0.0625; });
+  scene.setVelocity([](const Vec3d&) { return Vec3d(0.0); });
+  FloatGrid& u = *scene.velocity.component[0];
+  u.tree().setValueOn(Coord(4, 3, 3), 0.6f);
+  const Projection result = scene.projected(precise());
+  CHECK(result.report.cells == 1);
+  CHECK_THAT(u.tree().getValue(Coord(4, 3, 3)), WithinAbs(0.5, 1e-6));
+  CHECK_THAT(u.tree().getValue(Coord(3, 3, 3)), WithinAbs(0.1, 1e-6));
+  CHECK_THAT(scene.velocity.component[2]->tree().getValue(Coord(3, 3, 3)), WithinAbs(0.1, 1e-6));
+  CHECK_THAT(scene.velocity.component[2]->tree().getValue(Coord(3, 3, 4)), WithinAbs(-0.1, 1e-6));
+  const double pascal = kDensity * scene.h / kDt;
+  CHECK_THAT(result.pressure->tree().getValue(Coord(3, 3, 3)), WithinRel(-0.6 / 12.0 * pascal, 1e-6));
+  CHECK(u.tree().getValue(Coord(5, 3, 3)) == 0.0f);
+  CHECK(result.valid.u->activeVoxelCount() == 2);
+}
+
+TEST_CASE("pressure: no liquid is no fault", "[sim]") {
+  Scene scene(8, {}, [](const Vec3d&) { return 1.0; });
+  const Projection result = scene.projected();
+  CHECK(result.report.cells == 0);
+  CHECK(result.valid.u->empty());
+}
+
+TEST_CASE("pressure: second order around a ball, from cut cells to the surface", "[sim]") {
+  // A shell of liquid around a ball of radius a, its surface at r = R. The velocity is the gradient of
+  // f = (R^2 - r^2) (r^2 - a^2)^2, which is 0 on the surface and has no slope on the ball: the pressure that
+  // takes it all away is p = f density / dt.
+  const double a = 0.2, radius = 0.43;
+  const Vec3d centre(0.503, 0.497, 0.491);
+  const auto f = [&](double r) { return (radius * radius - r * r) * std::pow(r * r - a * a, 2); };
+  const auto slope = [&](double r) {
+    const double s = r * r - a * a;
+    return -2 * r * s * s + (radius * radius - r * r) * 4 * r * s;
+  };
+  const auto errorAt = [&](int n) {
+    Scene scene(n, {Shape{Sphere{centre, a}}},
+                [&](const Vec3d& x) { return (x - centre).length() - radius; });
+    scene.setVelocity([&](const Vec3d& x) {
+      const Vec3d d = x - centre;
+      const double r = d.length();
+      return slope(r) / r * d;
+    });
+    PressureOptions options = precise();
+    options.maxSeparationPasses = 0;
+    const Projection result = scene.projected(options);
+    double worst = 0.0;
+    const double unit = kDensity / kDt;  // p = f density / dt
+    for (auto it = result.pressure->cbeginValueOn(); it; ++it) {
+      const double r = (result.pressure->indexToWorld(it.getCoord()) - centre).length();
+      if (r < a) continue;
+      worst = std::max(worst, std::abs(*it / unit - f(r)));
+    }
+    return worst;
+  };
+  const double coarse = errorAt(16), fine = errorAt(32), finest = errorAt(64);
+  CAPTURE(coarse, fine, finest, std::log2(coarse / fine), std::log2(fine / finest));
+  CHECK(std::log2(coarse / finest) / 2.0 > 1.7);
+}
+
+TEST_CASE("pressure: the same bytes on any number of threads", "[sim]") {
+  const auto run = [](int threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    Scene scene(32, {Shape{Sphere{Vec3d(0.5, 0.5, 0.2), 0.21}}},
+                [](const Vec3d& x) { return x.z() - 0.6 - 0.1 * std::sin(9 * x.x()) * std::cos(7 * x.y()); });
+    scene.setVelocity([](const Vec3d& x) {
+      return Vec3d(std::sin(31 * x.y()), std::cos(27 * x.z()), std::sin(20 * x.x() * x.y()));
+    });
+    const Projection result = scene.projected();
+    std::vector<float> bytes;
+    for (const auto& grid : scene.velocity.component) {
+      for (auto it = grid->cbeginValueOn(); it; ++it) bytes.push_back(*it);
+    }
+    bytes.push_back(static_cast<float>(result.report.iterations));
+    return bytes;
+  };
+  const auto one = run(1), four = run(4);
+  REQUIRE(one.size() == four.size());
+  CHECK(std::memcmp(one.data(), four.data(), one.size() * sizeof(float)) == 0);
+}
+
+TEST_CASE("poisson: iterations hardly grow with the grid", "[sim]") {
+  const auto iterationsAt = [](int n) {
+    Scene scene(n, {}, [](const Vec3d& x) { return x.z() - 0.5 - 0.2 * std::sin(5 * x.x()); });
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    scene.setVelocity([&](const Vec3d&) { return Vec3d(uniform(random), uniform(random), uniform(random)); });
+    PressureOptions options;
+    options.maxSeparationPasses = 0;
+    return scene.projected(options).report.iterations;
+  };
+  const int small = iterationsAt(16), large = iterationsAt(64);
+  CAPTURE(small, large);
+  CHECK(large <= 16);
+  CHECK(large <= small + 6);
+}
+
+TEST_CASE("cell numbering: red before black, each cell found again", "[sim]") {
+  std::vector<CellBlock> blocks(2);
+  blocks[0].origin = Coord(0, 0, 8);
+  blocks[1].origin = Coord(8, 0, 0);
+  for (int c = 0; c < 512; c += 3) blocks[0].cells.set(c);
+  for (int c = 0; c < 512; c += 7) blocks[1].cells.set(c);
+  const CellNumbering numbering(blocks, Coord(16, 5, 16));
+  REQUIRE(numbering.size() == static_cast<int>(blocks[0].cells.count() + blocks[1].cells.count()));
+  for (int i = 0; i < numbering.size(); ++i) {
+    const Coord& c = numbering.cells()[i];
+    CHECK((((c[0] + c[1] + c[2]) & 1) == 0) == (i < numbering.redCount()));
+    if (c[1] < 5) CHECK(numbering.at(c) == i);
+  }
+  CHECK(numbering.at(Coord(0, 0, 9)) == -1);
+  CHECK(numbering.at(Coord(-1, 0, 8)) == -1);
+  CHECK(numbering.at(Coord(0, 0, 16)) == -1);
+  CHECK(numbering.at(Coord(8, 0, 8)) == -1);  // a block without cells
+}
