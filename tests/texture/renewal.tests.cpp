@@ -1,0 +1,103 @@
+#include "texture/renewal.h"
+
+#include "tests/texture/oriented_mesh.h"
+#include "tests/texture/test_images.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+using namespace fluidtex::texture;
+using namespace fluidtex::testing;
+
+namespace {
+
+const Float8 kAllChannels{1, 1, 1, 1, 1, 1, 1, 1};
+
+// The picture texel = (20 + scale x, 60 - y) on the upper side of a flat box.
+Labels picture(const OrientedMesh& surface, float scale) {
+  Labels labels;
+  for (const Vec3f& x : surface.mesh.positions)
+    labels.push_back({{20 + scale * x.x(), 60 - x.y()}, {scale, 0, 0, 1}});
+  return labels;
+}
+
+bool onTop(const Vec3f& x) {
+  return x.z() > 1.9f && x.x() > 4 && x.x() < 20 && x.y() > 4 && x.y() < 20;
+}
+
+}  // namespace
+
+TEST_CASE("renewal: whole, unstretched texture is left alone; stretched, lost or doubted texture is not") {
+  const OrientedMesh surface = flatBox(24);
+  const TexelImage image = makeTexelImage(blobImage(100, 100, 3, 10.0, 1), false, 4);
+  const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
+  const std::size_t count = surface.mesh.positions.size();
+  const std::vector<float> trusted(count, 1.0f), doubted(count, 0.1f);
+  const auto share = [&](const Labels& labels, const std::vector<float>& trust, std::uint64_t seed = 1) {
+    const std::vector<std::uint8_t> found = worthRenewing(model, labels, trust, 1.35, seed);
+    std::size_t sum = 0, all = 0;
+    for (std::uint32_t v = 0; v < count; ++v)
+      if (onTop(surface.mesh.positions[v])) sum += found[v], ++all;
+    return double(sum) / double(all);
+  };
+  CHECK(share(picture(surface, 1.0f), trusted) == 0.0);
+  CHECK(share(picture(surface, 1.2f), trusted) == 0.0);
+  CHECK(share(picture(surface, 1.5f), trusted) == 1.0);
+  CHECK(share(picture(surface, 1 / 1.5f), trusted) == 1.0);
+  // At the threshold it depends on the place in the exemplar.
+  double some = 0.0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) some += 0.1 * share(picture(surface, 1.35f), trusted, seed);
+  CHECK(some > 0.2);
+  CHECK(some < 0.8);
+  CHECK(share(picture(surface, 1.0f), doubted) == 1.0);
+  Labels outside = picture(surface, 1.0f);
+  for (Label& label : outside) label.texel += Vec2f(100, 0);
+  CHECK(share(outside, trusted) == 1.0);
+}
+
+TEST_CASE("renewal: a mask grows by rings") {
+  const OrientedMesh surface = flatBox(12);
+  std::vector<std::uint8_t> mask(surface.mesh.positions.size(), 0);
+  const Vec3f center(6, 6, 2);
+  mask[nearestVertex(surface.mesh, center)] = 1;
+  const std::vector<std::uint8_t> result = grown(surface.graph, mask, 2);
+  for (std::uint32_t v = 0; v < mask.size(); ++v) {
+    const Vec3f way = surface.mesh.positions[v] - center;
+    if (surface.mesh.positions[v].z() < 1.9f) continue;
+    // Squares are split along one diagonal, so that rings are hexagons.
+    const float rings = way.x() * way.y() > 0 ? std::max(std::abs(way.x()), std::abs(way.y()))
+                                              : std::abs(way.x()) + std::abs(way.y());
+    CHECK(bool(result[v]) == (rings < 2.5f));
+  }
+}
+
+TEST_CASE("renewal: a proposal that repairs is taken, one that tears is not") {
+  const OrientedMesh surface = flatBox(24);
+  const TexelImage image = makeTexelImage(blobImage(100, 100, 3, 10.0, 1), false, 4);
+  const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
+  const std::vector<float> trust(surface.mesh.positions.size(), 1.0f);
+  const Labels good = picture(surface, 1.0f);
+  Labels hole = good;  // a torn piece in the middle
+  std::vector<std::uint8_t> inside;
+  for (std::uint32_t v = 0; v < hole.size(); ++v) {
+    const Vec3f& x = surface.mesh.positions[v];
+    inside.push_back(x.z() > 1.9f && (x - Vec3f(12, 12, 2)).length() < 5);
+    if (inside[v]) hole[v].texel = Vec2f(float(randomUnit(1, v)), float(randomUnit(2, v))) * 99.0f;
+  }
+  std::vector<std::uint8_t> renewed;
+  const Labels mended = settle(model, hole, good, trust, renewed);
+  CHECK(renewed == inside);
+  for (std::uint32_t v = 0; v < hole.size(); ++v) CHECK(mended[v].texel == good[v].texel);
+
+  const Labels kept = settle(model, good, hole, trust, renewed);
+  CHECK(std::count(renewed.begin(), renewed.end(), 1) == 0);
+  for (std::uint32_t v = 0; v < hole.size(); ++v) CHECK(kept[v].texel == good[v].texel);
+
+  const auto sum = [&](const Labels& labels) {
+    const std::vector<float> costs = badness(model, labels, trust);
+    return std::accumulate(costs.begin(), costs.end(), 0.0);
+  };
+  CHECK(sum(mended) < sum(hole));
+}
