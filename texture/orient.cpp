@@ -6,6 +6,8 @@
 // vanish.
 #include "texture/orient.h"
 
+#include "texture/complex.h"
+#include "texture/random.h"
 #include "texture/tangent.h"
 
 #include <tbb/blocked_range.h>
@@ -41,11 +43,6 @@ void forEachVertex(std::size_t count, const Body& body) {
                     });
 }
 
-// std::complex's product carries a slow path for infinities; these values are finite.
-Complexf times(const Complexf& a, const Complexf& b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
 // A tangent field in progress: at each vertex the vector length * (re d + im b), d = axes[v], b = d x n. The
 // length says how much the direction is believed.
 struct Field {
@@ -72,7 +69,8 @@ Complexf average(const VertexGraph& graph, const Connection& connection, const s
                  std::uint32_t v) {
   const std::uint32_t begin = graph.first[v], end = graph.first[v + 1];
   Complexf sum = values[v];
-  for (std::uint32_t h = begin; h < end; ++h) sum += times(connection.rotation[h], values[graph.neighbor[h]]);
+  for (std::uint32_t h = begin; h < end; ++h)
+    sum += product(connection.rotation[h], values[graph.neighbor[h]]);
   return sum / float(end - begin + 1);
 }
 
@@ -114,7 +112,8 @@ void invertLaplacian(const VertexGraph& graph, const Connection& connection, int
     forEachVertex(count, [&](std::uint32_t v) {
       const std::uint32_t begin = graph.first[v], end = graph.first[v + 1];
       Complexf sum = float(end - begin) * (1.0f + kShift) * x[v];
-      for (std::uint32_t h = begin; h < end; ++h) sum -= times(connection.rotation[h], x[graph.neighbor[h]]);
+      for (std::uint32_t h = begin; h < end; ++h)
+        sum -= product(connection.rotation[h], x[graph.neighbor[h]]);
       out[v] = sum;
     });
   };
@@ -159,7 +158,7 @@ void writeOrientation(const Field& field, SurfaceMesh& mesh) {
 // Points sorted into cubes, for looking up those near a position.
 class PointGrid {
  public:
-  PointGrid(const std::vector<Vec3f>& points, double cellSize) : m_points(points), m_scale(1.0 / cellSize) {
+  PointGrid(const std::vector<Vec3f>& points, double cellSize) : m_scale(1.0 / cellSize) {
     m_entries.resize(points.size());
     forEachVertex(points.size(), [&](std::uint32_t i) { m_entries[i] = {cellOf(points[i]), i}; });
     std::sort(m_entries.begin(), m_entries.end());
@@ -191,7 +190,6 @@ class PointGrid {
             int(std::floor(x.z() * m_scale))};
   }
 
-  const std::vector<Vec3f>& m_points;
   double m_scale;
   std::vector<Entry> m_entries;
 };
@@ -235,22 +233,14 @@ void smooth(SurfaceMesh& mesh, Field field, int sweeps, const std::vector<float>
   writeOrientation(field, mesh);
 }
 
-// A number in [-1, 1) that depends on the index alone (the finaliser of SplitMix64).
-float noise(std::uint64_t index) {
-  std::uint64_t x = (index + 1) * 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return float(std::int64_t(x ^ (x >> 31))) * 0x1p-63f;
-}
-
-// Half of the sweeps look for the smoothest field; the others spread its singularities once it has unit
-// length.
+// Four fifths of the sweeps look for the smoothest field; the others let it settle at unit length.
 void orientCoarsest(SurfaceMesh& mesh, int sweeps) {
   const VertexGraph graph = buildVertexGraph(mesh);
   Field field{referenceVectors(mesh.normals), std::vector<Complexf>(mesh.positions.size())};
   const Connection connection = buildConnection(mesh, graph, field.axes);
   forEachVertex(field.values.size(), [&](std::uint32_t v) {
-    field.values[v] = Complexf(1.0f, 0.0f) + kStartNoise * Complexf(noise(2ull * v), noise(2ull * v + 1));
+    const double re = 2.0 * randomUnit(0, 2ull * v) - 1.0, im = 2.0 * randomUnit(0, 2ull * v + 1) - 1.0;
+    field.values[v] = Complexf(1.0f, 0.0f) + kStartNoise * Complexf(float(re), float(im));
   });
   const int plainSweeps = sweeps / 5;
   for (int solve = 0; solve < kSolves; ++solve) {
@@ -315,7 +305,7 @@ std::vector<int> singularities(const SurfaceMesh& mesh) {
       const Complexf rotation = low == to ? connection.rotation[h] : std::conj(connection.rotation[h]);
       const double turn = std::arg(connection.rotation[h]);
       turns += low == to ? turn : -turn;
-      around = times(around, rotation);
+      around = product(around, rotation);
     }
     indices[t] = int(std::lround((turns - std::arg(around)) / (2.0 * std::numbers::pi)));
   });

@@ -14,10 +14,11 @@ struct OrientOptions {
       0.5;  // how strongly each sweep pulls back to the carried orientation where trust = 1
 };
 
-// Fills `orientation` of every level. First frame (carried empty): zero polar angle against consistent
-// reference vectors at the coarsest level, diffused there, handed down and diffused at each finer level.
-// Later frames: started from and held to carried.orientation. Angles are averaged as unit complex numbers in
-// the polar map of each vertex.
+// Fills `orientation` of every level. First frame (carried empty): the smoothest field at the coarsest level, by inverse
+// iteration from zero polar angle against consistent reference vectors, with noise that breaks symmetry; handed down and
+// diffused at each finer level. Later frames: started from and held to carried.orientation, so that a field that is smooth
+// hardly changes; where trust is low it is taken from the neighbours. Angles are averaged as complex numbers in the polar map
+// of each vertex. Throws std::invalid_argument if a level's mesh is not closed and manifold.
 void orient(Surface& surface, const Carried& carried, const OrientOptions& options = {});
 
 // The index of the orientation field in each triangle of an oriented mesh: how many full turns the field

@@ -2,6 +2,8 @@
 // they induce between neighbouring vertices (as in Knoeppel et al. 2013, sec. 3).
 #include "texture/tangent.h"
 
+#include "texture/complex.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -55,11 +57,6 @@ double angleBetween(const openvdb::Vec3d& a, const openvdb::Vec3d& b) {
 
 using Complexd = std::complex<double>;
 
-// std::complex's product carries a slow path for infinities; these values are finite.
-Complexd times(const Complexd& a, const Complexd& b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
 // Working space of polarDirections, kept from vertex to vertex.
 struct Fan {
   std::vector<openvdb::Vec3d> edges;
@@ -92,13 +89,13 @@ void polarDirections(const SurfaceMesh& mesh, std::uint32_t v, std::span<const s
   for (std::size_t i = 0; i < count; ++i) {
     const Complexd inMap = std::polar(1.0, -angle);  // counter-clockwise order: the angle in (d, b) falls
     const Complexd projected(fan.edges[i].dot(d), fan.edges[i].dot(b));
-    turn += times(projected, std::conj(inMap)) / std::max(fan.edges[i].length(), 1e-300);
+    turn += product(projected, std::conj(inMap)) / std::max(fan.edges[i].length(), 1e-300);
     directions[i] = Complexf(inMap);
     angle += fan.angles[i] * (2.0 * std::numbers::pi / theta);
   }
   const double size = std::abs(turn);
   const Complexd unitTurn = size > 0.0 ? turn / size : Complexd(1.0, 0.0);
-  for (Complexf& direction : directions) direction = Complexf(times(unitTurn, Complexd(direction)));
+  for (Complexf& direction : directions) direction = Complexf(product(unitTurn, Complexd(direction)));
 }
 
 }  // namespace
@@ -162,7 +159,7 @@ Connection buildConnection(const SurfaceMesh& mesh, const VertexGraph& graph,
       while (graph.neighbor[back] != v) ++back;
       // The edge is directions[h] in v's axes and -directions[back] in u's.
       const Complexd rotation =
-          -times(Complexd(connection.edge[h]), std::conj(Complexd(connection.edge[back])));
+          -product(Complexd(connection.edge[h]), std::conj(Complexd(connection.edge[back])));
       connection.rotation[h] = Complexf(rotation / std::abs(rotation));
     }
   });
