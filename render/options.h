@@ -9,9 +9,9 @@ using Vec3d = openvdb::math::Vec3<double>;
 
 // The default frames a tank of 1 m.
 struct Camera {
-  Vec3d from{2.25, -1.75, 1.55};  // metres, at the first frame
-  Vec3d at{0.5, 0.5, 0.4};        // looked at
-  double fov = 32.0;              // vertical field of view, degrees
+  Vec3d from{2.3, -1.6, 1.6};  // metres, at the first frame
+  Vec3d at{0.5, 0.5, 0.4};     // looked at
+  double fov = 30.0;           // vertical field of view, degrees
   // Degrees the camera turns over the whole animation, counter-clockwise seen from above, around the vertical
   // axis through `at`.
   double turn = 0.0;
@@ -21,17 +21,17 @@ struct Camera {
 // texture's colours there are those of its exemplar.
 struct Light {
   Vec3d sunDirection{-0.35, -0.6, 0.75};  // towards the sun
-  Vec3d sunColor{1.75, 1.68, 1.55};       // linear irradiance on a plane that faces the sun
+  Vec3d sunColor{1.95, 1.86, 1.7};        // linear irradiance on a plane that faces the sun
   double sunSize = 4.0;                   // degrees across; soft shadows
-  Vec3d skyColor{0.4, 0.45, 0.53};        // zenith, linear
-  Vec3d horizonColor{0.74, 0.74, 0.74};   // also all that is seen below the horizon where there is no ground
+  Vec3d skyColor{0.37, 0.42, 0.5};        // zenith, linear
+  Vec3d horizonColor{0.8, 0.8, 0.8};      // also all that is seen below the horizon where there is no ground
 };
 
 struct Surroundings {
   bool ground = true;                   // a plane below the domain
-  Vec3d groundColor{0.66, 0.65, 0.63};  // linear
+  Vec3d groundColor{0.74, 0.73, 0.71};  // linear
   bool tank = true;                     // thin rods along the edges of the domain
-  Vec3d tankColor{0.22, 0.22, 0.23};
+  Vec3d tankColor{0.16, 0.16, 0.17};
 };
 
 struct Options {

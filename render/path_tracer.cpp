@@ -113,14 +113,15 @@ class TileTracer {
 
   // Lets rays through liquid by the chance that its alpha leaves them.
   void passThrough(Ray& ray, const Path& path, int depth) const {
-    std::uint32_t key =
-        hash(m_world.frame, static_cast<std::uint32_t>(m_y0) << 16 | static_cast<std::uint32_t>(m_x0));
-    key = hash(key, static_cast<std::uint32_t>(path.pixel) << 16 | path.sample);
+    // The first layer is by far the most frequent and has a well spread sample; the others share out hashes.
+    float chance = m_points[path.pixel].point(path.sample, kChoice + depth * kPerVertex)[1];
+    std::uint32_t key = hash(static_cast<std::uint32_t>(chance * 0x1p24f), path.sample);
     for (int layer = 0; layer < kMostLayers && ray.geometry == kLiquid; ++layer) {
-      key = hash(key, static_cast<std::uint32_t>(depth * kMostLayers + layer));
-      if (static_cast<float>(key >> 8) * 0x1p-24f < liquidOpacity(m_world.stage, ray)) return;
+      if (chance < liquidOpacity(m_world.stage, ray)) return;
       ray.origin = originBehind(m_world.stage, ray);
       m_world.scene.intersect({&ray, 1}, Coherence::scattered);
+      key = hash(key, static_cast<std::uint32_t>(layer));
+      chance = static_cast<float>(key >> 8) * 0x1p-24f;
     }
   }
 

@@ -12,7 +12,7 @@ namespace fluidtex::render {
 
 struct Picture {
   int width = 0, height = 0;
-  std::vector<float> rgb;  // height x width x 3, linear, rows from the top
+  std::vector<float> rgb;  // height x width x 3, linear, rows from the top; render() gives values in 0..1
 };
 
 // A solid of the scene, drawn matt in one colour.
@@ -24,8 +24,8 @@ struct Solid {
 
 struct View {
   Vec3d domainSize;  // the domain is [0, domainSize]; tank and ground are built around it
-  double progress =
-      0.0;        // 0 at the first, 1 at the last frame of the animation: where a turning camera stands
+  // 0 at the first, 1 at the last frame of the animation: where a turning camera stands
+  double progress = 0.0;
   int frame = 1;  // keys the random numbers
 };
 

@@ -45,9 +45,16 @@ Vec3f facing(const Vec3f& normal, const Vec3f& toViewer) {
 
 Vec4f liquidColor(const texture::TexturedSurface& liquid, std::uint32_t triangle, const Vec3f& weights) {
   if (liquid.color.empty()) return Vec4f(kPlain[0], kPlain[1], kPlain[2], 1.0f);
+  // Weighted by alpha: what colour a see-through corner has does not matter.
   const texture::Vec3I& corner = liquid.triangles[triangle];
-  return liquid.color[corner[0]] * weights[0] + liquid.color[corner[1]] * weights[1] +
-         liquid.color[corner[2]] * weights[2];
+  Vec4f sum(0.0f);
+  for (int k = 0; k < 3; ++k) {
+    const Vec4f& color = liquid.color[corner[k]];
+    const float weight = weights[k] * color[3];
+    sum += Vec4f(color[0] * weight, color[1] * weight, color[2] * weight, weight);
+  }
+  const float scale = sum[3] > 0.0f ? 1.0f / sum[3] : 0.0f;
+  return Vec4f(sum[0] * scale, sum[1] * scale, sum[2] * scale, sum[3]);
 }
 
 float liquidOpacity(const Stage& stage, const Ray& ray) {

@@ -6,7 +6,7 @@ namespace fluidtex::render {
 namespace {
 
 // Thickness of the rods, and how far the ground lies below the domain, in diagonals of the domain.
-constexpr double kRod = 0.006, kGroundGap = 0.0005;
+constexpr double kRod = 0.0045, kGroundGap = 0.0005;
 
 Mesh makeGround(const Vec3d& color, const Vec3d& size) {
   const double reach = kGroundFadeTo * size.length(), z = -kGroundGap * size.length();

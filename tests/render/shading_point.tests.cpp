@@ -87,3 +87,11 @@ TEST_CASE("shading point: opacity is the liquid's alpha, 1 for solids, and fades
   REQUIRE(shadingPoint(stage, hitOn(1, 0, 0.25f, 0.5f, down)).opacity == 1.0f);
   REQUIRE(shadingPoint(stage, hitOn(2, 0, 0.0f, 0.0f, down)).opacity == 1.0f);
 }
+
+TEST_CASE("shading point: the colour of a corner that is not there does not show", "[render]") {
+  auto ball = fluidtex::render::shapes::sphere(Vec3f(0.0f), 1.0f, 0, Vec4f(0.2f, 0.4f, 0.6f, 1.0f));
+  ball.color[ball.triangles[0][1]] = Vec4f(1.0f, 0.0f, 1.0f, 0.0f);
+  const Vec4f inside = liquidColor(ball, 0, Vec3f(0.25f, 0.5f, 0.25f));
+  REQUIRE((inside - Vec4f(0.2f, 0.4f, 0.6f, 0.5f)).length() < 1e-6f);
+  REQUIRE(liquidColor(ball, 0, Vec3f(0.0f, 1.0f, 0.0f))[3] == 0.0f);
+}

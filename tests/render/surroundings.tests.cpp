@@ -57,7 +57,7 @@ TEST_CASE("surroundings: the tank's rods are closed, face outward and stay out o
     }
     // Outward faces have positive volume: four posts, eight rods, of a square section, less than the domain
     // by far.
-    const double section = std::pow(0.006 * size.length(), 2.0);
+    const double section = std::pow(0.0045 * size.length(), 2.0);
     const double length = 4.0 * (size[0] + size[1] + size[2]);
     REQUIRE(volume == Approx(section * length).epsilon(0.1));
   }
