@@ -5,12 +5,13 @@
 
 #include "texture/lanes.h"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
+#include <string>
 
 namespace fluidtex::texture {
 namespace {

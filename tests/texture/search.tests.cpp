@@ -1,13 +1,12 @@
 #include "texture/search.h"
 
-#include "tests/texture/sample_images.h"
+#include "tests/texture/sample_windows.h"
 
 #include <tbb/global_control.h>
 
 #include <catch2/catch.hpp>
 
-#include <cstring>
-#include <set>
+#include <limits>
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
@@ -27,61 +26,6 @@ std::vector<Named> exemplars(int size, bool toroidal) {
   result.push_back({"cells", makeExemplar(cells(size), toroidal, {}, 1)});
   result.push_back({"clouds", makeExemplar(clouds(size), toroidal, {}, 1)});
   return result;
-}
-
-Vec2i randomCenter(const SearchTable& table, std::uint64_t seed, std::uint64_t counter) {
-  const Vec2i low = table.minCenter(), high = table.maxCenter();
-  return low + Vec2i(int(randomBelow(seed, 2 * counter, std::uint64_t(high[0] - low[0] + 1))),
-                     int(randomBelow(seed, 2 * counter + 1, std::uint64_t(high[1] - low[1] + 1))));
-}
-
-// Reads the window around `center`, its pixels moved by `turn` (an angle) and `stretch`, into the query.
-void readWindow(const SearchTable& table, const Image& image, Vec2f center, float turn, float stretch,
-                WindowQuery& query) {
-  const int half = table.window / 2;
-  for (int y = -half; y <= half; ++y)
-    for (int x = -half; x <= half; ++x) {
-      const Vec2f texel(center[0] + (std::cos(turn) * float(x) - std::sin(turn) * float(y)) / stretch,
-                        center[1] + (std::sin(turn) * float(x) + std::cos(turn) * float(y)) * stretch);
-      sampleBilinear(image, table.toroidal, texel,
-                     query.pixels.data() + ((y + half) * table.window + x + half) * table.channels);
-    }
-}
-
-void readWindow(const SearchTable& table, const Image& image, Vec2i center, WindowQuery& query) {
-  readWindow(table, image, Vec2f(float(center[0]), float(center[1])), 0.0f, 1.0f, query);
-  std::fill(query.mask.begin(), query.mask.end(), 1.0f);
-  prepareQuery(table, query);
-}
-
-enum class Kind { turned, stretched, noisy, blended, blurred };
-
-// Windows such as synthesis asks for: none is in the exemplar, all are made from it.
-void makeQuery(const SearchTable& table, const Image& image, Kind kind, std::uint64_t counter,
-               WindowQuery& query) {
-  const Vec2i at = randomCenter(table, 31, counter), other = randomCenter(table, 32, counter);
-  const Vec2f center{float(at[0]) + 0.3f, float(at[1]) - 0.4f};
-  std::fill(query.mask.begin(), query.mask.end(), 1.0f);
-  readWindow(table, image, center, kind == Kind::turned ? 0.3f : 0.0f, kind == Kind::stretched ? 1.3f : 1.0f,
-             query);
-  if (kind == Kind::noisy)
-    for (std::size_t i = 0; i < query.pixels.size(); ++i)
-      query.pixels[i] += 0.1f * float(randomUnit(counter + 100, i) - 0.5);
-  if (kind == Kind::blended) {
-    const std::vector<float> first = query.pixels;
-    readWindow(table, image, Vec2f(float(other[0]), float(other[1])), 0.0f, 1.0f, query);
-    for (std::size_t i = 0; i < first.size(); ++i) query.pixels[i] = 0.6f * first[i] + 0.4f * query.pixels[i];
-  }
-  if (kind == Kind::blurred) {
-    const std::vector<float> sharp = query.pixels;
-    std::vector<float> moved(sharp.size());
-    for (const float dx : {-1.5f, 1.5f}) {
-      readWindow(table, image, center + Vec2f(dx, 0.7f * dx), 0.0f, 1.0f, query);
-      for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += query.pixels[i];
-    }
-    for (std::size_t i = 0; i < sharp.size(); ++i) query.pixels[i] = (sharp[i] + moved[i]) / 3.0f;
-  }
-  prepareQuery(table, query);
 }
 
 // The distance by its definition.
@@ -186,108 +130,6 @@ TEST_CASE("search: what stands in missing pixels does not matter", "[texture]") 
   readWindow(table, exemplar.match[0], {20, 30}, a);
   readWindow(table, exemplar.match[0], {20, 30}, fresh);
   CHECK(a.weight == fresh.weight);
-}
-
-TEST_CASE("search: the components are orthonormal under the fall-off", "[texture]") {
-  const Exemplar exemplar = makeExemplar(cells(64), false, {}, 1);
-  for (const int window : {9, 17}) {
-    const WindowBasis basis = buildSearchTable(exemplar.match[0], false, window, 1).basis;
-    const std::vector<float> falloff = buildSearchTable(exemplar.match[0], false, window, 1).falloff;
-    for (int a = 0; a < kDescriptorSize; ++a)
-      for (int b = 0; b <= a; ++b) {
-        double product = 0.0;
-        for (int i = 0; i < basis.size; ++i)
-          product += double(basis.component[std::size_t(i * kDescriptorSize + a)]) *
-                     basis.component[std::size_t(i * kDescriptorSize + b)] /
-                     falloff[std::size_t(i / exemplar.match[0].channels)];
-        CHECK_THAT(product, WithinAbs(a == b ? 1.0 : 0.0, 1e-4));
-      }
-  }
-}
-
-TEST_CASE(
-    "search: descriptors are no farther apart than their windows, and as far where 24 components suffice",
-    "[texture]") {
-  // Six waves in one channel: the windows span a constant and twelve waves, sine and cosine.
-  Image waves{64, 64, 1, {}};
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x) {
-      float value = 0.5f;
-      for (int k = 1; k <= 6; ++k)
-        value += 0.08f * std::sin(2.0f * float(M_PI) * float(k * x + (7 - k) * y) / 64.0f + float(k));
-      waves.data.push_back(value);
-    }
-  const Exemplar cellular = makeExemplar(cells(64), true, {}, 1);
-  for (const Image* image : {static_cast<const Image*>(&waves), &cellular.match[0]}) {
-    const SearchTable table = buildSearchTable(*image, true, 9, 3);
-    WindowQuery a(table), b(table);
-    for (std::uint64_t n = 0; n < 50; ++n) {
-      const Vec2i first = randomCenter(table, 1, n), second = randomCenter(table, 2, n);
-      readWindow(table, *image, first, a);
-      readWindow(table, *image, second, b);
-      const auto from = describeQuery(table, a), to = describeQuery(table, b);
-      double between = 0.0;
-      for (std::size_t k = 0; k < from.size(); ++k) between += std::pow(double(from[k]) - to[k], 2);
-      const float distance = windowDistance(table, a, second);
-      CHECK(between <= distance * 1.001 + 1e-6);
-      if (image == &waves) CHECK_THAT(between, WithinAbs(distance, 1e-3 * distance + 1e-5));
-    }
-  }
-}
-
-TEST_CASE("search: all descriptors at once are those of the windows one by one, and come back from them",
-          "[texture]") {
-  const Exemplar exemplar = makeExemplar(stripes(64), true, {}, 1);
-  const SearchTable table = buildSearchTable(exemplar.match[0], true, 9, 1);
-  const std::vector<float> all = describeAll(table.basis, table.padded, 9, 3, 20, 21);
-  WindowQuery query(table);
-  for (const Vec2i at : {Vec2i(0, 0), Vec2i(19, 20), Vec2i(7, 3)}) {
-    readWindow(table, exemplar.match[0], at * 3, query);
-    const auto descriptor = describeQuery(table, query);
-    for (std::size_t k = 0; k < descriptor.size(); ++k)
-      CHECK_THAT(all[std::size_t(at[1] * 20 + at[0]) * kDescriptorSize + k], WithinAbs(descriptor[k], 1e-4));
-    // Describing what a descriptor stands for gives the descriptor.
-    std::vector<float> pixels(query.pixels.size()), again(kDescriptorSize);
-    reconstructWindow(table.basis, table.falloff, descriptor, pixels);
-    describeWindow(table.basis, pixels, again);
-    for (std::size_t k = 0; k < again.size(); ++k) CHECK_THAT(again[k], WithinAbs(descriptor[k], 1e-4));
-  }
-}
-
-TEST_CASE("tree: holds every descriptor once, and all leaves together give the nearest", "[texture]") {
-  for (const std::size_t count : {std::size_t(1), std::size_t(7), std::size_t(3000)}) {
-    std::vector<float> descriptors(count * kDescriptorSize);
-    for (std::size_t i = 0; i < descriptors.size(); ++i)
-      descriptors[i] = float(randomUnit(4, i)) / float(1 + i % kDescriptorSize);
-    const WindowTree tree = buildWindowTree(descriptors, 64, 1);
-    std::multiset<std::uint32_t> held;
-    for (const std::uint32_t i : tree.index)
-      if (i != kNoWindow) held.insert(i);
-    CHECK(held.size() == count);
-    CHECK(std::set<std::uint32_t>(held.begin(), held.end()).size() == count);
-    for (int leaf = 0; leaf < tree.leaves(); ++leaf)
-      CHECK(tree.firstBlock[std::size_t(leaf)] < tree.firstBlock[std::size_t(leaf) + 1]);
-
-    TreeSearch search;
-    for (std::uint64_t n = 0; n < 20; ++n) {
-      std::vector<float> target(kDescriptorSize);
-      for (std::size_t k = 0; k < target.size(); ++k) target[k] = float(randomUnit(9 + n, k)) / float(1 + k);
-      std::vector<Found> expected;
-      for (std::size_t i = 0; i < count; ++i) {
-        float distance = 0.0f;
-        for (std::size_t k = 0; k < target.size(); ++k)
-          distance += std::pow(descriptors[i * kDescriptorSize + k] - target[k], 2.0f);
-        expected.push_back({distance, std::uint32_t(i)});
-      }
-      std::sort(expected.begin(), expected.end());
-      searchWindowTree(tree, descriptors.data() + n * 7 % count * kDescriptorSize, 1, 1, search);
-      CHECK(search.best[0].distance == 0.0f);  // a descriptor of the tree is found by the first probe
-      searchWindowTree(tree, target.data(), tree.leaves(), 5, search);
-      REQUIRE(search.best.size() == std::min<std::size_t>(5, count));
-      for (std::size_t k = 0; k < search.best.size(); ++k)
-        CHECK_THAT(search.best[k].distance, WithinRel(expected[k].distance, 1e-4f));
-    }
-  }
 }
 
 TEST_CASE("search: a window of the exemplar is found", "[texture]") {
