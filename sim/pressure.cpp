@@ -216,15 +216,17 @@ bool updateDetached(const Liquid& liquid, const std::vector<double>& q, const st
   return any;
 }
 
-// Leaves of `grid` that hold a lower or upper face, normal to axis, of a liquid cell; made where they were
-// missing.
-std::vector<FloatLeaf*> faceLeaves(const Liquid& liquid, int axis, FloatGrid& grid) {
+// Leaves of `grid` that hold a face of a liquid cell; made where they were missing. They are the same for every
+// axis, so that the components keep one topology.
+std::vector<FloatLeaf*> faceLeaves(const Liquid& liquid, FloatGrid& grid) {
   std::vector<FloatLeaf*> leaves;
   for (const CellBlock& block : liquid.blocks) {
     leaves.push_back(grid.tree().touchLeaf(block.origin));
-    Coord next = block.origin;
-    next[axis] += kLeafDim;
-    leaves.push_back(grid.tree().touchLeaf(next));
+    for (int axis = 0; axis < 3; ++axis) {
+      Coord next = block.origin;
+      next[axis] += kLeafDim;
+      leaves.push_back(grid.tree().touchLeaf(next));
+    }
   }
   std::sort(leaves.begin(), leaves.end(),
             [](const FloatLeaf* a, const FloatLeaf* b) { return a->origin() < b->origin(); });
@@ -245,7 +247,7 @@ openvdb::MaskGrid::Ptr updateFaces(const Liquid& liquid, const SolidField& solid
                                    FloatGrid& grid) {
   auto valid = openvdb::MaskGrid::create();
   valid->setTransform(faceTransform(solid.voxelSize, axis));
-  const std::vector<FloatLeaf*> leaves = faceLeaves(liquid, axis, grid);
+  const std::vector<FloatLeaf*> leaves = faceLeaves(liquid, grid);
   std::vector<openvdb::MaskGrid::TreeType::LeafNodeType*> masks;
   for (const FloatLeaf* leaf : leaves) masks.push_back(valid->tree().touchLeaf(leaf->origin()));
 
