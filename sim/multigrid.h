@@ -41,7 +41,7 @@ class Multigrid {
   };
 
   static Level coarsen(const Level& fine, int depth);
-  static void connect(Level& fine, const Level& coarse);
+  static void connect(Level& fine, const Level& coarse, int depth);
   void cycle(std::size_t depth, const std::vector<float>& b, std::vector<float>& x);
 
   std::vector<Level> m_levels;
