@@ -60,7 +60,7 @@ SeamModel makeSeamModel(const MeshView& view, const TexelImage& image, const Flo
   return {view, image, channelWeight, std::max(randomDifference(image, channelWeight), 1e-6f)};
 }
 
-float seamCost(const SeamModel& model, const Label& atV, const Label& atU, std::uint32_t, std::uint32_t h) {
+float seamCost(const SeamModel& model, const Label& atV, const Label& atU, std::uint32_t h) {
   const Complexf& edge = model.view.connection.edge[h];
   const Complexf back = -conjugateProduct(model.view.connection.rotation[h], edge);
   const Vec2f vThere = atV.at(edge), uHere = atU.at(back);
@@ -79,7 +79,7 @@ std::vector<float> seamCosts(const SeamModel& model, const Labels& labels) {
   forEach(labels.size(), [&](std::uint32_t v) {
     float sum = 0.0f;
     for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h)
-      sum += seamCost(model, labels[v], labels[graph.neighbor[h]], v, h);
+      sum += seamCost(model, labels[v], labels[graph.neighbor[h]], h);
     costs[v] = sum / float(graph.around(v).size());
   });
   return costs;
@@ -101,7 +101,7 @@ void straightenSeams(const SeamModel& model, const LabelTerms& terms, const std:
         const auto costOf = [&](const Label& label, float bound) {
           float cost = ownCost(model, terms, label, v);
           for (std::uint32_t h = begin; h < end && cost < bound; ++h)
-            cost += seamCost(model, label, labels[graph.neighbor[h]], v, h);
+            cost += seamCost(model, label, labels[graph.neighbor[h]], h);
           return cost;
         };
         constexpr float kAny = 1e30f;

@@ -17,10 +17,10 @@ struct SeamModel {
 };
 SeamModel makeSeamModel(const MeshView& view, const TexelImage& image, const Float8& channelWeight);
 
-// Cost of edge h of v between two labels: zero where they continue each other, else kSeamLength + |A(v) -
-// B(v)| + |A(u) - B(u)|, A and B being what the two put at a place; differences are not squared, so that this
-// is a metric in the labels [Kwatra03].
-float seamCost(const SeamModel& model, const Label& atV, const Label& atU, std::uint32_t v, std::uint32_t h);
+// Cost of edge h, from v to u, between two labels: zero where they continue each other, else kSeamLength +
+// |A(v) - B(v)| + |A(u) - B(u)|, A and B being what the two put at a place; differences are not squared, so
+// that this is a metric in the labels [Kwatra03].
+float seamCost(const SeamModel& model, const Label& atV, const Label& atU, std::uint32_t h);
 inline constexpr float kSeamLength = 0.1f;
 
 // The mean of seamCost() over each vertex's edges.

@@ -163,7 +163,7 @@ State synthesizeFirst(Synthesizer& synthesizer, const Surface& surface, int fram
           blockLabels(level.view, image, kBlockSize / float(1 << l), keyOf(synthesizer, frame, l, 0));
     else
       state.labels = refineLabels(surface.levels[index + 1], state.labels, mesh, image);
-    state.value = lookUp(image, state.labels);
+    state.value = state.average = lookUp(image, state.labels);
     const double share = double(mesh.positions.size()) / whole;
     runPasses(synthesizer, level, l, frame, synthesizer.options.firstIterations,
               l > 0 ? kCoarseIterations : 1, true, state, stats, [&](double part) {
@@ -194,7 +194,7 @@ State synthesizeLater(Synthesizer& synthesizer, const MeshView& view, const Carr
             kRenewalRim);
   if (std::find(level.wanted.begin(), level.wanted.end(), 1) == level.wanted.end()) return state;
 
-  state.value = lookUp(image, before);
+  state.value = state.average = lookUp(image, before);
   level.constraint.value = state.value;
   level.constraint.weight = constraintWeights(view, state.value, carried.trust, options.softConstraint);
   runPasses(synthesizer, level, 0, frame, options.laterIterations, 1, false, state, stats, progress);
@@ -298,6 +298,7 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
     else
       result.color[v] = decoded(state.value[v], synthesizer.exemplar.colorChannels);
   });
+  if (progress) progress(1.0);
   result.trust = carried.empty() ? std::vector<float>(count, 0.0f) : carried.trust;
   result.previousPosition = carried.empty() ? mesh.positions : carried.previousPosition;
   result.positions = std::move(mesh.positions);
