@@ -36,10 +36,12 @@ struct Extension {
     return normalSquare > 0.0 ? slopeSum / (std::sqrt(normalSquare) * h) : 0.0;
   }
 
-  // Whether there is, or shall be, air between the solid cell and the liquid beside it.
-  bool gap(std::int64_t solidCell, std::int64_t openCell) const {
-    if (value[openCell] >= 0.0f) return false;
-    return letGo ? letGo(table.coord(openCell)) : value[solidCell] >= 0.0f;
+  // Slope of phi into the solid beyond a cell in the open, as far as it is believed.
+  double usedSlope(std::int64_t solidCell, std::int64_t openCell) const {
+    const bool away = letGo ? letGo(table.coord(openCell)) : value[solidCell] >= 0.0f;
+    const double slopeThere = openSlope(openCell);
+    if (value[openCell] < 0.0f) return std::clamp(slopeThere, -1.0, away ? 1.0 : 0.0);
+    return away ? 0.0 : std::clamp(slopeThere, -1.0, 0.0);
   }
 
   bool extend(std::int64_t cell) {
@@ -52,7 +54,7 @@ struct Extension {
         const std::int64_t n = table.neighbor(cell, 2 * axis + up);
         if (n < 0 || known[n] == 0) continue;
         double along = slope[n];
-        if (depth[n] <= kDeepInSolid * h) along = std::clamp(openSlope(n), -1.0, gap(cell, n) ? 1.0 : 0.0);
+        if (depth[n] <= kDeepInSolid * h) along = usedSlope(cell, n);
         plainSum += value[n];
         plainSlopes += along;
         ++plainCount;

@@ -40,13 +40,15 @@ void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, const ReinitOptions
 // surface.
 double slopeError(const FloatGrid& phi, const FloatGrid& solidPhi);
 
-// Whether the liquid in this cell has let go of the solid beside it.
+// Asked of cells in the open beside a solid: has the liquid there let go of the solid, or, where the cell is
+// air, does the velocity lead away from the solid?
 using LetGo = std::function<bool(const Coord&)>;
 
 // Gives the cells more than half a cell deep in solids, in the leaves that phi has, values such that the
 // surface runs on into the solid: constant along the solid's normal, or linear where that holds more liquid
-// (thin films). Where the liquid let go of the solid always linear, so that the gap is kept. Without `letGo`
-// a gap that is there (air behind the solid's surface, liquid before it) stays, and none opens.
+// (films thinner than half a cell; not where they would flow out of the solid). Where the liquid let go
+// always linear, so that the gap is kept. Without `letGo` everything stays as it is: a gap or a film that is
+// there is kept, and none begins.
 void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo = {});
 
 // Takes solids out of the liquid, phi = max(phi, -solidPhi), in the cells active in `where`.

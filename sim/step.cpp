@@ -51,9 +51,24 @@ void addGravity(Velocity& velocity, const Vec3d& change) {
   }
 }
 
+// Whether the velocity at a closed face of this cell leads away from the solid.
+bool leavesSolid(const Velocity& velocity, const FloatGrid& solidPhi, const Coord& cell) {
+  const float deep = -kDeepInSolid * static_cast<float>(solidPhi.voxelSize()[0]);
+  for (int a = 0; a < 3; ++a) {
+    Coord below = cell, above = cell;
+    below[a] -= 1;
+    above[a] += 1;
+    const FloatTree& speed = velocity.component[a]->constTree();
+    if (solidPhi.constTree().getValue(below) < deep && speed.getValue(cell) > 0.0f) return true;
+    if (solidPhi.constTree().getValue(above) < deep && speed.getValue(above) < 0.0f) return true;
+  }
+  return false;
+}
+
 // From here on the surface knows where liquid has let go of a solid: there a gap opens, elsewhere it is
 // closed.
-void openGaps(FloatGrid& phi, const SolidField& solid, const openvdb::MaskGrid& separating) {
+void openGaps(Liquid& liquid, const SolidField& solid, const openvdb::MaskGrid& separating) {
+  FloatGrid& phi = *liquid.phi;
   if (!separating.empty()) {
     // The cut reaches the cells beside those that let go; leaves are needed as deep as stencils reach.
     openvdb::MaskGrid around(separating);
@@ -62,7 +77,10 @@ void openGaps(FloatGrid& phi, const SolidField& solid, const openvdb::MaskGrid& 
     openvdb::tools::dilateActiveValues(around.tree(), 3, openvdb::tools::NN_FACE);
     for (auto leaf = around.constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
   }
-  extendIntoSolids(phi, *solid.phi, [&](const Coord& ijk) { return separating.constTree().isValueOn(ijk); });
+  extendIntoSolids(phi, *solid.phi, [&](const Coord& ijk) {
+    return phi.constTree().getValue(ijk) < 0.0f ? separating.constTree().isValueOn(ijk)
+                                                : leavesSolid(liquid.velocity, *solid.phi, ijk);
+  });
   trimBand(phi, *solid.phi);
 }
 
@@ -74,9 +92,14 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& 
   const Projection projection = project(*u, *v, *w, *liquid.phi, solid, dt, options.density, pressure);
   if (report != nullptr) *report = projection.report;
   if (!projection.report.converged) return false;
+  // The projection may have added faces to one component: all three have one topology again.
+  u->topologyUnion(*v);
+  u->topologyUnion(*w);
+  v->topologyUnion(*u);
+  w->topologyUnion(*u);
   extrapolate(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
   constrainToSolids(*u, *v, *w, *liquid.phi, solid, projection.valid, *projection.separating);
-  openGaps(*liquid.phi, solid, *projection.separating);
+  openGaps(liquid, solid, *projection.separating);
   return std::isfinite(maxAbs(liquid.velocity));
 }
 
