@@ -75,18 +75,23 @@ unsigned VelocitySampler::valuesAround(Component& component, const Coord& lower,
       }
     }
   }
+  // Along each axis the upper values lie in the next leaf if the lower ones are the last of theirs.
+  const unsigned crossX = (i + 1) >> 3, crossY = (j + 1) >> 3, crossZ = (k + 1) >> 3;
+  const std::array<unsigned, 2> x{64 * i, 64 * ((i + 1) & 7)}, y{8 * j, 8 * ((j + 1) & 7)}, z{k, (k + 1) & 7};
   unsigned active = 0;
+#pragma GCC unroll 8
   for (unsigned tap = 0; tap < 8; ++tap) {
-    const unsigned x = i + (tap >> 2), y = j + ((tap >> 1) & 1), z = k + (tap & 1);
-    const unsigned which = ((x >> 3) << 2) | ((y >> 3) << 1) | (z >> 3);
+    const unsigned dx = tap >> 2, dy = (tap >> 1) & 1, dz = tap & 1;
+    const unsigned which = (dx & crossX) << 2 | (dy & crossY) << 1 | (dz & crossZ);
     if (!(near.fetched & (1u << which))) fetch(component, which);
-    const unsigned offset = 64 * (x & 7) + 8 * (y & 7) + (z & 7);
+    const unsigned offset = x[dx] + y[dy] + z[dz];
     if (const Leaf* leaf = near.leaf[which]) {
       values[tap] = near.values[which][offset];
-      active |= unsigned(leaf->isValueOn(offset)) << tap;
+      active |= unsigned(leaf->valueMask().isOn(offset)) << tap;
     } else {
       float tile = 0.0f;
-      active |= unsigned(component.accessor->probeValue(origin + Coord(int(x), int(y), int(z)), tile)) << tap;
+      active |= unsigned(component.accessor->probeValue(lower.offsetBy(int(dx), int(dy), int(dz)), tile))
+                << tap;
       values[tap] = tile;
     }
   }
