@@ -117,15 +117,21 @@ std::uint32_t insertPoint(EditableMesh& mesh, std::uint32_t start, const Vec3f& 
   for (std::uint32_t v : {mesh.origin[h], mesh.target(h), mesh.opposite(h)}) {
     if (keep[v] && (mesh.position[v] - p).lengthSqr() < minDistance * minDistance) return kNone;
   }
-  const auto folds = [&](std::uint32_t a, std::uint32_t b) {  // triangle a, b, p
-    const Vec3f corners[3] = {mesh.position[a], mesh.position[b], p};
-    const Vec3f normals[3] = {mesh.normal[a], mesh.normal[b], n};
-    return facing(corners, normals) < kFacing;
-  };
   const std::uint32_t a = mesh.origin[h], b = mesh.target(h), c = mesh.opposite(h), d = mesh.opposite(t);
-  if (place.smallest >= kOnEdge && !folds(a, b) && !folds(b, c) && !folds(c, a))
+  const auto faces = [&](std::uint32_t i, std::uint32_t j, const Vec3f& last, const Vec3f& lastNormal) {
+    const Vec3f corners[3] = {mesh.position[i], mesh.position[j], last};
+    const Vec3f normals[3] = {mesh.normal[i], mesh.normal[j], lastNormal};
+    return facing(corners, normals);
+  };
+  const float inside = faces(a, b, mesh.position[c], mesh.normal[c]);
+  if (place.smallest >= kOnEdge &&
+      mayFace(std::min({faces(a, b, p, n), faces(b, c, p, n), faces(c, a, p, n)}), inside)) {
     return mesh.splitTriangle(h / 3, p, n);
-  if (!folds(b, c) && !folds(c, a) && !folds(a, d) && !folds(d, b)) return mesh.splitEdge(h, p, n);
+  }
+  const float both = std::min(inside, faces(b, a, mesh.position[d], mesh.normal[d]));
+  if (mayFace(std::min({faces(b, c, p, n), faces(c, a, p, n), faces(a, d, p, n), faces(d, b, p, n)}), both)) {
+    return mesh.splitEdge(h, p, n);
+  }
   return kNone;
 }
 
@@ -199,7 +205,7 @@ EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       nearest[i] = grid.nearest(points.position[i],
-                                [&](std::uint32_t v) { return mesh.normal[v].dot(points.normal[i]) > 0.3f; });
+                                [&](std::uint32_t v) { return mesh.normal[v].dot(points.normal[i]) > 0.0f; });
     }
   });
   std::vector<std::uint32_t> owner(mesh.vertexCount(), kNone);
@@ -214,7 +220,7 @@ EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const
   for (std::uint32_t v = 0; v < owner.size(); ++v) {
     const std::uint32_t i = owner[v];
     if (i == kNone) continue;
-    if (worstFacingAt(mesh, v, points.position[i], points.normal[i]) < kFacing) {
+    if (!mayFace(worstFacingAt(mesh, v, points.position[i], points.normal[i]), worstFacing(mesh, v))) {
       owner[v] = kNone;
       continue;
     }

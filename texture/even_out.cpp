@@ -47,51 +47,60 @@ struct Spreader {
     return sum;
   }
 
-  // One sweep: all awake vertices move at once. Returns those that moved.
-  std::vector<std::uint32_t> sweep(float wake, float sleep) {
-    const std::size_t count = mesh.vertexCount();
-    std::vector<Vec3f> moves(count);
+  // One sweep over the vertices in `active`: all that are awake move at once. Returns those that moved.
+  std::vector<std::uint32_t> sweep(const std::vector<std::uint32_t>& active, float wake, float sleep) {
     const auto parallel = [](std::size_t n, const auto& body) {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 1024), [&](const auto& range) {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 512), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
       });
     };
-    parallel(count, [&](std::size_t v) {
-      if (mesh.outgoing[v] == kNone) {
-        awake[v] = 0;
-        return;
-      }
-      const Vec3f move = push(std::uint32_t(v));
+    std::vector<Vec3f> moves(active.size());
+    parallel(active.size(), [&](std::size_t i) {
+      const std::uint32_t v = active[i];
+      moves[i] = push(v);
       const float limit = (awake[v] ? sleep : wake) * edge;
-      awake[v] = move.lengthSqr() > limit * limit;
-      moves[v] = move;
+      awake[v] = moves[i].lengthSqr() > limit * limit;
     });
     std::vector<std::uint32_t> movers;
-    for (std::uint32_t v = 0; v < count; ++v) {
-      if (awake[v]) movers.push_back(v);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < active.size(); ++i) {
+      if (!awake[active[i]]) continue;
+      movers.push_back(active[i]);
+      moves[kept++] = moves[i];
     }
     oldPosition.resize(movers.size());
     oldNormal.resize(movers.size());
-    std::vector<std::uint8_t> undo(movers.size());
     parallel(movers.size(), [&](std::size_t i) {
       const std::uint32_t v = movers[i];
       oldPosition[i] = mesh.position[v];
       oldNormal[i] = mesh.normal[v];
-    });
-    parallel(movers.size(), [&](std::size_t i) {
-      const std::uint32_t v = movers[i];
-      const LevelSet::Projection p = phi.project(oldPosition[i] + moves[v], edge);
+      const LevelSet::Projection p = phi.project(oldPosition[i] + moves[i], edge);
       if (!p.known) return;
       mesh.position[v] = p.position;
       mesh.normal[v] = p.normal;
     });
-    revertFolds(movers, undo);
+    revertFolds(movers);
+    // At a crease, or where a move was taken back, a push moves nothing: such vertices are at rest as well.
+    kept = 0;
+    for (std::size_t i = 0; i < movers.size(); ++i) {
+      const std::uint32_t v = movers[i];
+      const float moved = (mesh.position[v] - oldPosition[i]).length();
+      if (moved > sleep * edge) {
+        movers[kept++] = v;
+        continue;
+      }
+      awake[v] = 0;
+      mesh.position[v] = oldPosition[i];
+      mesh.normal[v] = oldNormal[i];
+    }
+    movers.resize(kept);
     return movers;
   }
 
   // Takes back moves until no triangle is folded that was not before. Ends: at worst all moves are taken
   // back.
-  void revertFolds(const std::vector<std::uint32_t>& movers, std::vector<std::uint8_t>& undo) {
+  void revertFolds(const std::vector<std::uint32_t>& movers) {
+    std::vector<std::uint8_t> undo(movers.size());
     std::vector<std::uint32_t> suspects(movers.size());
     for (std::uint32_t i = 0; i < movers.size(); ++i) suspects[i] = i;
     std::vector<std::uint8_t> reverted(movers.size(), 0);
@@ -122,7 +131,7 @@ struct Spreader {
 
   // Splits what is far too long, collapses what is far too short, and then the worst edges until the number
   // of points is within `slack` of what it should be. Returns whether anything changed.
-  bool adjust(double slack) {
+  bool adjust(double slack, std::vector<std::uint32_t>& dirty) {
     constexpr float kTooShort = 0.6f, kTooLong = 1.6f;  // mean edge lengths
     constexpr float kShort = 0.95f, kLong = 1.1f;       // only these are touched for the sake of the number
     struct Candidate {
@@ -150,7 +159,6 @@ struct Spreader {
     std::reverse(longest.begin(), longest.end());
 
     std::vector<std::uint8_t> touched(mesh.vertexCount(), 0);
-    std::vector<std::uint32_t> dirty;
     const auto same = [&](const Candidate& c) {  // the candidate's half-edge is still the edge it was
       return mesh.alive(c.halfEdge) && mesh.origin[c.halfEdge] == c.a && mesh.target(c.halfEdge) == c.b &&
              !touched[c.a] && !touched[c.b];
@@ -197,19 +205,44 @@ struct Spreader {
 void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options) {
   // In sweeps' pushes, mean edge lengths: a vertex at rest wakes above kWake, and moves until it is below
   // kSleep. The gap between them is what keeps a liquid at rest from shimmering.
-  constexpr float kWake = 0.03f, kSleep = 0.01f;
+  constexpr float kWake = 0.02f, kSleep = 0.005f;
   constexpr int kMostSweeps = 120;
   constexpr double kSlack = 0.005, kSettledSlack = 0.015;
   Spreader spreader{mesh, phi, options};
   spreader.awake.assign(mesh.vertexCount(), options.settled ? 0 : 1);
+  std::vector<std::uint32_t> active, changed, next;
+  std::vector<int> listed;  // the last sweep for which a vertex was listed
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    // Numbers are put right early, more rarely as the mesh comes to rest.
-    const bool adjusting = sweep < 4 || sweep % 5 == 0;
-    bool changed = adjusting && spreader.adjust(options.settled ? kSettledSlack : kSlack);
+    changed.clear();
+    // Numbers are put right early, more rarely as the mesh comes to rest, and once more at the end.
+    const bool adjusting = sweep < 4 || sweep % 5 == 0 || active.empty();
+    if (adjusting) spreader.adjust(options.settled ? kSettledSlack : kSlack, changed);
     const bool everything = !options.settled && sweep < options.sweeps;
-    const std::vector<std::uint32_t> movers = spreader.sweep(kWake, everything ? 0.0f : kSleep);
-    if (movers.empty() && !changed) break;
-    flipToDelaunay(mesh, &movers);
+    if (sweep == 0) {
+      for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+        if (mesh.outgoing[v] != kNone) active.push_back(v);
+      }
+    } else {
+      // Only what has moved, and its neighbours, can be out of balance now.
+      listed.resize(mesh.vertexCount(), -1);
+      next.clear();
+      const auto list = [&](std::uint32_t v) {
+        if (listed[v] == sweep) return;
+        listed[v] = sweep;
+        next.push_back(v);
+      };
+      for (const std::vector<std::uint32_t>* source : {&active, &changed}) {
+        for (std::uint32_t v : *source) {
+          if (mesh.outgoing[v] == kNone) continue;
+          list(v);
+          mesh.around(v, [&](std::uint32_t h) { list(mesh.target(h)); });
+        }
+      }
+      active.swap(next);
+    }
+    active = spreader.sweep(active, kWake, everything ? 0.0f : kSleep);
+    if (active.empty() && changed.empty() && adjusting) break;
+    flipToDelaunay(mesh, &active);
   }
   mesh.compact();
 }

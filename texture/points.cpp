@@ -86,6 +86,8 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
   // Where points are even already no place on the surface is further than about 0.8 spacings from one.
   constexpr float kDartDistance = 0.8f, kFillDistance = 0.95f;
   constexpr float kDartsPerPoint = 5.0f;
+  constexpr float kSameSide =
+      -0.3f;  // cosine of normals: across a right-angled crease points still see each other
   constexpr float kReach = 1.5f;     // voxels from which a seed is still brought back
   constexpr float kSnapped = 0.05f;  // voxels from the surface at most, after projection
   constexpr float kStill = 1e-3f;    // voxels: a seed this near stays exactly where it is
@@ -99,7 +101,7 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
   GrowingGrid grid(dartRadius, expected);
   const auto place = [&](const Vec3f& p, const Vec3f& n, float radius) {
     const bool taken =
-        grid.anyWithin(p, radius, [&](std::uint32_t i) { return points.normal[i].dot(n) > 0.0f; });
+        grid.anyWithin(p, radius, [&](std::uint32_t i) { return points.normal[i].dot(n) > kSameSide; });
     if (taken) return;
     grid.insert(p, std::uint32_t(points.position.size()));
     points.position.push_back(p);

@@ -16,7 +16,7 @@ float facing(const Vec3f (&p)[3], const Vec3f (&n)[3]);
 
 // A triangle with at least this cosine lies well on its surface. An operation may not make one that does not,
 // unless there was a worse one before: mayFace(now, before).
-inline constexpr float kFacing = 0.3f;
+inline constexpr float kFacing = 0.1f;
 inline bool mayFace(float now, float before) {
   return now >= kFacing || now >= before;
 }
