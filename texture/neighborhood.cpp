@@ -28,6 +28,8 @@ constexpr double kMaxAreaChange = 3.0;
 constexpr double kAreaSlack = 0.02;
 // No neighbourhood becomes smaller than its first ring.
 constexpr double kLeastReach = 1.5;
+// Reach, in pixels, of the small neighbourhoods that fill the gaps between shrunk ones.
+constexpr double kFillerReach = 4.5;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 double chebyshev(const Complexd& l) {
@@ -46,9 +48,10 @@ class Flattener {
     Complexd turn;
   };
 
-  // Afterwards placed() holds the piece and reach() how far it can be trusted.
-  void flatten(std::uint32_t center, int window) {
-    m_half = 0.5 * window;
+  // Flattens all within `half` pixels of the centre. Afterwards placed() holds the piece and reach() how far it
+  // can be trusted.
+  void flatten(std::uint32_t center, double half) {
+    m_half = half;
     place(center);
     for (int sweep = 0; sweep < kRelaxationSweeps; ++sweep) relax();
     findReach();
@@ -262,7 +265,7 @@ std::vector<std::uint32_t> selectCenters(const MeshView& view, float radius,
 }
 
 Neighborhoods buildNeighborhoods(const MeshView& view, int window, std::vector<std::uint32_t> centers,
-                                 PixelNeighborhoods* pixels) {
+                                 PixelNeighborhoods* pixels, double widest) {
   if (window < 3 || window % 2 == 0)
     throw std::invalid_argument("the width of a window must be odd and at least 3");
   constexpr std::size_t kChunk = 64;
@@ -286,7 +289,7 @@ Neighborhoods buildNeighborhoods(const MeshView& view, int window, std::vector<s
     Flattener& flattener = flatteners.local();
     Piece& piece = pieces[chunk];
     for (std::size_t p = chunk * kChunk; p < std::min(count, (chunk + 1) * kChunk); ++p) {
-      flattener.flatten(result.center[p], window);
+      flattener.flatten(result.center[p], std::min(0.5 * window, widest));
       result.reach[p] = float(flattener.reach());
       const std::size_t before = piece.vertex.size();
       for (const Flattener::Placed& placed : flattener.placed()) {
@@ -321,14 +324,14 @@ Neighborhoods coverSurface(const MeshView& view, int window, const std::vector<s
       buildNeighborhoods(view, window, selectCenters(view, 0.25f * float(window), wanted), pixels);
   const std::size_t count = view.mesh.positions.size();
   // A shrunk neighbourhood may not reach all that its centre was to cover; the second radius makes every
-  // vertex its own.
+  // vertex its own. Where those are needed nothing wide can be flattened, so that nothing wide is tried.
   for (const float radius : {1.0f, 0.0f}) {
     std::vector<std::uint8_t> open = wanted.empty() ? std::vector<std::uint8_t>(count, 1) : wanted;
     for (const std::uint32_t v : result.vertex) open[v] = 0;
     if (std::find_if(open.begin(), open.end(), [](std::uint8_t o) { return o != 0; }) == open.end()) break;
     PixelNeighborhoods morePixels;
     append(result, buildNeighborhoods(view, window, selectCenters(view, radius, open),
-                                      pixels ? &morePixels : nullptr));
+                                      pixels ? &morePixels : nullptr, kFillerReach));
     if (pixels) pixels->insert(pixels->end(), morePixels.begin(), morePixels.end());
   }
   return result;

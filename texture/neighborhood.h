@@ -10,6 +10,7 @@
 #include "texture/tangent.h"
 
 #include <array>
+#include <limits>
 #include <cstdint>
 #include <vector>
 
@@ -60,9 +61,10 @@ std::vector<std::uint32_t> selectCenters(const MeshView& view, float radius,
                                          const std::vector<std::uint8_t>& wanted = {});
 
 // Vertex neighbourhoods around the given centres; with `pixels`, the pixel neighbourhoods too. window must be
-// odd and >= 3.
+// odd and >= 3. None reaches further than `widest` pixels.
 Neighborhoods buildNeighborhoods(const MeshView& view, int window, std::vector<std::uint32_t> centers,
-                                 PixelNeighborhoods* pixels = nullptr);
+                                 PixelNeighborhoods* pixels = nullptr,
+                                 double widest = std::numeric_limits<double>::infinity());
 
 // selectCenters() at window / 4 and their neighbourhoods. Every wanted vertex lies in at least one of them:
 // where shrunk ones leave gaps, more centres are added.
