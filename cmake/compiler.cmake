@@ -13,6 +13,7 @@ add_library(fluidtex_flags INTERFACE)
 target_include_directories(fluidtex_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(fluidtex_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow
+  -Wno-restrict  # g++ 12 warns falsely of "text" + std::string
   -fno-math-errno -ffp-contract=fast
   $<IF:$<BOOL:${FLUIDTEX_NATIVE}>,-march=native,-march=x86-64-v3>)
 

@@ -13,7 +13,9 @@ namespace {
 
 constexpr const char* kPrefix = ".tmp-";
 
-fs::path temporaryName(const fs::path& file) { return file.parent_path() / (kPrefix + file.filename().string()); }
+fs::path temporaryName(const fs::path& file) {
+  return file.parent_path() / (kPrefix + file.filename().string());
+}
 
 [[noreturn]] void fail(const fs::path& file, const char* what) {
   throw std::system_error(errno, std::generic_category(), file.string() + ": " + what);
@@ -27,7 +29,9 @@ void flush(const fs::path& path) {
   if (!flushed) fail(path, "cannot flush");
 }
 
-fs::path folderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+fs::path folderOf(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
 
 // Runs `write` on the temporary path, and removes that path again if it throws.
 void guarded(const fs::path& temporary, const std::function<void(const fs::path&)>& write) {

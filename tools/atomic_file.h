@@ -7,13 +7,15 @@
 
 namespace fluidtex::tools {
 
-// Calls write(TEMPORARY) with a name in the same folder and the same extension, flushes what it wrote and renames it to
-// `file`. The folder is made where missing. If write throws, the temporary file is removed and the exception goes on.
-// Throws std::system_error when the file cannot be flushed or renamed.
-void writeAtomically(const std::filesystem::path& file, const std::function<void(const std::filesystem::path&)>& write);
+// Calls write(TEMPORARY) with a name in the same folder and the same extension, flushes what it wrote and
+// renames it to `file`. The folder is made where missing. If write throws, the temporary file is removed and
+// the exception goes on. Throws std::system_error when the file cannot be flushed or renamed.
+void writeAtomically(const std::filesystem::path& file,
+                     const std::function<void(const std::filesystem::path&)>& write);
 
 // The same for a whole folder: `write` fills an empty temporary folder, every file in it is flushed.
-void writeFolderAtomically(const std::filesystem::path& folder, const std::function<void(const std::filesystem::path&)>& write);
+void writeFolderAtomically(const std::filesystem::path& folder,
+                           const std::function<void(const std::filesystem::path&)>& write);
 
 void writeTextAtomically(const std::filesystem::path& file, std::string_view text);
 

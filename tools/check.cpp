@@ -19,13 +19,14 @@ constexpr double kBytesPerPoint = 4000.0;
 constexpr double kBytesProgram = 250e6;
 
 struct LiquidPlan {
-  std::int64_t cells = 0;       // liquid cells once every body has been poured
-  std::int64_t atStart = 0;     // at the first frame
+  std::int64_t cells = 0;    // liquid cells once every body has been poured
+  std::int64_t atStart = 0;  // at the first frame
 };
 
 LiquidPlan countLiquid(const sim::Options& sim) {
   const double h = sim.voxelSize();
-  const openvdb::Vec3i count(static_cast<int>(std::lround(sim.size.x() / h)), static_cast<int>(std::lround(sim.size.y() / h)),
+  const openvdb::Vec3i count(static_cast<int>(std::lround(sim.size.x() / h)),
+                             static_cast<int>(std::lround(sim.size.y() / h)),
                              static_cast<int>(std::lround(sim.size.z() / h)));
   std::vector<sim::ShapeDistance> liquid, solids;
   for (const auto& body : sim.liquid) liquid.emplace_back(body.shape, h);
@@ -58,7 +59,9 @@ LiquidPlan countLiquid(const sim::Options& sim) {
         }
         return plan;
       },
-      [](const LiquidPlan& a, const LiquidPlan& b) { return LiquidPlan{a.cells + b.cells, a.atStart + b.atStart}; });
+      [](const LiquidPlan& a, const LiquidPlan& b) {
+        return LiquidPlan{a.cells + b.cells, a.atStart + b.atStart};
+      });
 }
 
 void check(const CommonOptions& options) {
@@ -71,21 +74,24 @@ void check(const CommonOptions& options) {
   const double h = scene.sim.voxelSize();
   const LiquidPlan liquid = countLiquid(scene.sim);
   fmt::print("{}: valid\n", scene.file.string());
-  fmt::print("frames    {} to {} of {}, {:g} a second, {:.3g} s in all\n", first, last, scene.frames, scene.sim.frameRate,
-             (scene.frames - 1) / scene.sim.frameRate);
-  fmt::print("grid      {:.0f} x {:.0f} x {:.0f} cells of {:.4g} m\n", scene.sim.size.x() / h, scene.sim.size.y() / h,
-             scene.sim.size.z() / h, h);
-  fmt::print("liquid    {} cells at the start, {:.4g} m3", liquid.atStart, static_cast<double>(liquid.atStart) * h * h * h);
+  fmt::print("frames    {} to {} of {}, {:g} a second, {:.3g} s in all\n", first, last, scene.frames,
+             scene.sim.frameRate, (scene.frames - 1) / scene.sim.frameRate);
+  fmt::print("grid      {:.0f} x {:.0f} x {:.0f} cells of {:.4g} m\n", scene.sim.size.x() / h,
+             scene.sim.size.y() / h, scene.sim.size.z() / h, h);
+  fmt::print("liquid    {} cells at the start, {:.4g} m3", liquid.atStart,
+             static_cast<double>(liquid.atStart) * h * h * h);
   if (liquid.cells != liquid.atStart) fmt::print("; {} cells once all is poured", liquid.cells);
   fmt::print("\n");
   if (scene.texture.spacing > 0.0)
     fmt::print("points    one every {:.4g} m\n", scene.texture.spacing);
   else
     fmt::print("points    {} on the first surface; the spacing then stays\n", scene.texture.points);
-  fmt::print("exemplar  {}, {} x {} pixels{}\n", scene.texture.exemplar.file.string(), exemplar.color.width, exemplar.color.height,
-             scene.texture.exemplar.toroidal ? ", toroidal" : "");
-  fmt::print("pictures  {} x {}, {} paths a pixel\n", scene.render.width, scene.render.height, scene.render.samples);
-  const double bytes = kBytesProgram + kBytesPerLiquidCell * static_cast<double>(liquid.cells) + kBytesPerPoint * scene.texture.points;
+  fmt::print("exemplar  {}, {} x {} pixels{}\n", scene.texture.exemplar.file.string(), exemplar.color.width,
+             exemplar.color.height, scene.texture.exemplar.toroidal ? ", toroidal" : "");
+  fmt::print("pictures  {} x {}, {} paths a pixel\n", scene.render.width, scene.render.height,
+             scene.render.samples);
+  const double bytes = kBytesProgram + kBytesPerLiquidCell * static_cast<double>(liquid.cells) +
+                       kBytesPerPoint * scene.texture.points;
   fmt::print("memory    about {:.2g} GB\n", bytes / 1e9);
 }
 

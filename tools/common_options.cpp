@@ -17,7 +17,8 @@ int parseNumber(std::string_view text, const std::string& whole) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size() || number < 1)
-    throw UsageError(fmt::format("--frames {}: is no range of frames; write FIRST:LAST, numbered from 1, such as 1:24", whole));
+    throw UsageError(fmt::format(
+        "--frames {}: is no range of frames; write FIRST:LAST, numbered from 1, such as 1:24", whole));
   return number;
 }
 
@@ -31,14 +32,23 @@ int fault(const std::string& sentence, ExitCode code) {
 
 void addSceneOptions(CLI::App& command, CommonOptions& options) {
   command.add_option("scene", options.scene, "Scene file")->required()->type_name("SCENE");
-  command.add_option("--out", options.out, "Folder for the results (default: out/SCENE_NAME)")->type_name("DIR");
-  command.add_option("--frames", options.frames, "First and last frame, numbered from 1; earlier frames are computed, not written")
+  command.add_option("--out", options.out, "Folder for the results (default: out/SCENE_NAME)")
+      ->type_name("DIR");
+  command
+      .add_option("--frames", options.frames,
+                  "First and last frame, numbered from 1; earlier frames are computed, not written")
       ->type_name("A:B");
-  command.add_option("--threads", options.threads, "How many threads (default: one a core)")->check(CLI::Range(1, 4096))->type_name("N");
-  command.add_option("--quality", options.quality, "preview, default or final: settings of the scene's own [quality] tables")
+  command.add_option("--threads", options.threads, "How many threads (default: one a core)")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
+  command
+      .add_option("--quality", options.quality,
+                  "preview, default or final: settings of the scene's own [quality] tables")
       ->check(CLI::IsMember({"preview", "default", "final"}))
       ->type_name("NAME");
-  command.add_option("--exemplar", options.exemplar, "Image to grow the texture from, instead of the scene's")->type_name("IMAGE");
+  command
+      .add_option("--exemplar", options.exemplar, "Image to grow the texture from, instead of the scene's")
+      ->type_name("IMAGE");
   command.add_option("--set", options.set, "Sets any key of the scene, dotted; may be repeated")
       ->type_name("KEY=VALUE")
       ->expected(1)

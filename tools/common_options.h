@@ -16,7 +16,8 @@ scenes::Scene loadScene(const CommonOptions& options);
 // Reads "A:B", "A:" or "A" into first and last (0: the scene's last). Throws UsageError.
 void parseFrames(const std::string& text, int frames, int& first, int& last);
 
-// Calls body; every exception becomes its sentence on stderr (all the faults of a scene, a line each) and an exit code.
+// Calls body; every exception becomes its sentence on stderr (all the faults of a scene, a line each) and an
+// exit code.
 int guarded(const std::function<void()>& body);
 
 }  // namespace fluidtex::tools

@@ -16,6 +16,7 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -28,7 +29,9 @@ namespace {
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : m_seconds(seconds) {}
-  ~Stopwatch() { m_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count(); }
+  ~Stopwatch() {
+    m_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count();
+  }
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 
@@ -42,10 +45,13 @@ struct FrameResult {
   sim::Frame motion;
   texture::TexturedSurface surface;
   texture::SynthesisStats synthesis;
+  std::optional<int> singularities;  // of the orientation field; not known without a surface
   StageSeconds seconds;
 };
 
-std::string numbered(int frame) { return fmt::format("{:04}", frame); }
+std::string numbered(int frame) {
+  return fmt::format("{:04}", frame);
+}
 
 std::vector<texture::Vec3f> seedsFor(const texture::TexturedSurface& last, const sim::Frame& frame,
                                      const texture::SurfaceOptions& options) {
@@ -60,9 +66,10 @@ class FrameLoop {
         m_options(options),
         m_stop(stop),
         m_last(options.lastFrame > 0 ? options.lastFrame : scene.frames),
-        m_synthesizer(texture::makeSynthesizer(
-            texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis, scene.texture.surface.levels),
-            scene.texture.synthesis)) {
+        m_synthesizer(
+            texture::makeSynthesizer(texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis,
+                                                           scene.texture.surface.levels),
+                                     scene.texture.synthesis)) {
     m_surface.spacing = scene.texture.spacing;
     m_report.scene = scene.resolved;
     m_report.seed = scene.seed;
@@ -89,15 +96,17 @@ class FrameLoop {
     FrameResult result = computeFrame();
     if (result.motion.index >= m_options.firstFrame) writeResults(result);
     m_surface = std::move(result.surface);
-    m_report.frames.push_back(frameRecord(result.motion, m_surface, result.synthesis, result.seconds));
+    m_report.frames.push_back(
+        frameRecord(result.motion, m_surface, result.singularities, result.synthesis, result.seconds));
     const std::string report = toJson(m_report);
     saveState({m_solver->state(), m_surface, report}, m_options.out / "state");
     writeTextAtomically(m_options.out / "run.json", report);
     const StageSeconds& s = result.seconds;
     const std::string summary = fmt::format(
-        "{} substeps, {:.4g} m3, {} points; simulate {:.2f} s, prepare {:.2f}, transport {:.2f}, synthesize {:.2f}, render {:.2f}, write {:.2f}",
-        result.motion.substeps.size(), result.motion.stats.volume, m_surface.positions.size(), s.simulate, s.prepare, s.transport,
-        s.synthesize, s.render, s.write);
+        "{} substeps, {:.4g} m3, {} points; simulate {:.2f} s, prepare {:.2f}, transport {:.2f}, synthesize "
+        "{:.2f}, render {:.2f}, write {:.2f}",
+        result.motion.substeps.size(), result.motion.stats.volume, m_surface.positions.size(), s.simulate,
+        s.prepare, s.transport, s.synthesize, s.render, s.write);
     spdlog::info("frame {}: {}", result.motion.index, summary);
     m_progress->frameDone(result.motion.index, summary);
   }
@@ -116,9 +125,11 @@ class FrameLoop {
     {
       Stopwatch watch(seconds.prepare);
       reporter("prepare")(0.0);
-      if (m_surface.spacing <= 0.0) m_surface.spacing = texture::spacingForPoints(*motion.surfacePhi, m_scene.texture.points);
+      if (m_surface.spacing <= 0.0)
+        m_surface.spacing = texture::spacingForPoints(*motion.surfacePhi, m_scene.texture.points);
       if (m_surface.spacing > 0.0)
-        surface = texture::prepareSurface(*motion.surfacePhi, m_surface.spacing, seedsFor(m_surface, motion, surfaceOptions),
+        surface = texture::prepareSurface(*motion.surfacePhi, m_surface.spacing,
+                                          seedsFor(m_surface, motion, surfaceOptions),
                                           m_surface.empty() ? surfaceOptions.levels : 1, surfaceOptions);
     }
     if (surface.empty()) {
@@ -134,12 +145,15 @@ class FrameLoop {
     {
       Stopwatch watch(seconds.prepare);
       texture::orient(surface, carried);
+      const std::vector<int> indices = texture::singularities(surface.levels[0]);
+      result.singularities = static_cast<int>(
+          indices.size() - static_cast<std::size_t>(std::count(indices.begin(), indices.end(), 0)));
     }
     {
       Stopwatch watch(seconds.synthesize);
       result.surface =
-          texture::synthesize(m_synthesizer, std::move(surface), carried, motion.index, 1.0 / m_scene.sim.frameRate,
-                              result.synthesis, reporter("synthesize"));
+          texture::synthesize(m_synthesizer, std::move(surface), carried, motion.index,
+                              1.0 / m_scene.sim.frameRate, result.synthesis, reporter("synthesize"));
     }
     {
       Stopwatch watch(seconds.transport);
@@ -155,15 +169,18 @@ class FrameLoop {
       render::Picture picture;
       {
         Stopwatch watch(result.seconds.render);
-        const double progress = m_scene.frames > 1 ? double(result.motion.index - 1) / (m_scene.frames - 1) : 0.0;
+        const double progress =
+            m_scene.frames > 1 ? double(result.motion.index - 1) / (m_scene.frames - 1) : 0.0;
         picture = render::render(result.surface, visibleSolids(result.motion.time), m_scene.render,
                                  {m_scene.sim.size, progress, result.motion.index}, reporter("render"));
       }
       Stopwatch watch(result.seconds.write);
-      writeAtomically(m_options.out / "frames" / (name + ".png"), [&](const fs::path& file) { writePng(picture, file); });
+      writeAtomically(m_options.out / "frames" / (name + ".png"),
+                      [&](const fs::path& file) { writePng(picture, file); });
     }
     Stopwatch watch(result.seconds.write);
-    writeAtomically(m_options.out / "surface" / (name + ".ply"), [&](const fs::path& file) { writePly(result.surface, file); });
+    writeAtomically(m_options.out / "surface" / (name + ".ply"),
+                    [&](const fs::path& file) { writePly(result.surface, file); });
   }
 
   std::vector<render::Solid> visibleSolids(double time) {
@@ -184,7 +201,8 @@ class FrameLoop {
   void finish() {
     if (m_options.render && m_last >= m_options.firstFrame)
       writeAtomically(m_options.out / (m_scene.name + ".mp4"), [&](const fs::path& file) {
-        render::writeVideo(m_options.out / "frames", m_options.firstFrame, m_last, m_scene.sim.frameRate, file);
+        render::writeVideo(m_options.out / "frames", m_options.firstFrame, m_last, m_scene.sim.frameRate,
+                           file);
       });
     if (!m_options.quiet) fmt::print(stderr, "done: {}\n", m_options.out.string());
   }
@@ -210,7 +228,8 @@ class FrameLoop {
     fs::remove(m_options.out / (m_scene.name + ".mp4"));
     for (const auto& [folder, extension] : {std::pair{"frames", ".png"}, std::pair{"surface", ".ply"}}) {
       removeTemporaries(m_options.out / folder);
-      for (int frame = 1; fs::remove(m_options.out / folder / (numbered(frame) + extension)) || frame < m_last; ++frame) {
+      for (int frame = 1;
+           fs::remove(m_options.out / folder / (numbered(frame) + extension)) || frame < m_last; ++frame) {
       }
     }
   }
@@ -218,7 +237,8 @@ class FrameLoop {
   std::function<void(double)> reporter(const char* stage) {
     return [this, stage](double part) {
       if (m_stop) throw Interrupted();
-      m_progress->update(m_solver->state().frame + (std::string_view(stage) == "simulate" ? 1 : 0), stage, part);
+      m_progress->update(m_solver->state().frame + (std::string_view(stage) == "simulate" ? 1 : 0), stage,
+                         part);
     };
   }
 

@@ -11,7 +11,9 @@ namespace fluidtex::tools {
 
 struct RunOptions {
   std::filesystem::path out;
-  int firstFrame = 1, lastFrame = 0;  // written and rendered, inclusive; earlier ones are only computed. last 0: the scene's last
+  int firstFrame = 1,
+      lastFrame =
+          0;  // written and rendered, inclusive; earlier ones are only computed. last 0: the scene's last
   bool resume = false;
   bool render = true;
   bool quiet = false;
@@ -28,8 +30,8 @@ struct Interrupted : std::runtime_error {
   Interrupted() : std::runtime_error("interrupted; --resume goes on from the last finished frame") {}
 };
 
-// Simulates, textures, renders and writes the files of docs/formats.md. `stop`, once true, ends the run by Interrupted.
-// Throws UsageError, texture::ExemplarError, sim::SolverError, std::system_error.
+// Simulates, textures, renders and writes the files of docs/formats.md. `stop`, once true, ends the run by
+// Interrupted. Throws UsageError, texture::ExemplarError, sim::SolverError, std::system_error.
 void runScene(const scenes::Scene& scene, const RunOptions& options, const std::atomic<bool>& stop);
 
 }  // namespace fluidtex::tools

@@ -8,10 +8,14 @@
 int main(int argc, char** argv) {
   using namespace fluidtex::tools;
   openvdb::initialize();
-  CLI::App app("fluidtex simulates a liquid and covers its moving surface with texture grown from an example image.", "fluidtex");
+  CLI::App app(
+      "fluidtex simulates a liquid and covers its moving surface with texture grown from an example image.",
+      "fluidtex");
   app.set_version_flag("--version", std::string("fluidtex ") + FLUIDTEX_VERSION);
   app.require_subcommand(1);
-  app.footer("Examples:\n  fluidtex run scenes/dam_break.toml\n  fluidtex check scenes/dam_break.toml --quality final");
+  app.footer(
+      "Examples:\n  fluidtex run scenes/dam_break.toml\n  fluidtex check scenes/dam_break.toml --quality "
+      "final");
   int exitCode = kDone;
   addRun(app, exitCode);
   addCheck(app, exitCode);

@@ -13,7 +13,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "PLY bytes are written as they lie in memory");
 
-std::uint8_t toByte(float value) { return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f))); }
+std::uint8_t toByte(float value) {
+  return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
+}
 
 std::uint8_t encodeSrgb(float linear) {
   const float c = std::clamp(linear, 0.0f, 1.0f);
@@ -23,8 +25,10 @@ std::uint8_t encodeSrgb(float linear) {
 std::string header(const texture::TexturedSurface& surface) {
   std::string text = "ply\nformat binary_little_endian 1.0\ncomment fluidtex, metres, Z up\n";
   text += "element vertex " + std::to_string(surface.positions.size()) + "\n";
-  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) text += std::string("property float ") + name + "\n";
-  for (const char* name : {"red", "green", "blue", "alpha"}) text += std::string("property uchar ") + name + "\n";
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"})
+    text += std::string("property float ") + name + "\n";
+  for (const char* name : {"red", "green", "blue", "alpha"})
+    text += std::string("property uchar ") + name + "\n";
   for (const char* name : {"s", "t", "dx", "dy", "dz", "bx", "by", "bz", "vx", "vy", "vz", "trust", "age"})
     text += std::string("property float ") + name + "\n";
   text += "property uchar contact\n";

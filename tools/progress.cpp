@@ -20,7 +20,8 @@ int terminalWidth() {
 
 std::string bar(double share, int cells) {
   const int full = static_cast<int>(std::clamp(share, 0.0, 1.0) * cells + 0.5);
-  return "[" + std::string(static_cast<std::size_t>(full), '#') + std::string(static_cast<std::size_t>(cells - full), '.') + "]";
+  return "[" + std::string(static_cast<std::size_t>(full), '#') +
+         std::string(static_cast<std::size_t>(cells - full), '.') + "]";
 }
 
 }  // namespace
@@ -33,9 +34,15 @@ std::string humanDuration(double seconds) {
 }
 
 Progress::Progress(int first, int last, bool quiet)
-    : m_first(first), m_last(last), m_quiet(quiet), m_terminal(isatty(STDERR_FILENO) != 0), m_start(Clock::now()) {}
+    : m_first(first),
+      m_last(last),
+      m_quiet(quiet),
+      m_terminal(isatty(STDERR_FILENO) != 0),
+      m_start(Clock::now()) {}
 
-Progress::~Progress() { clearLine(); }
+Progress::~Progress() {
+  clearLine();
+}
 
 void Progress::clearLine() {
   if (!m_quiet && m_terminal) std::fputs("\r\033[K", stderr);
@@ -51,7 +58,8 @@ void Progress::update(int frame, const std::string& stage, double part) {
   if (m_quiet || !m_terminal || Clock::now() - m_drawn < kRedraw) return;
   m_drawn = Clock::now();
   const double share = static_cast<double>(m_done) / std::max(1, m_last - m_first + 1);
-  const std::string words = fmt::format("frame {}/{}  {:<10} {:3.0f}%  {}", frame, m_last, stage, 100.0 * part, timeLeft());
+  const std::string words =
+      fmt::format("frame {}/{}  {:<10} {:3.0f}%  {}", frame, m_last, stage, 100.0 * part, timeLeft());
   const int cells = std::clamp(terminalWidth() - static_cast<int>(words.size()) - 5, 0, 40);
   clearLine();
   fmt::print(stderr, "{} {}", bar(share, cells), words);

@@ -26,7 +26,8 @@ ordered_json orNull(bool known, T value) {
 
 }  // namespace
 
-std::string frameRecord(const sim::Frame& frame, const texture::TexturedSurface& surface, const texture::SynthesisStats& synthesis,
+std::string frameRecord(const sim::Frame& frame, const texture::TexturedSurface& surface,
+                        std::optional<int> singularities, const texture::SynthesisStats& synthesis,
                         const StageSeconds& seconds) {
   const texture::MeshStats mesh = texture::meshStats(surface.positions, surface.triangles);
   const bool textured = !surface.empty();
@@ -42,7 +43,7 @@ std::string frameRecord(const sim::Frame& frame, const texture::TexturedSurface&
   record["components"] = mesh.components;
   record["edge_mean"] = orNull(textured, mesh.edgeMean);
   record["edge_cv"] = orNull(textured, mesh.edgeCv);
-  record["singularities"] = nullptr;
+  record["singularities"] = orNull(singularities.has_value(), singularities.value_or(0));
   record["energy_start"] = orNull(textured, synthesis.energyStart);
   record["energy_end"] = orNull(textured, synthesis.energyEnd);
   record["iterations"] = orNull(textured, synthesis.iterations);
@@ -50,8 +51,9 @@ std::string frameRecord(const sim::Frame& frame, const texture::TexturedSurface&
   record["likeness"] = nullptr;
   record["sharpness"] = nullptr;
   record["change_along_flow"] = nullptr;
-  record["seconds"] = {{"simulate", seconds.simulate},     {"prepare", seconds.prepare}, {"transport", seconds.transport},
-                       {"synthesize", seconds.synthesize}, {"render", seconds.render},   {"write", seconds.write}};
+  record["seconds"] = {{"simulate", seconds.simulate},   {"prepare", seconds.prepare},
+                       {"transport", seconds.transport}, {"synthesize", seconds.synthesize},
+                       {"render", seconds.render},       {"write", seconds.write}};
   record["peak_rss"] = peakMemory();
   return record.dump();
 }

@@ -5,6 +5,7 @@
 #include "sim/frame.h"
 #include "texture/surface.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,13 +17,14 @@ struct StageSeconds {
 };
 
 struct Report {
-  std::string scene;                // as resolved, JSON
+  std::string scene;  // as resolved, JSON
   std::uint64_t seed = 0;
   int threads = 1;
   std::vector<std::string> frames;  // one JSON object each
 };
 
-std::string frameRecord(const sim::Frame& frame, const texture::TexturedSurface& surface, const texture::SynthesisStats& synthesis,
+std::string frameRecord(const sim::Frame& frame, const texture::TexturedSurface& surface,
+                        std::optional<int> singularities, const texture::SynthesisStats& synthesis,
                         const StageSeconds& seconds);
 
 std::string toJson(const Report& report);
@@ -30,8 +32,8 @@ std::string toJson(const Report& report);
 // Reads back what toJson() wrote. Throws std::runtime_error when it is something else.
 Report parseReport(const std::string& json);
 
-// Why results of scene `before` (resolved, JSON) cannot be continued by scene `now`: the first key that differs, with both
-// values, or empty where they agree. The number of frames may differ.
+// Why results of scene `before` (resolved, JSON) cannot be continued by scene `now`: the first key that
+// differs, with both values, or empty where they agree. The number of frames may differ.
 std::string sceneDifference(const std::string& before, const std::string& now);
 
 }  // namespace fluidtex::tools

@@ -16,7 +16,8 @@ namespace {
 
 std::atomic<bool> stopRequested{false};
 
-// The first Ctrl-C stops at the next safe point; a second one ends the program at once, which loses nothing either.
+// The first Ctrl-C stops at the next safe point; a second one ends the program at once, which loses nothing
+// either.
 void onInterrupt(int) {
   stopRequested = true;
   std::signal(SIGINT, SIG_DFL);
@@ -25,7 +26,8 @@ void onInterrupt(int) {
 
 void logTo(const std::filesystem::path& file, bool append, bool verbose) {
   std::filesystem::create_directories(file.parent_path());
-  auto logger = std::make_shared<spdlog::logger>("fluidtex", std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), !append));
+  auto logger = std::make_shared<spdlog::logger>(
+      "fluidtex", std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), !append));
   logger->set_level(verbose ? spdlog::level::debug : spdlog::level::info);
   logger->flush_on(spdlog::level::info);
   spdlog::set_default_logger(logger);
@@ -40,7 +42,8 @@ void run(const CommonOptions& options) {
   run.render = !options.noRender;
   run.quiet = options.quiet;
   run.threads = options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(run.threads));
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(run.threads));
   logTo(run.out / "log.txt", options.resume, options.verbose);
   std::signal(SIGINT, onInterrupt);
   std::signal(SIGTERM, onInterrupt);
@@ -53,11 +56,13 @@ void addRun(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("run", "Simulate, texture, render and write, frame by frame");
   auto options = std::make_shared<CommonOptions>();
   addSceneOptions(*command, *options);
-  command->add_flag("--resume", options->resume, "Go on from the last frame that an earlier, unfinished run has left in the folder");
+  command->add_flag("--resume", options->resume,
+                    "Go on from the last frame that an earlier, unfinished run has left in the folder");
   command->add_flag("--no-render", options->noRender, "Write surfaces only, no pictures and no video");
   command->footer(
       "Example:\n"
-      "  fluidtex run scenes/dam_break.toml --quality preview --exemplar bark.jpg --set texture.points=20000 --out out/bark");
+      "  fluidtex run scenes/dam_break.toml --quality preview --exemplar bark.jpg --set texture.points=20000 "
+      "--out out/bark");
   command->callback([options, &exitCode] { exitCode = guarded([&] { run(*options); }); });
 }
 

@@ -46,7 +46,8 @@ struct Writer {
   template <typename T>
   void operator()(const std::vector<T>& values) {
     (*this)(std::uint64_t{values.size()});
-    out.write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(T)));
+    out.write(reinterpret_cast<const char*>(values.data()),
+              static_cast<std::streamsize>(values.size() * sizeof(T)));
   }
   void operator()(const std::string& text) { (*this)(std::vector<char>(text.begin(), text.end())); }
 };
@@ -58,7 +59,8 @@ struct Reader {
 
   void take(void* target, std::uint64_t bytes) {
     if (bytes > left || !in.read(static_cast<char*>(target), static_cast<std::streamsize>(bytes)))
-      throw std::runtime_error(file.string() + ": the file is cut short; remove the state folder to start anew");
+      throw std::runtime_error(file.string() +
+                               ": the file is cut short; remove the state folder to start anew");
     left -= bytes;
   }
   template <typename T>
@@ -97,7 +99,8 @@ int frameOf(const fs::path& folder) {
 
 std::string readText(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error(file.string() + ": cannot be read; remove the state folder to start anew");
+  if (!in)
+    throw std::runtime_error(file.string() + ": cannot be read; remove the state folder to start anew");
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
@@ -119,12 +122,14 @@ void writeSurface(const texture::TexturedSurface& surface, const fs::path& file)
 
 texture::TexturedSurface readSurface(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error(file.string() + ": cannot be read; remove the state folder to start anew");
+  if (!in)
+    throw std::runtime_error(file.string() + ": cannot be read; remove the state folder to start anew");
   Reader read{in, fs::file_size(file), file};
   char magic[sizeof kMagic];
   read.take(magic, sizeof magic);
   if (std::memcmp(magic, kMagic, sizeof magic) != 0)
-    throw std::runtime_error(file.string() + ": is no surface of this version; remove the state folder to start anew");
+    throw std::runtime_error(file.string() +
+                             ": is no surface of this version; remove the state folder to start anew");
   texture::TexturedSurface surface;
   eachPart(surface, read);
   std::uint64_t maps = 0;
@@ -156,7 +161,8 @@ std::optional<RunState> loadState(const fs::path& stateFolder) {
   fs::path newest;
   std::error_code missing;
   for (const auto& entry : fs::directory_iterator(stateFolder, missing))
-    if (frameOf(entry.path()) >= 0 && (newest.empty() || frameOf(newest) < frameOf(entry.path()))) newest = entry.path();
+    if (frameOf(entry.path()) >= 0 && (newest.empty() || frameOf(newest) < frameOf(entry.path())))
+      newest = entry.path();
   if (newest.empty()) return std::nullopt;
   RunState state;
   state.solver = sim::readState(newest / "solver.vdb");

@@ -1,4 +1,5 @@
-// OUT/state: what --resume continues from. One folder a frame, OUT/state/0007, replaced as a whole; only the newest stays.
+// OUT/state: what --resume continues from. One folder a frame, OUT/state/0007, replaced as a whole; only the
+// newest stays.
 #pragma once
 
 #include "sim/solver.h"
@@ -22,8 +23,8 @@ void saveState(const RunState& state, const std::filesystem::path& stateFolder);
 // The newest state in the folder; nothing if there is none. Throws std::runtime_error when it is damaged.
 std::optional<RunState> loadState(const std::filesystem::path& stateFolder);
 
-// Bit for bit what writeSurface() got; exposed for tests. Throws std::runtime_error, naming the file, when it is cut short or
-// is no such file.
+// Bit for bit what writeSurface() got; exposed for tests. Throws std::runtime_error, naming the file, when it
+// is cut short or is no such file.
 void writeSurface(const texture::TexturedSurface& surface, const std::filesystem::path& file);
 texture::TexturedSurface readSurface(const std::filesystem::path& file);
 

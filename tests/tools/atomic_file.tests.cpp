@@ -10,7 +10,8 @@
 using namespace fluidtex::tools;
 namespace fs = std::filesystem;
 
-TEST_CASE("writeAtomically: the file appears whole, in folders that are made, and nothing else is left", "[tools]") {
+TEST_CASE("writeAtomically: the file appears whole, in folders that are made, and nothing else is left",
+          "[tools]") {
   const Scratch scratch;
   const fs::path file = scratch.path / "a" / "b" / "text.txt";
   writeTextAtomically(file, "one");

@@ -22,7 +22,8 @@ T valueAt(const std::string& bytes, std::size_t offset) {
 
 }  // namespace
 
-TEST_CASE("PLY: has the properties of docs/formats.md in their order, and the bytes of every vertex and face", "[tools]") {
+TEST_CASE("PLY: has the properties of docs/formats.md in their order, and the bytes of every vertex and face",
+          "[tools]") {
   const Scratch scratch;
   const texture::TexturedSurface surface = sampleSurface();
   tools::writePly(surface, scratch.path / "a.ply");
@@ -41,8 +42,10 @@ TEST_CASE("PLY: has the properties of docs/formats.md in their order, and the by
     names.push_back(name);
     stride += type == "uchar" ? 1 : 4;
   }
-  CHECK(names == std::vector<std::string>{"x",  "y",  "z",  "nx", "ny", "nz", "red", "green", "blue", "alpha", "s",   "t",       "dx", "dy",
-                                          "dz", "bx", "by", "bz", "vx", "vy", "vz",  "trust", "age",  "contact", "height"});
+  CHECK(names == std::vector<std::string>{"x",     "y",    "z",       "nx",    "ny", "nz", "red",
+                                          "green", "blue", "alpha",   "s",     "t",  "dx", "dy",
+                                          "dz",    "bx",   "by",      "bz",    "vx", "vy", "vz",
+                                          "trust", "age",  "contact", "height"});
   REQUIRE(bytes.size() == body + 4 * stride + 4 * 13);
 
   // Vertex 1 of the sample: at (1, 0, 0), linear grey 0.5 with alpha 0.25, texel (3, 1) of 8 x 4.
@@ -68,5 +71,6 @@ TEST_CASE("PLY: a frame without surface is a file without vertices", "[tools]") 
 
 TEST_CASE("PLY: a folder that is not there is an error that names the file", "[tools]") {
   const Scratch scratch;
-  CHECK_THROWS_WITH(tools::writePly({}, scratch.path / "no" / "a.ply"), Catch::Contains("a.ply: cannot write"));
+  CHECK_THROWS_WITH(tools::writePly({}, scratch.path / "no" / "a.ply"),
+                    Catch::Contains("a.ply: cannot write"));
 }

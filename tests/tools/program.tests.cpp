@@ -21,7 +21,8 @@ std::vector<std::pair<std::string, std::string>> results(const fs::path& out) {
   std::vector<std::pair<std::string, std::string>> files;
   for (const char* folder : {"frames", "surface"})
     if (fs::exists(out / folder))
-      for (const std::string& name : filesIn(out / folder)) files.emplace_back(folder + ("/" + name), readBytes(out / folder / name));
+      for (const std::string& name : filesIn(out / folder))
+        files.emplace_back(folder + ("/" + name), readBytes(out / folder / name));
   return files;
 }
 
@@ -40,10 +41,11 @@ TEST_CASE("fluidtex run: writes every file of a run, and run.json with every fra
   INFO(run.output);
   REQUIRE(run.exitCode == 0);
   CHECK_THAT(run.output, Catch::Contains("frame 5/5"));
-  CHECK(filesIn(out) == std::vector<std::string>{"frames/0001.png", "frames/0002.png", "frames/0003.png", "frames/0004.png", "frames/0005.png",
-                                                 "log.txt", "run.json", "small.mp4", "state/0005/run.json", "state/0005/solver.vdb",
-                                                 "state/0005/surface.bin", "surface/0001.ply", "surface/0002.ply", "surface/0003.ply",
-                                                 "surface/0004.ply", "surface/0005.ply"});
+  CHECK(filesIn(out) == std::vector<std::string>{
+                            "frames/0001.png", "frames/0002.png", "frames/0003.png", "frames/0004.png",
+                            "frames/0005.png", "log.txt", "run.json", "small.mp4", "state/0005/run.json",
+                            "state/0005/solver.vdb", "state/0005/surface.bin", "surface/0001.ply",
+                            "surface/0002.ply", "surface/0003.ply", "surface/0004.ply", "surface/0005.ply"});
   const auto json = nlohmann::json::parse(readBytes(out / "run.json"));
   REQUIRE(json.at("frames").size() == 5);
   const auto& first = json.at("frames").front();
@@ -62,7 +64,8 @@ TEST_CASE("fluidtex run: writes every file of a run, and run.json with every fra
 TEST_CASE("fluidtex run: the same bytes on one thread as on two", "[tools]") {
   const Scratch scratch;
   for (const char* threads : {"1", "2"}) {
-    const Finished run = runProgram({"run", kScene, "--frames", "1:3", "--threads", threads, "--out", (scratch.path / threads).string()});
+    const Finished run = runProgram(
+        {"run", kScene, "--frames", "1:3", "--threads", threads, "--out", (scratch.path / threads).string()});
     INFO(run.output);
     REQUIRE(run.exitCode == 0);
   }
@@ -75,9 +78,11 @@ TEST_CASE("fluidtex run: the same bytes on one thread as on two", "[tools]") {
   }
 }
 
-TEST_CASE("fluidtex run --resume: killed at any moment, it ends with the bytes of an unbroken run", "[tools][slow]") {
+TEST_CASE("fluidtex run --resume: killed at any moment, it ends with the bytes of an unbroken run",
+          "[tools][slow]") {
   const Scratch scratch;
-  const fs::path whole = scratch.path / "whole", broken = scratch.path / "broken", output = scratch.path / "output";
+  const fs::path whole = scratch.path / "whole", broken = scratch.path / "broken",
+                 output = scratch.path / "output";
   REQUIRE(runProgram({"run", kScene, "--out", whole.string()}).exitCode == 0);
   const auto expected = results(whole);
   int kills = 0;
@@ -90,7 +95,8 @@ TEST_CASE("fluidtex run --resume: killed at any moment, it ends with the bytes o
     for (const auto& file : results(broken)) {
       if (file.first.find("/.tmp-") != std::string::npos) continue;
       INFO(file.first);
-      const auto same = std::find_if(expected.begin(), expected.end(), [&](const auto& e) { return e.first == file.first; });
+      const auto same = std::find_if(expected.begin(), expected.end(),
+                                     [&](const auto& e) { return e.first == file.first; });
       REQUIRE(same != expected.end());
       REQUIRE((same->second == file.second));
     }
@@ -146,5 +152,6 @@ TEST_CASE("fluidtex: version, help with an example for each subcommand, and the 
   const Finished plan = runProgram({"check", kScene});
   INFO(plan.output);
   CHECK(plan.exitCode == 0);
-  CHECK_THAT(plan.output, Catch::Contains("24 x 15 x 15 cells") && Catch::Contains("3000 on the first surface"));
+  CHECK_THAT(plan.output,
+             Catch::Contains("24 x 15 x 15 cells") && Catch::Contains("3000 on the first surface"));
 }

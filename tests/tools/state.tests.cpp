@@ -53,7 +53,8 @@ TEST_CASE("state: every shorter file is refused by a sentence that names it", "[
 TEST_CASE("state: the newest whole folder is what is loaded, older ones go", "[tools]") {
   const Scratch scratch;
   CHECK_FALSE(tools::loadState(scratch.path / "state").has_value());
-  for (int frame : {9, 10}) tools::saveState({sampleSolverState(frame), sampleSurface(), "report"}, scratch.path / "state");
+  for (int frame : {9, 10})
+    tools::saveState({sampleSolverState(frame), sampleSurface(), "report"}, scratch.path / "state");
   CHECK_FALSE(fs::exists(scratch.path / "state" / "0009"));
   // A state that was being written, or removed, when the program died.
   fs::create_directories(scratch.path / "state" / ".tmp-0011");
