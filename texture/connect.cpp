@@ -228,15 +228,31 @@ EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const
     mesh.normal[v] = points.normal[i];
     keep[v] = 1;
   }
+  std::vector<std::uint32_t> left;  // points that have no place yet
+  const auto insert = [&](std::uint32_t i, std::uint32_t near) {
+    const std::uint32_t added =
+        insertPoint(mesh, near, points.position[i], points.normal[i], kTooNear * spacing, keep);
+    if (added == kNone) return false;
+    keep.push_back(1);
+    return true;
+  };
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t v = nearest[i];
-    if (v == kNone || owner[v] == i) continue;
-    const std::uint32_t added =
-        insertPoint(mesh, v, points.position[i], points.normal[i], kTooNear * spacing, keep);
-    if (added != kNone) keep.push_back(1);
+    if (v != kNone && owner[v] != i && !insert(i, v)) left.push_back(i);
   }
   removeVertices(mesh, keep);
   mesh.compact();
+  if (left.empty()) return mesh;
+
+  // Without the old vertices there may be room for them.
+  keep.assign(mesh.vertexCount(), 1);
+  const VertexGrid rest(mesh.position, 2.0f * spacing);
+  for (std::uint32_t i : left) {
+    const std::uint32_t v = rest.nearest(
+        points.position[i], [&](std::uint32_t u) { return mesh.normal[u].dot(points.normal[i]) > 0.0f; });
+    if (v != kNone) insert(i, v);
+  }
+  flipToDelaunay(mesh);
   return mesh;
 }
 

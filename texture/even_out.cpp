@@ -130,10 +130,12 @@ struct Spreader {
   }
 
   // Splits what is far too long, collapses what is far too short, and then the worst edges until the number
-  // of points is within `slack` of what it should be. Returns whether anything changed.
-  bool adjust(double slack, std::vector<std::uint32_t>& dirty) {
-    constexpr float kTooShort = 0.6f, kTooLong = 1.6f;  // mean edge lengths
-    constexpr float kShort = 0.95f, kLong = 1.1f;       // only these are touched for the sake of the number
+  // of points is within `slack` of what it should be. Lists all vertices whose surroundings changed.
+  void adjust(double slack, std::vector<std::uint32_t>& dirty) {
+    // Mean edge lengths. Points that were even in the last frame get some margin, so that nothing flickers at
+    // the limits.
+    const float tooShort = options.settled ? 0.6f : 0.63f, tooLong = options.settled ? 1.75f : 1.7f;
+    constexpr float kShort = 0.95f, kLong = 1.1f;  // only these are touched for the sake of the number
     struct Candidate {
       float length;
       std::uint32_t halfEdge;
@@ -151,8 +153,8 @@ struct Spreader {
       if (!mesh.alive(h) || h > mesh.twin[h]) continue;
       const float l = length(h) / edge;
       const Candidate c{l, h, mesh.origin[h], mesh.target(h)};
-      if (l < (many ? kShort : kTooShort)) shortest.push_back(c);
-      if (l > (few ? kLong : kTooLong)) longest.push_back(c);
+      if (l < (many ? kShort : tooShort)) shortest.push_back(c);
+      if (l > (few ? kLong : tooLong)) longest.push_back(c);
     }
     std::sort(shortest.begin(), shortest.end());
     std::sort(longest.begin(), longest.end());
@@ -173,7 +175,7 @@ struct Spreader {
     };
     double toRemove = many ? excess : 0.0, toAdd = few ? -excess : 0.0;
     for (const Candidate& c : shortest) {
-      if (c.length >= kTooShort && toRemove < 1.0) break;
+      if (c.length >= tooShort && toRemove < 1.0) break;
       if (!same(c)) continue;
       const std::uint32_t h = c.halfEdge, t = mesh.twin[h];
       if (tryCollapse(mesh, h)) {
@@ -186,7 +188,7 @@ struct Spreader {
       toRemove -= 1.0;
     }
     for (const Candidate& c : longest) {
-      if (c.length <= kTooLong && toAdd < 1.0) break;
+      if (c.length <= tooLong && toAdd < 1.0) break;
       if (!same(c)) continue;
       const std::uint32_t m = splitOnSurface(mesh, c.halfEdge, phi);
       touched.push_back(1);
@@ -196,7 +198,6 @@ struct Spreader {
     }
     for (std::uint32_t v : dirty) awake[v] = 1;
     flipToDelaunay(mesh, &dirty);
-    return !dirty.empty();
   }
 };
 
@@ -206,17 +207,20 @@ void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options
   // In sweeps' pushes, mean edge lengths: a vertex at rest wakes above kWake, and moves until it is below
   // kSleep. The gap between them is what keeps a liquid at rest from shimmering.
   constexpr float kWake = 0.02f, kSleep = 0.005f;
-  constexpr int kMostSweeps = 120;
+  constexpr int kMostSweeps = 120, kSettledCounted = 20;
   constexpr double kSlack = 0.005, kSettledSlack = 0.015;
   Spreader spreader{mesh, phi, options};
   spreader.awake.assign(mesh.vertexCount(), options.settled ? 0 : 1);
+  const int counted = options.settled ? kSettledCounted : options.sweeps - 1;
   std::vector<std::uint32_t> active, changed, next;
   std::vector<int> listed;  // the last sweep for which a vertex was listed
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     changed.clear();
-    // Numbers are put right early, more rarely as the mesh comes to rest, and once more at the end.
+    // The number is put right while much moves; later only what is out of all proportion changes: each of the
+    // two might undo the other for ever.
     const bool adjusting = sweep < 4 || sweep % 5 == 0 || active.empty();
-    if (adjusting) spreader.adjust(options.settled ? kSettledSlack : kSlack, changed);
+    const double slack = sweep > counted ? 1.0 : options.settled ? kSettledSlack : kSlack;
+    if (adjusting) spreader.adjust(slack, changed);
     const bool everything = !options.settled && sweep < options.sweeps;
     if (sweep == 0) {
       for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
