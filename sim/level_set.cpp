@@ -90,7 +90,9 @@ void setBand(FloatTree& tree, const FloatTree* solidPhi, float h) {
       if (!on) values[i] = values[i] < 0.0f ? -background : background;
     }
   });
-  openvdb::tools::pruneLevelSet(tree);
+  // Not pruneLevelSet: it turns a node without leaves into one tile, and behind walls such nodes hold both
+  // signs.
+  openvdb::tools::prune(tree);
 }
 
 }  // namespace

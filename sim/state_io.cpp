@@ -39,24 +39,23 @@ void writeState(const State& state, const std::filesystem::path& file) {
 
 State readState(const std::filesystem::path& file) {
   openvdb::initialize();
-  openvdb::io::File vdb(file.string());
-  vdb.open(false);
-  const auto metadata = vdb.getMetadata();
   State state;
   try {
+    openvdb::io::File vdb(file.string());
+    vdb.open(false);
+    const auto metadata = vdb.getMetadata();
     state.frame = metadata->metaValue<std::int32_t>("frame");
     state.time = metadata->metaValue<double>("time");
     for (const char digit : metadata->metaValue<std::string>("poured")) state.poured.push_back(digit == '1');
-  } catch (const openvdb::LookupError&) {
-    throw openvdb::IoError(file.string() + " holds no state of the solver");
+    FloatGrid::Ptr* grids[4] = {&state.phi, &state.u, &state.v, &state.w};
+    for (int n = 0; n < 4; ++n) {
+      *grids[n] = openvdb::gridPtrCast<FloatGrid>(vdb.readGrid(kGridNames[n]));
+      if (!*grids[n]) throw openvdb::TypeError(std::string("grid ") + kGridNames[n] + " is not of floats");
+    }
+  } catch (const std::exception& error) {
+    // A file cut short fails in many ways (no memory, unknown types); for the caller it is one.
+    throw openvdb::IoError(file.string() + " does not hold a state of the solver: " + error.what());
   }
-  FloatGrid::Ptr* grids[4] = {&state.phi, &state.u, &state.v, &state.w};
-  for (int n = 0; n < 4; ++n) {
-    if (!vdb.hasGrid(kGridNames[n])) throw openvdb::IoError(file.string() + " has no grid " + kGridNames[n]);
-    *grids[n] = openvdb::gridPtrCast<FloatGrid>(vdb.readGrid(kGridNames[n]));
-    if (!*grids[n]) throw openvdb::IoError(file.string() + ": grid " + kGridNames[n] + " is not of floats");
-  }
-  vdb.close();
   return state;
 }
 
