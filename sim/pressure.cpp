@@ -141,7 +141,7 @@ Liquid gatherLiquid(const FloatTree& phi, const SolidField& solid,
   return liquid;
 }
 
-// The system of the cells that are not detached; `unknownOf` gets each unknown's number as a liquid cell.
+// The system of the cells that are not detached; `liquidOf` gets each unknown's number as a liquid cell.
 PoissonSystem assemble(const Liquid& liquid, const std::vector<char>& detached, std::vector<int>& liquidOf) {
   PoissonSystem system;
   std::vector<CellBlock> blocks = liquid.blocks;
@@ -216,8 +216,8 @@ bool updateDetached(const Liquid& liquid, const std::vector<double>& q, const st
   return any;
 }
 
-// Leaves of `grid` that hold a face of a liquid cell; made where they were missing. They are the same for every
-// axis, so that the components keep one topology.
+// Leaves of `grid` that hold a face of a liquid cell; made where they were missing. They are the same for
+// every axis, so that the components keep one topology.
 std::vector<FloatLeaf*> faceLeaves(const Liquid& liquid, FloatGrid& grid) {
   std::vector<FloatLeaf*> leaves;
   for (const CellBlock& block : liquid.blocks) {

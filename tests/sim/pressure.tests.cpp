@@ -1,7 +1,6 @@
 #include "sim/pressure.h"
 
 #include "sim/mac_grid.h"
-#include "sim/poisson.h"
 
 #include <tbb/global_control.h>
 #include <catch2/catch.hpp>
@@ -350,7 +349,7 @@ TEST_CASE("pressure: the same bytes on any number of threads", "[sim]") {
   CHECK(std::memcmp(one.data(), four.data(), one.size() * sizeof(float)) == 0);
 }
 
-TEST_CASE("poisson: iterations hardly grow with the grid", "[sim]") {
+TEST_CASE("pressure: iterations hardly grow with the grid", "[sim]") {
   const auto iterationsAt = [](int n) {
     Scene scene(n, {}, [](const Vec3d& x) { return x.z() - 0.5 - 0.2 * std::sin(5 * x.x()); });
     std::mt19937 random(3);
@@ -364,23 +363,4 @@ TEST_CASE("poisson: iterations hardly grow with the grid", "[sim]") {
   CAPTURE(small, large);
   CHECK(large <= 16);
   CHECK(large <= small + 6);
-}
-
-TEST_CASE("cell numbering: red before black, each cell found again", "[sim]") {
-  std::vector<CellBlock> blocks(2);
-  blocks[0].origin = Coord(0, 0, 8);
-  blocks[1].origin = Coord(8, 0, 0);
-  for (int c = 0; c < 512; c += 3) blocks[0].cells.set(c);
-  for (int c = 0; c < 512; c += 7) blocks[1].cells.set(c);
-  const CellNumbering numbering(blocks, Coord(16, 5, 16));
-  REQUIRE(numbering.size() == static_cast<int>(blocks[0].cells.count() + blocks[1].cells.count()));
-  for (int i = 0; i < numbering.size(); ++i) {
-    const Coord& c = numbering.cells()[i];
-    CHECK((((c[0] + c[1] + c[2]) & 1) == 0) == (i < numbering.redCount()));
-    if (c[1] < 5) CHECK(numbering.at(c) == i);
-  }
-  CHECK(numbering.at(Coord(0, 0, 9)) == -1);
-  CHECK(numbering.at(Coord(-1, 0, 8)) == -1);
-  CHECK(numbering.at(Coord(0, 0, 16)) == -1);
-  CHECK(numbering.at(Coord(8, 0, 8)) == -1);  // a block without cells
 }
