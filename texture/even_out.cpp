@@ -129,13 +129,27 @@ struct Spreader {
     }
   }
 
+  // How large a gap an edge crosses: its own length, or the wider of the circles around its triangles. For
+  // the four corners of a rectangle it does not matter which diagonal the mesh has. Mean edge lengths.
+  float gap(std::uint32_t h, float ownLength) const {
+    float widest = ownLength;
+    for (std::uint32_t side : {h, mesh.twin[h]}) {
+      const Vec3f c = mesh.position[mesh.opposite(side)];
+      const Vec3f u = mesh.position[mesh.origin[side]] - c, v = mesh.position[mesh.target(side)] - c;
+      const float area2 = u.cross(v).length();
+      if (area2 > 0.0f) widest = std::max(widest, ownLength * u.length() * v.length() / area2);
+    }
+    return widest;
+  }
+
   // Splits what is far too long, collapses what is far too short, and then the worst edges until the number
   // of points is within `slack` of what it should be. Lists all vertices whose surroundings changed.
   void adjust(double slack, std::vector<std::uint32_t>& dirty) {
     // Mean edge lengths. Points that were even in the last frame get some margin, so that nothing flickers at
     // the limits.
-    const float tooShort = options.settled ? 0.6f : 0.63f, tooLong = options.settled ? 1.75f : 1.7f;
+    const float tooShort = options.settled ? 0.6f : 0.63f, tooLong = options.settled ? 1.8f : 1.7f;
     constexpr float kShort = 0.95f, kLong = 1.1f;  // only these are touched for the sake of the number
+    constexpr float kMaybeLong = 1.4f;             // shorter edges cross no gap
     struct Candidate {
       float length;
       std::uint32_t halfEdge;
@@ -154,7 +168,8 @@ struct Spreader {
       const float l = length(h) / edge;
       const Candidate c{l, h, mesh.origin[h], mesh.target(h)};
       if (l < (many ? kShort : tooShort)) shortest.push_back(c);
-      if (l > (few ? kLong : tooLong)) longest.push_back(c);
+      const float across = l > kMaybeLong ? gap(h, l) : l;
+      if (across > (few ? kLong : tooLong)) longest.push_back({across, h, c.a, c.b});
     }
     std::sort(shortest.begin(), shortest.end());
     std::sort(longest.begin(), longest.end());
