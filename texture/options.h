@@ -30,7 +30,7 @@ struct SynthesisOptions {
   Method method = Method::coordinates;
   std::vector<int> windows{33, 17, 9};       // exemplar pixels, odd, falling
   std::vector<int> firstIterations{4, 4, 5};  // a window, on the first frame
-  std::vector<int> laterIterations{1, 1, 1};  // a window, on each later frame
+  std::vector<int> laterIterations{3, 3, 3};  // a window, on each later frame
   double robustExponent = 0.8;    // r of |s_p - z_p|^r; 2 gives the plain squares of [Kwatra07]
   double softConstraint = 0.1;    // f: weight of the carried colour where it has mean gradient, 1 = all windows together
   double histogram = 3.0;         // strength of the histogram weights [Kopf07]

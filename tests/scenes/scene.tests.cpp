@@ -142,7 +142,7 @@ TEST_CASE("scene: defaults that follow from other keys", "[scenes]") {
   CHECK(scene.texture.surface.seed == 7);
   CHECK(scene.texture.synthesis.seed == 7);
   CHECK(scene.texture.synthesis.firstIterations == std::vector<int>{4});
-  CHECK(scene.texture.synthesis.laterIterations == std::vector<int>{1});
+  CHECK(scene.texture.synthesis.laterIterations == std::vector<int>{3});
   CHECK(scene.sim.solids[0].name == "solid 0");
   CHECK(scene.sim.solids[1].name == "solid 1");
   CHECK(scene.sim.solids[1].until == sim::kForever);
