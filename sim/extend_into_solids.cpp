@@ -36,47 +36,58 @@ struct Extension {
     return normalSquare > 0.0 ? slopeSum / (std::sqrt(normalSquare) * h) : 0.0;
   }
 
-  // Slope of phi into the solid beyond a cell in the open, as far as it is believed.
-  double usedSlope(std::int64_t solidCell, std::int64_t openCell) const {
-    const bool away = letGo ? letGo(table.coord(openCell)) : value[solidCell] >= 0.0f;
-    const double slopeThere = openSlope(openCell);
-    if (value[openCell] < 0.0f) return std::clamp(slopeThere, -1.0, away ? 1.0 : 0.0);
-    return away ? 0.0 : std::clamp(slopeThere, -1.0, 0.0);
+  // What one known neighbour says about a cell in the solid.
+  struct Guess {
+    double value;    // phi at the neighbour, or here where `slope` is no part of it
+    double slope;    // to be added for this cell
+    double carried;  // to be used by cells still deeper
+  };
+
+  Guess ask(std::int64_t cell, std::int64_t from) const {
+    if (depth[from] > kDeepInSolid * h) return {value[from], slope[from], slope[from]};
+    const bool liquid = value[from] < 0.0f;
+    const bool away = letGo ? letGo(table.coord(from)) : value[cell] >= 0.0f;
+    // Air behind the solid's surface, which has moved with the flow since the liquid let go.
+    if (liquid && away) return {std::max(value[cell], depth[cell]), 0.0, 1.0};
+    const double used = !liquid && away ? 0.0 : std::clamp(openSlope(from), -1.0, 0.0);
+    return {value[from], used, used};
   }
 
+  // The cell's value from its known neighbours nearer to the open, each axis weighted by how much nearer;
+  // with no such neighbour, from all known ones. False where none is known.
   bool extend(std::int64_t cell) {
-    double weights = 0.0, squares = 0.0, sum = 0.0, slopes = 0.0;
-    double plainSum = 0.0, plainSlopes = 0.0;
+    double weights = 0.0, squares = 0.0, sum = 0.0, slopes = 0.0, carried = 0.0;
+    double plainSum = 0.0, plainCarried = 0.0;
     int plainCount = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      double best = 0.0, bestValue = 0.0, bestSlope = 0.0;
+      double best = 0.0;
+      Guess bestGuess{};
       for (int up = 0; up < 2; ++up) {
         const std::int64_t n = table.neighbor(cell, 2 * axis + up);
         if (n < 0 || known[n] == 0) continue;
-        double along = slope[n];
-        if (depth[n] <= kDeepInSolid * h) along = usedSlope(cell, n);
-        plainSum += value[n];
-        plainSlopes += along;
+        const Guess guess = ask(cell, n);
+        plainSum += guess.value;
+        plainCarried += guess.carried;
         ++plainCount;
         const double shallower = static_cast<double>(depth[cell]) - depth[n];
         if (shallower > best) {
           best = shallower;
-          bestValue = value[n];
-          bestSlope = along;
+          bestGuess = guess;
         }
       }
       weights += best;
       squares += best * best;
-      sum += best * bestValue;
-      slopes += best * bestSlope;
+      sum += best * bestGuess.value;
+      slopes += best * bestGuess.slope;
+      carried += best * bestGuess.carried;
     }
     if (plainCount == 0) return false;
     if (weights > 0.0) {
-      slope[cell] = static_cast<float>(slopes / weights);
-      value[cell] = static_cast<float>(sum / weights + slope[cell] * h * std::sqrt(squares) / weights);
+      value[cell] = static_cast<float>((sum + slopes / weights * h * std::sqrt(squares)) / weights);
+      slope[cell] = static_cast<float>(carried / weights);
     } else {
-      slope[cell] = static_cast<float>(plainSlopes / plainCount);
       value[cell] = static_cast<float>(plainSum / plainCount);
+      slope[cell] = static_cast<float>(plainCarried / plainCount);
     }
     known[cell] = 1;
     return true;

@@ -165,7 +165,7 @@ Frame Solver::next(const std::function<void(double)>& progress) {
   frame.solidPhi = m_solid->phi;
   frame.stats.cells = liquidCells(*m_state.phi, *m_solid);
   frame.stats.volume = liquidVolume(*m_state.phi, *m_solid);
-  report(start + length);
+  if (progress) progress(1.0);
   return frame;
 }
 

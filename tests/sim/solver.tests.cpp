@@ -5,6 +5,8 @@
 #include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -154,16 +156,22 @@ TEST_CASE("solver: the surface is closed at walls and a distance around itself")
   const FloatGrid& phi = *frame.surfacePhi;
   const double h = phi.voxelSize()[0];
   CHECK(phi.background() >= 4.0 * h);
-  int wrong = 0;
+  int wrong = 0, flat = 0;
   for (auto it = phi.cbeginValueOn(); it; ++it) {
     const Vec3d x = phi.indexToWorld(it.getCoord());
     const Vec3d low = -x, high = x - Vec3d(0.4, 1.0, 0.5);
-    const double inside =
-        std::max({low.x(), low.y(), low.z(), high.x(), high.y(), high.z()});  // exact where negative
-    if (inside < 0.0 && std::abs(*it - std::max(inside, -5.0 * h)) > 0.15 * h) ++wrong;
+    std::array<double, 6> sides{low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
+    std::sort(sides.begin(), sides.end());
+    const double inside = sides[5];  // the distance, where negative
     if (inside > 0.0 && *it < 0.0f) ++wrong;
+    if (inside > 0.0 || inside < -3.0 * h) continue;
+    // Upwind distances are too short near ridges, where two sides are as near.
+    const bool ridge = sides[4] > inside - 3.0 * h;
+    if (std::abs(*it - inside) > (ridge ? 0.4 : 0.02) * h) ++wrong;
+    flat += ridge ? 0 : 1;
   }
   CHECK(wrong == 0);
+  CHECK(flat > 500);
   CHECK(std::abs(frame.stats.volume - 0.2) < 0.003);
 }
 
