@@ -241,7 +241,7 @@ EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const
     if (v != kNone && owner[v] != i && !insert(i, v)) left.push_back(i);
   }
   removeVertices(mesh, keep);
-  mesh.compact();
+  mesh.compact(surface.positions.size());
   if (left.empty()) return mesh;
 
   // Without the old vertices there may be room for them.

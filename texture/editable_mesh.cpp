@@ -150,35 +150,58 @@ void EditableMesh::collapse(std::uint32_t h) {
   }
 }
 
-std::vector<std::uint32_t> EditableMesh::compact() {
-  std::vector<std::uint32_t> newVertexOf(position.size(), kNone), oldVertexOf;
+std::vector<std::uint32_t> EditableMesh::compact(std::size_t firstNew) {
+  // Where a vertex goes: after the one of lowest rank among its neighbours that came before it.
+  std::vector<std::uint32_t> rank(position.size());
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> order;  // rank, old vertex
+  order.reserve(position.size());
   for (std::uint32_t v = 0; v < position.size(); ++v) {
+    rank[v] = v;
     if (outgoing[v] == kNone) continue;
-    newVertexOf[v] = std::uint32_t(oldVertexOf.size());
-    oldVertexOf.push_back(v);
+    if (v >= firstNew) {
+      around(v, [&](std::uint32_t h) {
+        const std::uint32_t u = target(h);
+        if (u < v) rank[v] = std::min(rank[v], rank[u]);
+      });
+    }
+    order.emplace_back(rank[v], v);
   }
-  std::vector<std::uint32_t> newHalfEdgeOf(origin.size(), kNone);
-  std::uint32_t count = 0;
-  for (std::uint32_t h = 0; h < origin.size(); ++h) {
-    if (alive(h)) newHalfEdgeOf[h] = count++;
+  std::sort(order.begin(), order.end());
+
+  const std::size_t vertices = order.size();
+  std::vector<std::uint32_t> oldVertexOf(vertices), newVertexOf(position.size(), kNone);
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    oldVertexOf[v] = order[v].second;
+    newVertexOf[order[v].second] = v;
   }
-  for (std::uint32_t v = 0; v < oldVertexOf.size(); ++v) {
-    position[v] = position[oldVertexOf[v]];
-    normal[v] = normal[oldVertexOf[v]];
-    outgoing[v] = newHalfEdgeOf[outgoing[oldVertexOf[v]]];
+  std::vector<std::uint32_t> newHalfEdgeOf(origin.size(), kNone), oldHalfEdgeOf;
+  oldHalfEdgeOf.reserve(origin.size() - 3 * free.size());
+  for (std::uint32_t old : oldVertexOf) {
+    around(old, [&](std::uint32_t h) {
+      if (newHalfEdgeOf[h] != kNone) return;
+      for (std::uint32_t k = h - h % 3; k < h - h % 3 + 3; ++k) {
+        newHalfEdgeOf[k] = std::uint32_t(oldHalfEdgeOf.size());
+        oldHalfEdgeOf.push_back(k);
+      }
+    });
   }
-  for (std::uint32_t h = 0; h < origin.size(); ++h) {
-    const std::uint32_t n = newHalfEdgeOf[h];
-    if (n == kNone) continue;
-    origin[n] = newVertexOf[origin[h]];
-    twin[n] = newHalfEdgeOf[twin[h]];
+
+  EditableMesh packed;
+  packed.position.resize(vertices);
+  packed.normal.resize(vertices);
+  packed.outgoing.resize(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    packed.position[v] = position[oldVertexOf[v]];
+    packed.normal[v] = normal[oldVertexOf[v]];
+    packed.outgoing[v] = newHalfEdgeOf[outgoing[oldVertexOf[v]]];
   }
-  position.resize(oldVertexOf.size());
-  normal.resize(oldVertexOf.size());
-  outgoing.resize(oldVertexOf.size());
-  origin.resize(count);
-  twin.resize(count);
-  free.clear();
+  packed.origin.resize(oldHalfEdgeOf.size());
+  packed.twin.resize(oldHalfEdgeOf.size());
+  for (std::size_t h = 0; h < oldHalfEdgeOf.size(); ++h) {
+    packed.origin[h] = newVertexOf[origin[oldHalfEdgeOf[h]]];
+    packed.twin[h] = newHalfEdgeOf[twin[oldHalfEdgeOf[h]]];
+  }
+  *this = std::move(packed);
   return oldVertexOf;
 }
 

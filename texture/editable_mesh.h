@@ -57,8 +57,10 @@ struct EditableMesh {
   // Removes the origin of h; its triangles are handed to the target.
   void collapse(std::uint32_t h);
 
-  // Drops what is gone. Returns for each new vertex its old number; vertices and triangles keep their order.
-  std::vector<std::uint32_t> compact();
+  // Drops what is gone. Vertices from number `firstNew` on are moved next to their neighbours, the others
+  // keep their order; triangles follow their vertices: what is near on the surface is near in memory. Returns
+  // each new vertex's old number.
+  std::vector<std::uint32_t> compact(std::size_t firstNew);
 
  private:
   std::uint32_t newTriangle();

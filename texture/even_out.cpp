@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 namespace fluidtex::texture {
 namespace {
@@ -223,13 +224,23 @@ void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options
   // kSleep. The gap between them is what keeps a liquid at rest from shimmering.
   constexpr float kWake = 0.02f, kSleep = 0.005f;
   constexpr int kMostSweeps = 120, kSettledCounted = 20;
+  constexpr int kReorder = 4;  // most fresh vertices have been made by then
   constexpr double kSlack = 0.005, kSettledSlack = 0.015;
   Spreader spreader{mesh, phi, options};
   spreader.awake.assign(mesh.vertexCount(), options.settled ? 0 : 1);
   const int counted = options.settled ? kSettledCounted : options.sweeps - 1;
   std::vector<std::uint32_t> active, changed, next;
-  std::vector<int> listed;  // the last sweep for which a vertex was listed
+  std::vector<int> listed;                 // the last sweep for which a vertex was listed
+  std::size_t fresh = mesh.vertexCount();  // later vertices are not in order yet
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    if (sweep == kReorder && !options.settled) {
+      mesh.compact(fresh);
+      fresh = mesh.vertexCount();
+      spreader.awake.assign(fresh, 1);
+      listed.assign(fresh, -1);
+      active.resize(fresh);
+      std::iota(active.begin(), active.end(), 0u);
+    }
     changed.clear();
     // The number is put right while much moves; later only what is out of all proportion changes: each of the
     // two might undo the other for ever.
@@ -263,7 +274,7 @@ void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options
     if (active.empty() && changed.empty() && adjusting) break;
     flipToDelaunay(mesh, &active);
   }
-  mesh.compact();
+  mesh.compact(fresh);
 }
 
 }  // namespace fluidtex::texture

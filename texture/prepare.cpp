@@ -32,6 +32,17 @@ double pointsFor(const IsoSurface& surface, float spacing) {
   return points;
 }
 
+// The triangles' own normal around a vertex, for where the level set has no gradient.
+Vec3f normalOfTriangles(const EditableMesh& mesh, std::uint32_t v) {
+  openvdb::Vec3d sum(0.0);
+  mesh.around(v, [&](std::uint32_t h) {
+    const openvdb::Vec3d a(mesh.position[v]), b(mesh.position[mesh.target(h)]),
+        c(mesh.position[mesh.opposite(h)]);
+    sum += (b - a).cross(c - a);
+  });
+  return sum.normalize() ? Vec3f(sum) : Vec3f(0.0f, 0.0f, 1.0f);
+}
+
 SurfaceMesh toWorld(const EditableMesh& mesh, const openvdb::math::Transform& transform, double spacing) {
   SurfaceMesh result;
   result.spacing = spacing;
@@ -40,7 +51,9 @@ SurfaceMesh toWorld(const EditableMesh& mesh, const openvdb::math::Transform& tr
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertexCount(), 2048), [&](const auto& range) {
     for (std::size_t v = range.begin(); v < range.end(); ++v) {
       result.positions[v] = Vec3f(transform.indexToWorld(openvdb::Vec3d(mesh.position[v])));
-      openvdb::Vec3d n = transform.baseMap()->applyIJT(openvdb::Vec3d(mesh.normal[v]));
+      const bool known = mesh.normal[v].lengthSqr() > 0.5f;
+      const Vec3f normal = known ? mesh.normal[v] : normalOfTriangles(mesh, std::uint32_t(v));
+      openvdb::Vec3d n = transform.baseMap()->applyIJT(openvdb::Vec3d(normal));
       n.normalize();
       result.normals[v] = Vec3f(n);
     }

@@ -40,7 +40,7 @@ bool sound(EditableMesh mesh) {
   for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
     if (mesh.outgoing[v] != EditableMesh::kNone && mesh.origin[mesh.outgoing[v]] != v) return false;
   }
-  mesh.compact();
+  mesh.compact(12);
   return isClosedManifold(mesh.vertexCount(), trianglesOf(mesh));
 }
 
@@ -95,7 +95,7 @@ TEST_CASE("editable mesh: a component shrinks to a tetrahedron and no further") 
       any = true;
     }
   }
-  mesh.compact();
+  mesh.compact(12);
   CHECK(mesh.vertexCount() == 4);
   CHECK(isClosedManifold(4, trianglesOf(mesh)));
 }

@@ -236,6 +236,29 @@ TEST_CASE("prepare: spheres before and after they merge, thin sheets, one voxel,
   }
 }
 
+TEST_CASE("prepare: any finite values, no distance at all, give a sound mesh") {
+  openvdb::initialize();
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    auto grid = FloatGrid::create(3.0f);
+    std::uint64_t random = seed;
+    for (int n = 0; n < 6 * 6 * 6; ++n) {
+      random = random * 6364136223846793005ULL + 1442695040888963407ULL;
+      const float value = float(int(random >> 40) % 1000 - 400) * (seed % 3 == 0   ? 1e30f
+                                                                   : seed % 3 == 1 ? 1e-30f
+                                                                                   : 1e-3f);
+      grid->tree().setValue(openvdb::Coord(n % 6 + 5, n / 6 % 6 + 5, n / 36 + 5), value);
+    }
+    std::vector<Vec3f> seeds;
+    for (const double spacing : {0.4, 1.0, 1.0, 3.0}) {
+      INFO("seed " << seed << ", spacing " << spacing);
+      const Surface surface = prepare(*grid, spacing, seeds);
+      REQUIRE(!surface.empty());
+      requireSound(surface.levels[0], *grid);
+      seeds = surface.levels[0].positions;
+    }
+  }
+}
+
 TEST_CASE("prepare: each level has twice the spacing of the finer one") {
   const double voxel = 0.05;
   const auto grid = torusGrid(1.0, 0.4, voxel);
