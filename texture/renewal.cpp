@@ -15,8 +15,11 @@ namespace {
 constexpr float kSeamWeight = 0.75f;
 constexpr float kLostStretch = 4.0f;
 constexpr float kLowTrust = 0.3f;
-constexpr float kSameTexel = 0.7f;  // a proposal this near to the carried texel says the same
-constexpr int kBlurSweeps = 8;      // badness is averaged over about this many edges' reach in all
+constexpr float kSameTexel = 0.7f;      // a proposal this near to the carried texel says the same
+constexpr float kRestSeconds = 0.4f;    // ten frames of a film: as long as the eye needs to follow a patch
+constexpr float kYoungPatience = 1.2f;  // new texture must be this much worse again before it is renewed
+constexpr float kLeastGain = 0.05f;     // a piece is renewed if its badness falls by this on average
+constexpr int kBlurSweeps = 8;          // badness is averaged over about this many edges' reach in all
 
 template <typename Body>
 void forEachVertex(std::size_t count, const Body& body) {
@@ -62,8 +65,8 @@ std::vector<float> badness(const SeamModel& model, const Labels& labels, const s
 }
 
 std::vector<std::uint8_t> worthRenewing(const SeamModel& model, const Labels& labels,
-                                        const std::vector<float>& trust, double keepStretch,
-                                        std::uint64_t seed) {
+                                        const std::vector<float>& trust, const std::vector<float>& age,
+                                        double keepStretch, std::uint64_t seed) {
   std::vector<float> bad = badness(model, labels, trust), blurred(bad.size());
   for (int sweep = 0; sweep < kBlurSweeps; ++sweep) {
     forEachVertex(bad.size(), [&](std::uint32_t v) {
@@ -77,7 +80,9 @@ std::vector<std::uint8_t> worthRenewing(const SeamModel& model, const Labels& la
   const auto kept = float(std::log(keepStretch));
   std::vector<std::uint8_t> result(labels.size());
   forEachVertex(labels.size(), [&](std::uint32_t v) {
-    result[v] = bad[v] > kept * (0.8f + 0.4f * noiseAt(labels[v].texel, seed));
+    const float young = std::max(0.0f, 1.0f - age[v] / kRestSeconds);
+    const float threshold = kept * (0.8f + 0.4f * noiseAt(labels[v].texel, seed));
+    result[v] = bad[v] > threshold * (1.0f + kYoungPatience * young);
   });
   return result;
 }
@@ -125,7 +130,7 @@ Labels settle(const SeamModel& model, const Labels& carried, const Labels& propo
         if (!seen[u]) seen[u] = 1, piece.push_back(u);
       }
     }
-    if (change < -0.02 * double(piece.size())) continue;
+    if (change < -double(kLeastGain) * double(piece.size())) continue;
     for (const std::uint32_t v : piece) {
       renewed[v] = 0;
       result[v] = carried[v];

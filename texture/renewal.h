@@ -16,10 +16,11 @@ std::vector<float> badness(const SeamModel& model, const Labels& labels, const s
 
 // 1 where labels should be renewed: where badness, averaged over a few rings, exceeds that of texture
 // stretched by keepStretch. The threshold varies by a fifth, smoothly over the exemplar, so that neighbours
-// do not renew at once.
+// do not renew at once; and it is higher where `age`, seconds since the last renewal, is young, so that what
+// has just been laid down rests a while instead of boiling.
 std::vector<std::uint8_t> worthRenewing(const SeamModel& model, const Labels& labels,
-                                        const std::vector<float>& trust, double keepStretch,
-                                        std::uint64_t seed);
+                                        const std::vector<float>& trust, const std::vector<float>& age,
+                                        double keepStretch, std::uint64_t seed);
 
 // The mask grown by `rings` rings of neighbours.
 std::vector<std::uint8_t> grown(const VertexGraph& graph, std::vector<std::uint8_t> mask, int rings);

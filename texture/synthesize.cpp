@@ -189,9 +189,9 @@ State synthesizeLater(Synthesizer& synthesizer, const MeshView& view, const Carr
   State state;
   state.labels = before;
   Level level{view, image, synthesizer.tables->histogram.front(), {}, {}};
-  level.wanted =
-      grown(view.graph, worthRenewing(seams, before, carried.trust, options.keepStretch, options.seed),
-            kRenewalRim);
+  level.wanted = grown(
+      view.graph, worthRenewing(seams, before, carried.trust, carried.age, options.keepStretch, options.seed),
+      kRenewalRim);
   if (std::find(level.wanted.begin(), level.wanted.end(), 1) == level.wanted.end()) return state;
 
   state.value = state.average = lookUp(image, before);

@@ -35,8 +35,9 @@ TEST_CASE("renewal: whole, unstretched texture is left alone; stretched, lost or
   const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
   const std::size_t count = surface.mesh.positions.size();
   const std::vector<float> trusted(count, 1.0f), doubted(count, 0.1f);
+  std::vector<float> age(count, 10.0f);
   const auto share = [&](const Labels& labels, const std::vector<float>& trust, std::uint64_t seed = 1) {
-    const std::vector<std::uint8_t> found = worthRenewing(model, labels, trust, 1.35, seed);
+    const std::vector<std::uint8_t> found = worthRenewing(model, labels, trust, age, 1.35, seed);
     std::size_t sum = 0, all = 0;
     for (std::uint32_t v = 0; v < count; ++v)
       if (onTop(surface.mesh.positions[v])) sum += found[v], ++all;
@@ -55,6 +56,11 @@ TEST_CASE("renewal: whole, unstretched texture is left alone; stretched, lost or
   Labels outside = picture(surface, 1.0f);
   for (Label& label : outside) label.texel += Vec2f(100, 0);
   CHECK(share(outside, trusted) == 1.0);
+  // What has just been laid down rests, unless it is lost.
+  age.assign(count, 0.0f);
+  CHECK(share(picture(surface, 1.5f), trusted) == 0.0);
+  CHECK(share(outside, trusted) == 1.0);
+  CHECK(share(picture(surface, 1.0f), doubted) == 1.0);
 }
 
 TEST_CASE("renewal: a mask grows by rings") {
