@@ -36,7 +36,8 @@ inline float weno5(float v1, float v2, float v3, float v4, float v5) {
 }
 
 // out = speed * derivative along one axis, added up; block: phi/h with halo; speed in cells per sub-step.
-void addAdvection(const float* block, int stride, const float* speed, float* out) {
+void addAdvection(const float* __restrict block, int stride, const float* __restrict speed,
+                  float* __restrict out) {
   for (int i = 0; i < kLeafDim; ++i) {
     for (int j = 0; j < kLeafDim; ++j) {
       const float* p = block + ((i + kHalo) * kSide + j + kHalo) * kSide + kHalo;

@@ -19,8 +19,15 @@ constexpr int kBlock = kSide * kSide * kSide;
 constexpr int kStride[3] = {kSide * kSide, kSide, 1};
 constexpr float kCourant = 0.45f;
 
+// By value and without branches, so that loops over them vectorise.
+inline float least(float a, float b) {
+  return a < b ? a : b;
+}
+inline float most(float a, float b) {
+  return a > b ? a : b;
+}
 inline float minmod(float a, float b) {
-  return a * b <= 0.0f ? 0.0f : (std::abs(a) < std::abs(b) ? a : b);
+  return most(0.0f, least(a, b)) + least(0.0f, most(a, b));
 }
 
 inline int blockIndex(int offset) {
@@ -65,15 +72,14 @@ std::vector<NearCell> nearCells(const float* block) {
   return cells;
 }
 
-// Godunov's choice of one-sided slopes, squared; `inside`: information comes from larger values.
-inline float upwindSquare(float minus, float plus, bool inside) {
-  const float a = inside ? std::min(minus, 0.0f) : std::max(minus, 0.0f);
-  const float b = inside ? std::max(plus, 0.0f) : std::min(plus, 0.0f);
-  return std::max(a * a, b * b);
+// Godunov's choice of one-sided slopes, squared; side: 1 where phi is positive, -1 inside.
+inline float upwindSquare(float minus, float plus, float side) {
+  const float upwind = most(0.0f, most(side * minus, -side * plus));
+  return upwind * upwind;
 }
 
 // |grad phi|^2 of a regular cell's row of 8, second-order ENO.
-void addSlopes(const float* block, int stride, float* square) {
+void addSlopes(const float* __restrict block, int stride, float* __restrict square) {
   for (int i = 0; i < kLeafDim; ++i) {
     for (int j = 0; j < kLeafDim; ++j) {
       const float* p = block + ((i + kHalo) * kSide + j + kHalo) * kSide + kHalo;
@@ -84,7 +90,7 @@ void addSlopes(const float* block, int stride, float* square) {
         const float below = m2 - 2.0f * m1 + c, here = m1 - 2.0f * c + p1, above = c - 2.0f * p1 + p2;
         const float minus = c - m1 + 0.5f * minmod(here, below);
         const float plus = p1 - c - 0.5f * minmod(here, above);
-        out[k] += upwindSquare(minus, plus, c < 0.0f);
+        out[k] += upwindSquare(minus, plus, c < 0.0f ? -1.0f : 1.0f);
       }
     }
   }
@@ -101,16 +107,14 @@ float nearSlope(const float* p, const NearCell& cell) {
     const bool crossLeft = (p[0] < 0.0f) != (p[-d] < 0.0f), crossRight = (p[0] < 0.0f) != (p[d] < 0.0f);
     const float minus = (crossLeft ? p[0] / left : p[0] - p[-d]) + 0.5f * left * minmod(here, below);
     const float plus = (crossRight ? -p[0] / right : p[d] - p[0]) - 0.5f * right * minmod(here, above);
-    square += upwindSquare(minus, plus, p[0] < 0.0f);
+    square += upwindSquare(minus, plus, p[0] < 0.0f ? -1.0f : 1.0f);
   }
   return square;
 }
 
-enum CellKind : std::uint8_t { kRegular = 0, kHeld = 1 };
-
 struct LeafPlan {
   std::vector<NearCell> near;
-  std::array<std::uint8_t, kLeafSize> kind;
+  std::vector<std::int16_t> held;  // offsets of cells that keep their value
 };
 
 LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h,
@@ -120,11 +124,15 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
   LeafPlan plan{nearCells(block), {}};
   float scratch[kLeafSize];
   const float* solid = leafValues(solidPhi, origin, scratch);
-  for (int i = 0; i < kLeafSize; ++i) plan.kind[i] = solid[i] < -kDeepInSolid * h ? kHeld : kRegular;
-  for (const NearCell& cell : plan.near) {
-    if (keepNear) plan.kind[cell.offset] = kHeld;
+  const float deepest = -kDeepInSolid * h;
+  std::erase_if(plan.near, [&](const NearCell& cell) { return solid[cell.offset] < deepest; });
+  for (std::int16_t i = 0; i < kLeafSize; ++i) {
+    if (solid[i] < deepest) plan.held.push_back(i);
   }
-  std::erase_if(plan.near, [&](const NearCell& cell) { return plan.kind[cell.offset] == kHeld; });
+  if (keepNear) {
+    for (const NearCell& cell : plan.near) plan.held.push_back(static_cast<std::int16_t>(cell.offset));
+    plan.near.clear();
+  }
   return plan;
 }
 
@@ -145,6 +153,8 @@ void eulerStep(const FloatTree& from, FloatLeaf& to, const LeafPlan& plan, float
     step[cell.offset] = kCourant * *std::min_element(cell.reach.begin(), cell.reach.end());
   }
   float* out = to.buffer().data();
+  float kept[kLeafSize];
+  for (std::size_t n = 0; n < plan.held.size(); ++n) kept[n] = out[plan.held[n]];
   for (int i = 0; i < kLeafDim; ++i) {
     for (int j = 0; j < kLeafDim; ++j) {
       const float* p = block + ((i + kHalo) * kSide + j + kHalo) * kSide + kHalo;
@@ -154,13 +164,13 @@ void eulerStep(const FloatTree& from, FloatLeaf& to, const LeafPlan& plan, float
         const float change = step[row + k] * (1.0f - std::sqrt(square[row + k]));
         float next = h * (now + (now < 0.0f ? -change : change));
         if (average) next = 0.5f * (next + out[row + k]);
-        next = std::clamp(next, -background, background);
+        next = least(background, most(-background, next));
         // The sign never changes: that would be a surface made from nothing.
-        if ((next < 0.0f) != (now < 0.0f)) next = h * now;
-        out[row + k] = plan.kind[row + k] == kHeld ? out[row + k] : next;
+        out[row + k] = (next < 0.0f) != (now < 0.0f) ? h * now : next;
       }
     }
   }
+  for (std::size_t n = 0; n < plan.held.size(); ++n) out[plan.held[n]] = kept[n];
 }
 
 }  // namespace
