@@ -70,6 +70,12 @@ Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_
 
 Solver::Solver(const Options& options, State state)
     : m_options(options), m_state(std::move(state)), m_solids(std::make_shared<Solids>(options)) {
+  const double written = m_state.phi->voxelSize()[0], asked = options.voxelSize();
+  if (std::abs(written - asked) > 1e-9 * asked) {
+    std::ostringstream message;
+    message << "the state was made with cells of " << written << " m, the scene asks for " << asked << " m";
+    throw SolverError(message.str());
+  }
   m_state.poured.resize(options.liquid.size(), false);
   m_solid = m_solids->at(m_state.time);
 }

@@ -34,7 +34,8 @@ struct SolverError : std::runtime_error {
 class Solver {
  public:
   explicit Solver(const Options& options);
-  Solver(const Options& options, State state);  // continues from a restored state
+  // Continues from a restored state. Throws SolverError when it was made at another resolution.
+  Solver(const Options& options, State state);
 
   // The first call gives the initial state (frame 1, no substeps); each further call advances by one frame
   // time. `progress`, where given, is called with the share of the frame done, 0..1.
@@ -43,7 +44,6 @@ class Solver {
   const State& state() const { return m_state; }
 
  private:
-  void start();
   void applyEvents();
   void advanceTo(double time, Frame& frame, const std::function<void(double)>& report);
 

@@ -261,3 +261,9 @@ TEST_CASE("solver: continued from a file, the same bytes as unbroken") {
   CHECK(same(*frame.surfacePhi, *expected.surfacePhi));
   CHECK(resumed.state().poured == unbroken.state().poured);
 }
+
+TEST_CASE("solver: a state of another resolution is refused") {
+  Solver coarse(tank(16, {box(Vec3d(0.0), Vec3d(0.4, 1.0, 0.5))}));
+  coarse.next();
+  CHECK_THROWS_AS(Solver(tank(20, {}), coarse.state()), SolverError);
+}
