@@ -107,6 +107,13 @@ class FrameLoop {
         "{:.2f}, render {:.2f}, write {:.2f}",
         result.motion.substeps.size(), result.motion.stats.volume, m_surface.positions.size(), s.simulate,
         s.prepare, s.transport, s.synthesize, s.render, s.write);
+    const sim::FrameStats& stats = result.motion.stats;
+    spdlog::debug(
+        "frame {}: {} liquid cells, shortest substep {:.3g} s, {} pressure iterations, residual {:.2g}; "
+        "energy {:.5g} to {:.5g} in {} iterations, {:.1f}% renewed",
+        result.motion.index, stats.cells, stats.dtMin, stats.pressureIterations, stats.pressureResidual,
+        result.synthesis.energyStart, result.synthesis.energyEnd, result.synthesis.iterations,
+        100.0 * result.synthesis.renewed);
     spdlog::info("frame {}: {}", result.motion.index, summary);
     m_progress->frameDone(result.motion.index, summary);
   }

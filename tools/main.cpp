@@ -19,6 +19,18 @@ int main(int argc, char** argv) {
   int exitCode = kDone;
   addRun(app, exitCode);
   addCheck(app, exitCode);
+  if (argc > 1 && argv[1][0] != '-') {
+    bool found = false;
+    std::string known;
+    for (const CLI::App* command : app.get_subcommands({})) {
+      found = found || command->check_name(argv[1]);
+      known += (known.empty() ? "" : ", ") + command->get_name();
+    }
+    if (!found) {
+      std::fprintf(stderr, "error: %s: no such command; there are: %s\n", argv[1], known.c_str());
+      return kInputWrong;
+    }
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

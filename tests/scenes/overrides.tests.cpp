@@ -104,7 +104,7 @@ TEST_CASE("quality: exclusive keys take each other's place", "[scenes]") {
   CHECK(standard.texture.points == 500);
 }
 
-TEST_CASE("--set: values as in TOML, bare words as strings", "[scenes]") {
+TEST_CASE("overrides: --set: values as in TOML, bare words as strings", "[scenes]") {
   const Scene scene =
       sceneOf(kGoodScene + "[quality.final]\ndomain.resolution = 100",
               setting({"domain.resolution=32", "fluid.gravity=[0, 0, -1.6]", "texture.method=kwatra07",
@@ -125,7 +125,7 @@ TEST_CASE("--set: values as in TOML, bare words as strings", "[scenes]") {
   CHECK(scene.frames == 4);  // the later one holds
 }
 
-TEST_CASE("--set: a shape or a spacing displaces what the file says", "[scenes]") {
+TEST_CASE("overrides: --set: a shape or a spacing displaces what the file says", "[scenes]") {
   const Scene scene = sceneOf(
       "texture.points = 500\n" + kGoodScene,
       setting({"texture.spacing=0.02", "liquid.0.half_space={ point = [0, 0, 0.3], normal = [0, 0, 1] }"}));
@@ -133,7 +133,7 @@ TEST_CASE("--set: a shape or a spacing displaces what the file says", "[scenes]"
   CHECK(std::get<sim::HalfSpace>(scene.sim.liquid[0].shape.kind).point == sim::Vec3d(0, 0, 0.3));
 }
 
-TEST_CASE("--set: faults are told at the option", "[scenes]") {
+TEST_CASE("overrides: --set: faults are told at the option", "[scenes]") {
   using Faulty = std::vector<std::string>;
   CHECK(
       faultsOfSetting("texture.windwos=3") ==
@@ -178,12 +178,12 @@ TEST_CASE("--set: faults are told at the option", "[scenes]") {
   CHECK_THAT(broken[0], Catch::StartsWith("--set fluid.gravity=[0, 0: error: fluid.gravity: "));
 }
 
-TEST_CASE("--set: a fault of the file that it mends is gone", "[scenes]") {
+TEST_CASE("overrides: --set: a fault of the file that it mends is gone", "[scenes]") {
   CHECK(faultsOf("frames = 0\n" + kGoodScene).size() == 1);
   CHECK(faultsOf("frames = 0\n" + kGoodScene, setting({"frames=1"})).empty());
 }
 
-TEST_CASE("--exemplar: taken instead of the scene's, relative to the current folder", "[scenes]") {
+TEST_CASE("overrides: --exemplar: taken instead of the scene's, relative to the current folder", "[scenes]") {
   const SceneFolder folder;
   Overrides overrides;
   overrides.exemplar = folder.path() / "m.obj";

@@ -138,7 +138,7 @@ TEST_CASE("fluidtex: wrong input exits with 1 and a sentence", "[tools]") {
   refused({"run", kScene, "--frames", "1:99", "--out", out}, "the scene has 5 frames");
   refused({"run", kScene, "--frames", "x", "--out", out}, "is no range of frames");
   refused({"run", kScene, "--exemplar", kScene, "--out", out}, "small.toml");
-  refused({"walk"}, "walk");
+  refused({"walk"}, "walk: no such command");
   CHECK_FALSE(fs::exists(fs::path(out) / "frames"));
 }
 
