@@ -13,8 +13,8 @@
 namespace fluidtex::tools {
 namespace {
 
-// Fitted to the dam break's peaks: 0.27 GB at 8,000 points, 0.39 GB at 58,000, 0.80 GB at 500,000. Leads, not
-// promises.
+// Near the dam break's measured peaks, high for the largest: 0.27 GB at 8,000 points, 0.39 GB at 58,000, 0.80
+// GB at 500,000. Leads, not promises.
 constexpr double kBytesPerLiquidCell = 400.0;
 constexpr double kBytesPerPoint = 1400.0;
 constexpr double kBytesProgram = 245e6;
