@@ -38,7 +38,7 @@ struct SynthesisOptions {
   double core = 0.2;              // weight of a window's centre when its texels are copied
   double featureWeight = 0.3;     // of the signed feature distance channel, squared distance, colour = 1
   double gradientWeight = 0.3;    // of the gradient energy channel
-  double keepStretch = 1.35;      // carried texture that is coherent and stretched less than this is kept
+  double keepStretch = 1.7;       // carried texture that is coherent and stretched less than this is kept
   std::uint64_t seed = 1;
 };
 

@@ -22,6 +22,14 @@ int parseNumber(std::string_view text, const std::string& whole) {
   return number;
 }
 
+// The solver has no viscous force: a liquid thicker than water would not look it, and its scene should know.
+void warnOfViscosity(const scenes::Scene& scene) {
+  if (scene.sim.viscosity <= sim::Options{}.viscosity) return;
+  fmt::print(stderr,
+             "{}: warning: fluid.viscosity: {:g} Pa s is not simulated yet; the liquid flows like water\n",
+             scene.file.string(), scene.sim.viscosity);
+}
+
 int fault(const std::string& sentence, ExitCode code) {
   fmt::print(stderr, "error: {}\n", sentence);
   if (spdlog::default_logger()) spdlog::error("{}", sentence);
@@ -63,7 +71,9 @@ scenes::Scene loadScene(const CommonOptions& options) {
   if (options.quality == "final") overrides.quality = scenes::Quality::final;
   overrides.set = options.set;
   overrides.exemplar = options.exemplar;
-  return scenes::loadScene(options.scene, overrides);
+  scenes::Scene scene = scenes::loadScene(options.scene, overrides);
+  if (!options.quiet) warnOfViscosity(scene);
+  return scene;
 }
 
 void parseFrames(const std::string& text, int frames, int& first, int& last) {

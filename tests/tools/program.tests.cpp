@@ -155,3 +155,12 @@ TEST_CASE("fluidtex: version, help with an example for each subcommand, and the 
   CHECK_THAT(plan.output,
              Catch::Contains("24 x 15 x 15 cells") && Catch::Contains("3000 on the first surface"));
 }
+
+TEST_CASE("fluidtex: a viscosity that is not simulated is named, and nothing else about a valid scene",
+          "[tools]") {
+  CHECK_THAT(runProgram({"check", kScene}).output, !Catch::Contains("warning"));
+  const Finished thick = runProgram({"check", kScene, "--set", "fluid.viscosity=50"});
+  CHECK(thick.exitCode == 0);
+  CHECK_THAT(thick.output,
+             Catch::Contains("small.toml: warning: fluid.viscosity: 50 Pa s is not simulated yet"));
+}
