@@ -1,5 +1,7 @@
 // Mesh files through CGAL: soup of polygons, repaired (double points of STL and of split normals joined),
 // turned outward.
+#include "sim/read_mesh.h"
+
 #include "sim/shapes.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -16,7 +18,6 @@
 #include <cmath>
 #include <iostream>
 #include <map>
-#include <stdexcept>
 
 namespace fluidtex::sim {
 
@@ -28,7 +29,7 @@ using Point = Kernel::Point_3;
 using Polygon = std::vector<std::size_t>;
 
 [[noreturn]] void fail(const MeshShape& shape, const std::string& what) {
-  throw std::runtime_error(shape.file.string() + ": " + what);
+  throw MeshError(shape.file.string() + ": " + what);
 }
 
 // CGAL's PLY reader writes to std::cerr as it gives up; the caller reports the fault instead.

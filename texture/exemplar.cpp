@@ -2,6 +2,7 @@
 
 #include "texture/channels.h"
 #include "texture/read_image.h"
+#include "texture/search.h"
 
 #include <tbb/parallel_for.h>
 
@@ -38,7 +39,7 @@ Image withChannel(const Image& image, const Image& channel, float scale) {
   return result;
 }
 
-void check(const Image& color, const SynthesisOptions& synthesis, const std::string& name) {
+void check(const Image& color, bool toroidal, const SynthesisOptions& synthesis, const std::string& name) {
   if (color.channels != 4 || color.width < 1 || color.height < 1 ||
       color.data.size() != std::size_t(color.width) * std::size_t(color.height) * 4)
     throw std::invalid_argument("makeExemplar: the image must be RGBA and hold all its pixels");
@@ -48,6 +49,10 @@ void check(const Image& color, const SynthesisOptions& synthesis, const std::str
     throw ExemplarError(name + " is too small: it has " + std::to_string(color.width) + " x " +
                         std::to_string(color.height) + " pixels, and the largest window needs " +
                         std::to_string(window) + " x " + std::to_string(window) + ".");
+  if (fittingWindow(color, toroidal, kSmallestWindow) < kSmallestWindow)
+    throw ExemplarError(name + " is too small: it has " + std::to_string(color.width) + " x " +
+                        std::to_string(color.height) + " pixels, and an image whose edges do not meet " +
+                        "needs at least 5 x 5.");
   bool visible = false;
   for (std::size_t i = 0; i < color.data.size(); ++i) {
     if (!std::isfinite(color.data[i]))
@@ -59,7 +64,7 @@ void check(const Image& color, const SynthesisOptions& synthesis, const std::str
 
 Exemplar prepare(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
                  const std::string& name) {
-  check(color, synthesis, name);
+  check(color, toroidal, synthesis, name);
   Exemplar exemplar;
   exemplar.toroidal = toroidal;
 

@@ -35,8 +35,9 @@ struct ExemplarError : std::runtime_error {
 };
 
 // Reads an image (8- or 16-bit, float; grey, RGB, RGBA, CMYK turned into RGB) and prepares `levels` levels.
-// Throws ExemplarError: missing, not an image, smaller than the largest window (at the coarsest level that window is
-// shortened where the image has become too small), fully transparent, values that are not finite.
+// Throws ExemplarError: missing, not an image, smaller than the largest window (which is shortened at any level whose
+// image leaves it no choice of places, see fittingWindow), too small for any window, fully transparent, values that are
+// not finite.
 Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels);
 
 // The same from pixels in memory (linear RGBA).

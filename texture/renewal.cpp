@@ -116,21 +116,35 @@ Labels settle(const SeamModel& model, const Labels& carried, const Labels& propo
   const std::vector<float> before = badness(model, carried, trust);
   const std::vector<float> trusted(count, 1.0f);  // what is proposed does not depend on what was carried
   const std::vector<float> after = badness(model, result, trusted);
+  // What renewing a vertex changes: its own badness, and its share of that of neighbours that stay.
+  const VertexGraph& graph = model.view.graph;
+  std::vector<float> change(count, 0.0f);
+  forEachVertex(count, [&](std::uint32_t v) {
+    if (!renewed[v]) return;
+    change[v] = after[v] - before[v];
+    for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
+      const std::uint32_t u = graph.neighbor[h];
+      if (renewed[u]) continue;
+      const float rise =
+          seamCost(model, result[v], carried[u], h) - seamCost(model, carried[v], carried[u], h);
+      change[v] += kSeamWeight * rise / float(graph.around(u).size());
+    }
+  });
   std::vector<std::uint8_t> seen(count, 0);
   std::vector<std::uint32_t> piece;
   for (std::uint32_t start = 0; start < count; ++start) {
     if (!renewed[start] || seen[start]) continue;
     piece.assign(1, start);
     seen[start] = 1;
-    double change = 0.0;
+    double sum = 0.0;
     for (std::size_t i = 0; i < piece.size(); ++i) {
-      change += double(after[piece[i]]) - double(before[piece[i]]);
-      for (const std::uint32_t u : model.view.graph.around(piece[i])) {
+      sum += double(change[piece[i]]);
+      for (const std::uint32_t u : graph.around(piece[i])) {
         if (!renewed[u]) continue;
         if (!seen[u]) seen[u] = 1, piece.push_back(u);
       }
     }
-    if (change < -double(kLeastGain) * double(piece.size())) continue;
+    if (sum < -double(kLeastGain) * double(piece.size())) continue;
     for (const std::uint32_t v : piece) {
       renewed[v] = 0;
       result[v] = carried[v];

@@ -26,8 +26,9 @@ std::vector<std::uint8_t> worthRenewing(const SeamModel& model, const Labels& la
 std::vector<std::uint8_t> grown(const VertexGraph& graph, std::vector<std::uint8_t> mask, int rings);
 
 // Merges proposed labels into carried ones. Where they continue each other the carried one stays. The others
-// form connected pieces, and a piece is renewed if that lowers its summed badness. renewed[v] says where. A
-// surface at rest therefore comes to rest: every renewal lowers a sum that has a bound.
+// form connected pieces, and a piece is renewed if that lowers the summed badness of the surface: the piece's
+// own and that of the vertices around it, whose seams change with it. renewed[v] says where. A surface at rest
+// therefore comes to rest: every renewal lowers a sum that has a bound.
 Labels settle(const SeamModel& model, const Labels& carried, const Labels& proposed,
               const std::vector<float>& trust, std::vector<std::uint8_t>& renewed);
 

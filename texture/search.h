@@ -27,6 +27,9 @@ float windowFalloff(int window, float x, float y);
 // leaves a choice of windows: 5/8 of the shorter side, the whole shorter side where the image is toroidal.
 int fittingWindow(const Image& match, bool toroidal, int window);
 
+// Narrower windows are not matched: an exemplar is taken only if it has room for one of these.
+inline constexpr int kSmallestWindow = 3;
+
 struct Match {
   Vec2i center{0, 0};  // column, row of the window's middle pixel
   // Mean squared difference under the fall-off: sum g m |a - b|^2 / sum g m over the window's pixels, g the

@@ -78,7 +78,8 @@ std::vector<std::pair<int, std::size_t>> windowsOf(const Synthesizer& synthesize
   for (std::size_t i = 0; i < synthesizer.options.windows.size(); ++i) {
     const int window = fittingWindow(synthesizer.exemplar.match[std::size_t(level)],
                                      synthesizer.exemplar.toroidal, synthesizer.options.windows[i]);
-    if (window >= 3 && (result.empty() || window < result.back().first)) result.emplace_back(window, i);
+    if (window >= kSmallestWindow && (result.empty() || window < result.back().first))
+      result.emplace_back(window, i);
   }
   return result;
 }
@@ -253,6 +254,8 @@ Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options) 
         makeTexelImage(image, synthesizer.exemplar.toroidal, largest / 2 + 3));
     synthesizer.tables->histogram.push_back(makeHistogramTarget(synthesizer.tables->image.back()));
   }
+  if (windowsOf(synthesizer, 0).empty())
+    throw std::invalid_argument("makeSynthesizer: no window fits the exemplar");
   return synthesizer;
 }
 

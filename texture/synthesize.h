@@ -18,6 +18,7 @@ struct Synthesizer {
   std::shared_ptr<SearchTables> tables;
 };
 
+// Throws std::invalid_argument if no window fits the exemplar, or options.windows is empty.
 Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options);
 
 // Textures an oriented surface. First frame (carried empty): coarse to fine over all levels of the surface. Later frames:

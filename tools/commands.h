@@ -9,8 +9,6 @@
 
 namespace fluidtex::tools {
 
-enum ExitCode { kDone = 0, kInputWrong = 1, kFailed = 2, kInterrupted = 130 };
-
 // What every subcommand that takes a scene understands.
 struct CommonOptions {
   std::filesystem::path scene, out, exemplar;

@@ -1,11 +1,9 @@
 #include "tools/common_options.h"
 
-#include "sim/solver.h"
-#include "texture/exemplar.h"
-#include "tools/frame_loop.h"
+#include "sim/shapes.h"
+#include "tools/errors.h"
 
 #include <fmt/core.h>
-#include <spdlog/spdlog.h>
 
 #include <charconv>
 #include <cstdio>
@@ -30,10 +28,14 @@ void warnOfViscosity(const scenes::Scene& scene) {
              scene.file.string(), scene.sim.viscosity);
 }
 
-int fault(const std::string& sentence, ExitCode code) {
-  fmt::print(stderr, "error: {}\n", sentence);
-  if (spdlog::default_logger()) spdlog::error("{}", sentence);
-  return code;
+// Reads every mesh file and forgets it: one that is damaged is known before anything is done.
+void tryMeshes(const sim::Shape& shape) {
+  const auto tryParts = [](const std::vector<sim::Shape>& parts) {
+    for (const sim::Shape& part : parts) tryMeshes(part);
+  };
+  if (const auto* mesh = std::get_if<sim::MeshShape>(&shape.kind)) sim::readMesh(*mesh);
+  if (const auto* both = std::get_if<sim::Union>(&shape.kind)) tryParts(both->parts);
+  if (const auto* rest = std::get_if<sim::Difference>(&shape.kind)) tryParts(rest->parts);
 }
 
 }  // namespace
@@ -72,6 +74,8 @@ scenes::Scene loadScene(const CommonOptions& options) {
   overrides.set = options.set;
   overrides.exemplar = options.exemplar;
   scenes::Scene scene = scenes::loadScene(options.scene, overrides);
+  for (const sim::LiquidBody& body : scene.sim.liquid) tryMeshes(body.shape);
+  for (const sim::Solid& solid : scene.sim.solids) tryMeshes(solid.shape);
   if (!options.quiet) warnOfViscosity(scene);
   return scene;
 }
@@ -88,25 +92,6 @@ void parseFrames(const std::string& text, int frames, int& first, int& last) {
     last = parseNumber(text.substr(colon + 1), text);
   if (last < first) throw UsageError(fmt::format("--frames {}: ends before it begins", text));
   if (last > frames) throw UsageError(fmt::format("--frames {}: the scene has {} frames", text, frames));
-}
-
-int guarded(const std::function<void()>& body) {
-  try {
-    body();
-    return kDone;
-  } catch (const scenes::SceneError& error) {
-    for (const std::string& line : error.faults) fmt::print(stderr, "{}\n", line);
-    return kInputWrong;
-  } catch (const texture::ExemplarError& error) {
-    return fault(error.what(), kInputWrong);
-  } catch (const UsageError& error) {
-    return fault(error.what(), kInputWrong);
-  } catch (const Interrupted& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return kInterrupted;
-  } catch (const std::exception& error) {
-    return fault(error.what(), kFailed);
-  }
 }
 
 }  // namespace fluidtex::tools

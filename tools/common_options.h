@@ -1,23 +1,21 @@
-// Options that the subcommands share, and how a command answers to errors.
+// Options that the subcommands share, and what they do with them alike.
 #pragma once
 
 #include "scenes/scene.h"
 #include "tools/commands.h"
 
-#include <functional>
+#include <string>
 
 namespace fluidtex::tools {
 
 void addSceneOptions(CLI::App& command, CommonOptions& options);
 
-// Loads the scene with quality, --set and --exemplar applied. Throws scenes::SceneError.
+// Loads the scene with quality, --set and --exemplar applied, and tries its mesh files. Throws
+// scenes::SceneError, sim::MeshError.
 scenes::Scene loadScene(const CommonOptions& options);
 
-// Reads "A:B", "A:" or "A" into first and last (0: the scene's last). Throws UsageError.
+// Reads "A:B", "A:" or "A" into first and last, of a scene with `frames` frames; nothing means all of them.
+// Throws UsageError.
 void parseFrames(const std::string& text, int frames, int& first, int& last);
-
-// Calls body; every exception becomes its sentence on stderr (all the faults of a scene, a line each) and an
-// exit code.
-int guarded(const std::function<void()>& body);
 
 }  // namespace fluidtex::tools

@@ -1,13 +1,20 @@
 // The fluidtex program: one small file per subcommand.
 #include "tools/commands.h"
+#include "tools/errors.h"
 
 #include <openvdb/openvdb.h>
+#include <spdlog/sinks/null_sink.h>
+#include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <memory>
 
 int main(int argc, char** argv) {
   using namespace fluidtex::tools;
   openvdb::initialize();
+  // Until a run opens its log file, what is logged goes nowhere; by default it would go to stdout.
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("fluidtex", std::make_shared<spdlog::sinks::null_sink_mt>()));
   CLI::App app(
       "fluidtex simulates a liquid and covers its moving surface with texture grown from an example image.",
       "fluidtex");

@@ -173,6 +173,13 @@ TEST_CASE("exemplar: what cannot be used is refused in one sentence", "[texture]
   small.windows = {17, 9};
   CHECK(refusal(narrow, small).empty());
   CHECK(refusal(cells(64)).empty());
+  // Windows of three pixels need a choice of places.
+  small.windows = {3};
+  const Image four = paint(9, 4, [](float x, float, float* c) { std::fill_n(c, 4, 0.2f + 0.05f * x); });
+  const Image five = paint(9, 5, [](float x, float, float* c) { std::fill_n(c, 4, 0.2f + 0.05f * x); });
+  CHECK_THAT(refusal(four, small), Contains("9 x 4") && Contains("5 x 5"));
+  CHECK(refusal(five, small).empty());
+  CHECK(makeExemplar(four, true, small, 1).match.size() == 1);
   CHECK_THROWS_AS(makeExemplar(Image{40, 40, 3, std::vector<float>(4800)}, false, {}, 1),
                   std::invalid_argument);
 }

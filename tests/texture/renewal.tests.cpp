@@ -107,3 +107,45 @@ TEST_CASE("renewal: a proposal that repairs is taken, one that tears is not") {
   };
   CHECK(sum(mended) < sum(hole));
 }
+
+TEST_CASE("renewal: whatever is proposed, the summed badness does not rise") {
+  const OrientedMesh surface = flatBox(16);
+  const TexelImage image = makeTexelImage(blobImage(100, 100, 3, 10.0, 1), false, 4);
+  const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
+  const std::size_t count = surface.mesh.positions.size();
+  std::size_t taken = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const auto random = [&](std::uint64_t i) { return float(randomUnit(seed, i)); };
+    // A stretched picture, doubted here and there, and a proposal that lays a few unstretched patches into
+    // it, shifted a little: sometimes they overlap or touch, or leave one vertex between them.
+    const Labels carried = picture(surface, 1.2f + 0.8f * random(0));
+    Labels proposed = carried;
+    const Vec3f middle(4 + 8 * random(1), 4 + 8 * random(2), 2);
+    for (std::uint64_t patch = 0; patch < seed % 4 + 1; ++patch) {
+      const std::uint64_t key = 10 * (patch + 1);
+      const Vec3f center = middle + Vec3f(4 * random(key) - 2, 4 * random(key + 1) - 2, 0);
+      const float radius = 0.5f + 2.0f * random(key + 2);
+      const Vec2f start = carried[nearestVertex(surface.mesh, center)].texel +
+                          Vec2f(3 * random(key + 3), 3 * random(key + 4));
+      for (std::uint32_t v = 0; v < count; ++v) {
+        const Vec3f way = surface.mesh.positions[v] - center;
+        if (way.length() < radius)
+          proposed[v] = unstretched(start + Vec2f(way.x(), -way.y()), Complexf(1.0f));
+      }
+    }
+    std::vector<float> trust(count);
+    for (std::uint32_t v = 0; v < count; ++v) trust[v] = random(20000 + v) < 0.02f ? 0.2f : 1.0f;
+
+    std::vector<std::uint8_t> renewed;
+    const Labels result = settle(model, carried, proposed, trust, renewed);
+    std::vector<float> trustAfter = trust;  // what is new is trusted
+    for (std::uint32_t v = 0; v < count; ++v)
+      if (renewed[v]) trustAfter[v] = 1.0f, ++taken;
+    const auto sum = [&](const Labels& labels, const std::vector<float>& believed) {
+      const std::vector<float> costs = badness(model, labels, believed);
+      return std::accumulate(costs.begin(), costs.end(), 0.0);
+    };
+    CHECK(sum(result, trustAfter) <= sum(carried, trust) + 1e-4);
+  }
+  CHECK(taken > 1000);
+}

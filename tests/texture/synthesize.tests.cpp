@@ -281,6 +281,24 @@ TEST_CASE("synthesize: the paper's method carries and averages colours") {
   for (int i = 0; i < 3; ++i) CHECK(surface[i] == Approx(exemplar[i]).margin(0.08));
 }
 
+TEST_CASE("synthesize: the smallest exemplars that are taken give texture on every frame") {
+  SynthesisOptions options = smallOptions();
+  options.method = GENERATE(Method::coordinates, Method::kwatra07);
+  options.windows = {3};
+  const bool toroidal = GENERATE(false, true);
+  const int side = toroidal ? 3 : 5;
+  Synthesizer synthesizer =
+      makeSynthesizer(makeExemplar(blobImage(side, side, 4, 3.0, 2), toroidal, options, 3), options);
+  SynthesisStats stats;
+  TexturedSurface last = synthesize(synthesizer, sphere(8, 3), {}, 1, 0.0, stats);
+  for (int frame = 2; frame <= 3; ++frame)
+    last = synthesize(synthesizer, surfaceOf(last), carriedFrom(last), frame, 0.04, stats);
+  for (std::size_t v = 0; v < last.positions.size(); ++v) {
+    CHECK((last.coordinate[v][0] >= 0.0f && last.coordinate[v][0] <= float(side)));
+    CHECK((last.color[v][0] >= 0.0f && last.color[v][0] <= 1.001f));
+  }
+}
+
 TEST_CASE("synthesize: alpha is matched and looked up") {
   const SynthesisOptions options = smallOptions();
   Image image = blobImage(80, 80, 4, 12.0, 2);
@@ -301,6 +319,10 @@ TEST_CASE("synthesize: no surface gives no texture; wrong sizes are refused") {
       makeSynthesizer(makeExemplar(blobImage(40, 40, 4, 12.0, 2), false, options, 1), options);
   SynthesisStats stats;
   CHECK(synthesize(synthesizer, {}, {}, 1, 0.0, stats).empty());
+  SynthesisOptions without = options;
+  without.windows.clear();
+  CHECK_THROWS_AS(makeSynthesizer(makeExemplar(blobImage(40, 40, 4, 12.0, 2), false, without, 1), without),
+                  std::invalid_argument);
   Surface bare;
   bare.levels.push_back(sphereMesh(4));
   CHECK_THROWS_AS(synthesize(synthesizer, bare, {}, 1, 0.0, stats), std::invalid_argument);
