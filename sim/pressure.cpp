@@ -196,15 +196,22 @@ double projectedOutflow(const Liquid& liquid, const std::vector<double>& q, int 
 }
 
 // One step of the active set method: cells at solids that let go of them, or are pressed back. True if any
-// changed.
+// changed. What a cell can suck is held back by its own surface: of a drop of one cell only a share of
+// `suction`, which is that of a cell with a column of liquid below it; less than `rounding` is none.
 bool updateDetached(const Liquid& liquid, const std::vector<double>& q, const std::vector<char>& enclosed,
-                    double suction, std::vector<char>& detached) {
+                    double suction, double rounding, std::vector<char>& detached) {
   const int n = liquid.numbering.size();
   std::vector<char> changed(n, 0);
   tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
     for (int i = range.begin(); i < range.end(); ++i) {
-      if (liquid.cells[i].closed <= 0.0f) continue;
-      changed[i] = detached[i] ? projectedOutflow(liquid, q, i) < 0.0 : q[i] < -suction && !enclosed[i];
+      const LiquidCell& cell = liquid.cells[i];
+      if (cell.closed <= 0.0f) continue;
+      double anchored = 1.0;
+      for (int s = 0; s < kSides; ++s) {
+        if (cell.theta[s] > 0.0f) anchored += cell.open[s] / cell.theta[s];
+      }
+      changed[i] = detached[i] ? projectedOutflow(liquid, q, i) < 0.0
+                               : q[i] < -std::max(suction / anchored, rounding) && !enclosed[i];
     }
   });
   bool any = false;
@@ -340,9 +347,8 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
       largest = std::max(largest, std::abs(x[i]));
     }
     if (pass >= options.maxSeparationPasses || !solved.converged) break;
-    const double suction = std::max(options.suction / pascal, kSuctionNoise * largest);
     std::vector<char> next = detached;
-    if (!updateDetached(liquid, q, enclosed, suction, next)) break;
+    if (!updateDetached(liquid, q, enclosed, options.suction / pascal, kSuctionNoise * largest, next)) break;
     detached = std::move(next);
   }
 

@@ -206,7 +206,11 @@ double slopeError(const FloatGrid& phi, const FloatGrid& solidPhi) {
     for (const NearCell& cell : plan.near) {
       const float* p = block + blockIndex(cell.offset);
       double square = 0.0;
-      for (const int d : kStride) square += 0.25 * (p[d] - p[-d]) * (p[d] - p[-d]);
+      // The steeper side: in a film or a gap the surface on the other side makes the central slope vanish.
+      for (const int d : kStride) {
+        const double slope = std::max(std::abs(p[d] - p[0]), std::abs(p[0] - p[-d]));
+        square += slope * slope;
+      }
       const double error = std::sqrt(square) / h - 1.0;
       sums[n] += error * error;
       counts[n] += 1.0;

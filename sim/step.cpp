@@ -56,23 +56,28 @@ void addGravity(Velocity& velocity, const Vec3d& change) {
   }
 }
 
-// Whether the velocity at a closed face of this cell leads away from the solid.
-bool leavesSolid(const Velocity& velocity, const FloatGrid& solidPhi, const Coord& cell) {
-  const float deep = -kDeepInSolid * static_cast<float>(solidPhi.voxelSize()[0]);
+// Whether what is at this cell beside a solid goes away from it, `kick` being what gravity adds in a step.
+// Where the pressure holds the liquid the normal velocity is rounding; under ceilings nothing holds a film
+// that is too thin to have a pressure of its own.
+bool leavesSolid(const Velocity& velocity, const FloatGrid& solidPhi, const Coord& cell, const Vec3d& kick) {
+  constexpr double kStill = 0.1;  // of what gravity adds
+  double outward = 0.0, square = 0.0;
   for (int a = 0; a < 3; ++a) {
     Coord below = cell, above = cell;
     below[a] -= 1;
     above[a] += 1;
     const FloatTree& speed = velocity.component[a]->constTree();
-    if (solidPhi.constTree().getValue(below) < deep && speed.getValue(cell) > 0.0f) return true;
-    if (solidPhi.constTree().getValue(above) < deep && speed.getValue(above) < 0.0f) return true;
+    const double normal = solidPhi.constTree().getValue(above) - solidPhi.constTree().getValue(below);
+    outward += normal * (0.5 * (speed.getValue(cell) + speed.getValue(above)) + kick[a]);
+    square += normal * normal;
   }
-  return false;
+  return outward > kStill * kick.length() * std::sqrt(square);
 }
 
 // From here on the surface knows where liquid has let go of a solid: there a gap opens, elsewhere it is
 // closed.
-void openGaps(Liquid& liquid, const SolidField& solid, const openvdb::MaskGrid& separating) {
+void openGaps(Liquid& liquid, const SolidField& solid, const openvdb::MaskGrid& separating,
+              const Vec3d& kick) {
   FloatGrid& phi = *liquid.phi;
   if (!separating.empty()) {
     // The cut reaches the cells beside those that let go; leaves are needed as deep as stencils reach.
@@ -84,7 +89,7 @@ void openGaps(Liquid& liquid, const SolidField& solid, const openvdb::MaskGrid& 
   }
   extendIntoSolids(phi, *solid.phi, [&](const Coord& ijk) {
     return phi.constTree().getValue(ijk) < 0.0f ? separating.constTree().isValueOn(ijk)
-                                                : leavesSolid(liquid.velocity, *solid.phi, ijk);
+                                                : leavesSolid(liquid.velocity, *solid.phi, ijk, kick);
   });
   trimBand(phi, *solid.phi);
 }
@@ -104,7 +109,7 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& 
   w->topologyUnion(*u);
   extrapolate(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
   constrainToSolids(*u, *v, *w, *liquid.phi, solid, projection.valid, *projection.separating);
-  openGaps(liquid, solid, *projection.separating);
+  openGaps(liquid, solid, *projection.separating, options.gravity * dt);
   return std::isfinite(maxAbs(liquid.velocity));
 }
 

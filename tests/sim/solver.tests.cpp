@@ -116,6 +116,32 @@ TEST_CASE("solver: water leaves a ceiling") {
   CHECK(hanging == 0);
 }
 
+TEST_CASE("solver: nothing hangs at a ceiling, however little it is") {
+  const double h = 1.0 / 24;
+  Options options;
+  SECTION("a drop of one cell") {
+    options = tank(24, {{Shape{Sphere{Vec3d(0.48, 0.48, 1.0 - 0.4 * h), 0.6 * h}}, Vec3d(0.0), 0.0}});
+  }
+  SECTION("a drop between cells") {
+    options = tank(24, {{Shape{Sphere{Vec3d(0.5, 0.5, 1.0 - 0.5 * h), 0.9 * h}}, Vec3d(0.0), 0.0}});
+  }
+  SECTION("a film of a third of a cell") {
+    options = tank(24, {box(Vec3d(0.3, 0.3, 1.0 - 0.3 * h), Vec3d(0.7, 0.7, 1.0))});
+  }
+  SECTION("a film of one cell and a third") {
+    options = tank(24, {box(Vec3d(0.3, 0.3, 1.0 - 1.3 * h), Vec3d(0.7, 0.7, 1.0))});
+  }
+  Solver solver(options);
+  REQUIRE(solver.next().stats.volume > 0.0);
+  Frame frame;
+  for (int n = 2; n <= 7; ++n) frame = solver.next();
+  int hanging = 0;
+  for (auto it = frame.surfacePhi->cbeginValueOn(); it; ++it) {
+    if (*it < 0.0f && frame.surfacePhi->indexToWorld(it.getCoord()).z() > 1.0 - 2.0 * h) ++hanging;
+  }
+  CHECK(hanging == 0);
+}
+
 TEST_CASE("solver: substeps are the motion of phi, and fill the frame") {
   Solver solver(tank(24, {box(Vec3d(0.0), Vec3d(0.4, 1.0, 0.5))}));
   const Frame first = solver.next();
