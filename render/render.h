@@ -37,7 +37,7 @@ Picture render(const texture::TexturedSurface& surface, const std::vector<Solid>
 // renames.
 void writePng(const Picture& picture, const std::filesystem::path& file);
 
-// H.264, yuv420p, bt709 from frames first..last named FOLDER/%04d.png. Throws std::runtime_error with
+// H.264, yuv420p, bt709 from frames first..last, FOLDER/frameName(FRAME).png. Throws std::runtime_error with
 // ffmpeg's last words.
 void writeVideo(const std::filesystem::path& folder, int first, int last, double frameRate,
                 const std::filesystem::path& file);

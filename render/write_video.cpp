@@ -1,4 +1,5 @@
 // Runs the ffmpeg program, without a shell.
+#include "render/frame_name.h"
 #include "render/render.h"
 
 #include <fcntl.h>
@@ -16,12 +17,6 @@ extern char** environ;
 
 namespace fluidtex::render {
 namespace {
-
-std::string numbered(int frame) {
-  char name[32];
-  std::snprintf(name, sizeof name, "%04d.png", frame);
-  return name;
-}
 
 // The folder as part of a file name pattern, in which a per cent sign has to be doubled.
 std::string inPattern(const std::string& folder) {
@@ -94,9 +89,10 @@ void writeVideo(const std::filesystem::path& folder, int first, int last, double
   };
   if (last < first) fail("there are no frames");
   if (!(frameRate > 0.0)) fail("the frame rate must be above 0");
-  for (int frame = first; frame <= last; ++frame)
-    if (!std::filesystem::exists(folder / numbered(frame)))
-      fail((folder / numbered(frame)).string() + " is missing");
+  for (int frame = first; frame <= last; ++frame) {
+    const std::filesystem::path picture = folder / (frameName(frame) + ".png");
+    if (!std::filesystem::exists(picture)) fail(picture.string() + " is missing");
+  }
 
   char rate[32];
   std::snprintf(rate, sizeof rate, "%.9g", frameRate);

@@ -62,9 +62,17 @@ void writeFolderAtomically(const fs::path& folder, const std::function<void(cons
   guarded(temporary, write);
   for (const auto& entry : fs::directory_iterator(temporary)) flush(entry.path());
   flush(temporary);
-  fs::remove_all(folder);
+  removeFolderAtomically(folder);
   fs::rename(temporary, folder);
   flush(folderOf(folder));
+}
+
+void removeFolderAtomically(const fs::path& folder) {
+  if (!fs::exists(fs::symlink_status(folder))) return;
+  const fs::path removed = folder.parent_path() / (kPrefix + ("old-" + folder.filename().string()));
+  fs::remove_all(removed);
+  fs::rename(folder, removed);
+  fs::remove_all(removed);
 }
 
 void writeTextAtomically(const fs::path& file, std::string_view text) {

@@ -13,11 +13,16 @@ namespace fluidtex::tools {
 void writeAtomically(const std::filesystem::path& file,
                      const std::function<void(const std::filesystem::path&)>& write);
 
-// The same for a whole folder: `write` fills an empty temporary folder, every file in it is flushed.
+// The same for a whole folder: `write` fills an empty temporary folder, every file in it is flushed. A folder
+// that was there before is taken away just before; killed in between, neither is there, but never a part of
+// one.
 void writeFolderAtomically(const std::filesystem::path& folder,
                            const std::function<void(const std::filesystem::path&)>& write);
 
 void writeTextAtomically(const std::filesystem::path& file, std::string_view text);
+
+// Removes a folder that may be there, under a temporary name, so that no part of it ever bears its own.
+void removeFolderAtomically(const std::filesystem::path& folder);
 
 // Removes what a killed run left behind under temporary names, directly inside `folder`.
 void removeTemporaries(const std::filesystem::path& folder);

@@ -1,5 +1,6 @@
 #include "tools/frame_loop.h"
 
+#include "render/frame_name.h"
 #include "render/render.h"
 #include "sim/shapes.h"
 #include "sim/solver.h"
@@ -7,6 +8,8 @@
 #include "texture/prepare.h"
 #include "texture/synthesize.h"
 #include "tools/atomic_file.h"
+#include "tools/earlier_run.h"
+#include "tools/errors.h"
 #include "tools/ply.h"
 #include "tools/progress.h"
 #include "tools/report.h"
@@ -49,10 +52,6 @@ struct FrameResult {
   StageSeconds seconds;
 };
 
-std::string numbered(int frame) {
-  return fmt::format("{:04}", frame);
-}
-
 std::vector<texture::Vec3f> seedsFor(const texture::TexturedSurface& last, const sim::Frame& frame,
                                      const texture::SurfaceOptions& options) {
   if (options.points == texture::Points::random) return {};
@@ -71,17 +70,16 @@ class FrameLoop {
                                                            scene.texture.surface.levels),
                                      scene.texture.synthesis)) {
     m_surface.spacing = scene.texture.spacing;
-    m_report.scene = scene.resolved;
+    m_report.scene = Json::parse(scene.resolved);
     m_report.seed = scene.seed;
     m_report.threads = options.threads;
   }
 
   void run() {
-    if (m_options.resume)
-      continueFromState();
-    else
-      clearEarlierRun();
-    if (!m_solver) m_solver = std::make_unique<sim::Solver>(m_scene.sim);
+    if (!m_options.resume || !continueFromState()) {
+      m_solver = std::make_unique<sim::Solver>(m_scene.sim);
+      clearEarlierRun(m_options.out, m_scene.name);
+    }
     const int first = m_solver->state().frame + 1;
     spdlog::info("{}: frames {} to {}, {} threads", m_scene.name, first, m_last, m_options.threads);
     Progress progress(first, m_last, m_options.quiet);
@@ -94,28 +92,34 @@ class FrameLoop {
  private:
   void oneFrame() {
     FrameResult result = computeFrame();
-    if (result.motion.index >= m_options.firstFrame) writeResults(result);
+    sim::Frame& motion = result.motion;
+    StageSeconds& seconds = result.seconds;
     m_surface = std::move(result.surface);
-    m_report.frames.push_back(
-        frameRecord(result.motion, m_surface, result.singularities, result.synthesis, result.seconds));
-    const std::string report = toJson(m_report);
-    saveState({m_solver->state(), m_surface, report}, m_options.out / "state");
-    writeTextAtomically(m_options.out / "run.json", report);
-    const StageSeconds& s = result.seconds;
+    m_report.frames.push_back(frameRecord(motion, m_surface, result.singularities, result.synthesis));
+    const std::size_t substeps = motion.substeps.size();
+    motion.substeps.clear();  // their grids would stay in memory while the picture is drawn
+    if (motion.index >= m_options.firstFrame) writeResults(motion, seconds);
+    {
+      Stopwatch watch(seconds.write);
+      recordCost(m_report.frames.back(), seconds);
+      saveState({m_solver->state(), m_surface, toJson(m_report)}, m_options.out / "state");
+    }
+    recordCost(m_report.frames.back(), seconds);
+    writeTextAtomically(m_options.out / "run.json", toJson(m_report));
     const std::string summary = fmt::format(
         "{} substeps, {:.4g} m3, {} points; simulate {:.2f} s, prepare {:.2f}, transport {:.2f}, synthesize "
         "{:.2f}, render {:.2f}, write {:.2f}",
-        result.motion.substeps.size(), result.motion.stats.volume, m_surface.positions.size(), s.simulate,
-        s.prepare, s.transport, s.synthesize, s.render, s.write);
-    const sim::FrameStats& stats = result.motion.stats;
+        substeps, motion.stats.volume, m_surface.positions.size(), seconds.simulate, seconds.prepare,
+        seconds.transport, seconds.synthesize, seconds.render, seconds.write);
+    const sim::FrameStats& stats = motion.stats;
     spdlog::debug(
         "frame {}: {} liquid cells, shortest substep {:.3g} s, {} pressure iterations, residual {:.2g}; "
         "energy {:.5g} to {:.5g} in {} iterations, {:.1f}% renewed",
-        result.motion.index, stats.cells, stats.dtMin, stats.pressureIterations, stats.pressureResidual,
+        motion.index, stats.cells, stats.dtMin, stats.pressureIterations, stats.pressureResidual,
         result.synthesis.energyStart, result.synthesis.energyEnd, result.synthesis.iterations,
         100.0 * result.synthesis.renewed);
-    spdlog::info("frame {}: {}", result.motion.index, summary);
-    m_progress->frameDone(result.motion.index, summary);
+    spdlog::info("frame {}: {}", motion.index, summary);
+    m_progress->frameDone(motion.index, summary);
   }
 
   // sim -> surface -> transport -> orientation -> synthesis: docs/architecture.md, "The way of one frame".
@@ -170,24 +174,23 @@ class FrameLoop {
     return result;
   }
 
-  void writeResults(FrameResult& result) {
-    const std::string name = numbered(result.motion.index);
+  void writeResults(const sim::Frame& motion, StageSeconds& seconds) {
+    const std::string name = render::frameName(motion.index);
     if (m_options.render) {
       render::Picture picture;
       {
-        Stopwatch watch(result.seconds.render);
-        const double progress =
-            m_scene.frames > 1 ? double(result.motion.index - 1) / (m_scene.frames - 1) : 0.0;
-        picture = render::render(result.surface, visibleSolids(result.motion.time), m_scene.render,
-                                 {m_scene.sim.size, progress, result.motion.index}, reporter("render"));
+        Stopwatch watch(seconds.render);
+        const double progress = m_scene.frames > 1 ? double(motion.index - 1) / (m_scene.frames - 1) : 0.0;
+        picture = render::render(m_surface, visibleSolids(motion.time), m_scene.render,
+                                 {m_scene.sim.size, progress, motion.index}, reporter("render"));
       }
-      Stopwatch watch(result.seconds.write);
+      Stopwatch watch(seconds.write);
       writeAtomically(m_options.out / "frames" / (name + ".png"),
                       [&](const fs::path& file) { writePng(picture, file); });
     }
-    Stopwatch watch(result.seconds.write);
+    Stopwatch watch(seconds.write);
     writeAtomically(m_options.out / "surface" / (name + ".ply"),
-                    [&](const fs::path& file) { writePly(result.surface, file); });
+                    [&](const fs::path& file) { writePly(m_surface, file); });
   }
 
   std::vector<render::Solid> visibleSolids(double time) {
@@ -206,39 +209,46 @@ class FrameLoop {
   }
 
   void finish() {
-    if (m_options.render && m_last >= m_options.firstFrame)
+    if (m_options.render && m_last >= m_options.firstFrame) writeVideo();
+    if (!m_options.quiet) fmt::print(stderr, "done: {}\n", m_options.out.string());
+  }
+
+  void writeVideo() {
+    try {
       writeAtomically(m_options.out / (m_scene.name + ".mp4"), [&](const fs::path& file) {
         render::writeVideo(m_options.out / "frames", m_options.firstFrame, m_last, m_scene.sim.frameRate,
                            file);
       });
-    if (!m_options.quiet) fmt::print(stderr, "done: {}\n", m_options.out.string());
-  }
-
-  void continueFromState() {
-    for (const char* folder : {"", "frames", "surface", "state"}) removeTemporaries(m_options.out / folder);
-    std::optional<RunState> state = loadState(m_options.out / "state");
-    if (!state) return;
-    m_report.frames = parseReport(state->report).frames;
-    const std::string difference = sceneDifference(parseReport(state->report).scene, m_scene.resolved);
-    if (!difference.empty())
-      throw UsageError(fmt::format("{}: was made by other settings: {}; run without --resume to start anew",
-                                   m_options.out.string(), difference));
-    m_surface = std::move(state->surface);
-    m_solver = std::make_unique<sim::Solver>(m_scene.sim, std::move(state->solver));
-  }
-
-  // Only what a run itself writes is removed; the user's own files in the folder stay.
-  void clearEarlierRun() {
-    fs::create_directories(m_options.out);
-    fs::remove_all(m_options.out / "state");
-    fs::remove(m_options.out / "run.json");
-    fs::remove(m_options.out / (m_scene.name + ".mp4"));
-    for (const auto& [folder, extension] : {std::pair{"frames", ".png"}, std::pair{"surface", ".ply"}}) {
-      removeTemporaries(m_options.out / folder);
-      for (int frame = 1;
-           fs::remove(m_options.out / folder / (numbered(frame) + extension)) || frame < m_last; ++frame) {
-      }
+    } catch (const std::runtime_error&) {
+      // Ctrl-C reaches the encoder too, which then fails.
+      if (m_stop) throw Interrupted();
+      throw;
     }
+  }
+
+  // False where there is nothing to go on from.
+  bool continueFromState() {
+    removeLeftovers(m_options.out);
+    std::optional<RunState> state = loadState(m_options.out / "state");
+    if (!state) return false;
+    Report report = parseReport(state->report);
+    const auto refuse = [&](const std::string& why) {
+      throw UsageError(
+          fmt::format("{}: {}; run without --resume to start anew", m_options.out.string(), why));
+    };
+    const std::string difference = sceneDifference(report.scene, m_report.scene);
+    if (!difference.empty()) refuse("was made by other settings: " + difference);
+    const int done = state->solver.frame;
+    const fs::path missing =
+        missingResult(m_options.out, m_options.firstFrame, std::min(done, m_last), m_options.render);
+    if (!missing.empty())
+      refuse(fmt::format("frames 1 to {} are done, but {} is not there", done, missing.generic_string()));
+    m_solver = std::make_unique<sim::Solver>(m_scene.sim, std::move(state->solver));
+    m_surface = std::move(state->surface);
+    m_report.frames = std::move(report.frames);
+    // Killed right after the state was saved, run.json lacks that state's frame.
+    writeTextAtomically(m_options.out / "run.json", toJson(m_report));
+    return true;
   }
 
   std::function<void(double)> reporter(const char* stage) {

@@ -5,33 +5,25 @@
 
 #include <atomic>
 #include <filesystem>
-#include <stdexcept>
 
 namespace fluidtex::tools {
 
 struct RunOptions {
   std::filesystem::path out;
-  int firstFrame = 1,
-      lastFrame =
-          0;  // written and rendered, inclusive; earlier ones are only computed. last 0: the scene's last
+  // Frames that are written and rendered, both included; earlier ones are only computed. lastFrame 0: the
+  // scene's last.
+  int firstFrame = 1, lastFrame = 0;
   bool resume = false;
   bool render = true;
   bool quiet = false;
   int threads = 1;
 };
 
-// The user's wishes do not fit the scene or what lies in the out folder; one sentence.
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-// Stopped on request; the state of the last whole frame is on disk.
-struct Interrupted : std::runtime_error {
-  Interrupted() : std::runtime_error("interrupted; --resume goes on from the last finished frame") {}
-};
-
 // Simulates, textures, renders and writes the files of docs/formats.md. `stop`, once true, ends the run by
-// Interrupted. Throws UsageError, texture::ExemplarError, sim::SolverError, std::system_error.
+// Interrupted. Wrong input is refused before anything of an earlier run is removed: UsageError,
+// texture::ExemplarError, sim::MeshError. What fails on the way: sim::SolverError, std::system_error where
+// the disk refuses, std::runtime_error for a damaged state, a picture or a video, openvdb::Exception from the
+// grids.
 void runScene(const scenes::Scene& scene, const RunOptions& options, const std::atomic<bool>& stop);
 
 }  // namespace fluidtex::tools

@@ -38,12 +38,14 @@ std::string header(const texture::TexturedSurface& surface) {
   return text;
 }
 
+// Bytes put one after the other into memory of a size known before.
 class Bytes {
  public:
+  explicit Bytes(std::size_t size) : m_data(size) {}
   template <typename T>
   void put(const T& value) {
-    const auto* bytes = reinterpret_cast<const char*>(&value);
-    m_data.insert(m_data.end(), bytes, bytes + sizeof(T));
+    std::memcpy(m_data.data() + m_used, &value, sizeof(T));
+    m_used += sizeof(T);
   }
   void put(const texture::Vec3f& v) {
     put(v.x());
@@ -54,12 +56,25 @@ class Bytes {
 
  private:
   std::vector<char> m_data;
+  std::size_t m_used = 0;
 };
+
+// Of one vertex without further maps: 19 floats, 4 bytes of colour, 1 of contact. Of a face: its count, 3
+// indices.
+constexpr std::size_t kVertexBytes = 19 * 4 + 4 + 1, kFaceBytes = 1 + 3 * 4;
+
+// Coordinate x in texels as a share of the exemplar's size. On a toroidal exemplar, x reaches up to the size:
+// the half texel then leads over the edge, and it goes on at 0.
+float share(float x, float size) {
+  const float s = (x + 0.5f) / size;
+  return s - std::floor(s);
+}
 
 }  // namespace
 
 void writePly(const texture::TexturedSurface& surface, const std::filesystem::path& file) {
-  Bytes bytes;
+  Bytes bytes(surface.positions.size() * (kVertexBytes + 4 * surface.maps.size()) +
+              surface.triangles.size() * kFaceBytes);
   const float width = static_cast<float>(std::max(surface.exemplarWidth, 1));
   const float height = static_cast<float>(std::max(surface.exemplarHeight, 1));
   for (std::size_t v = 0; v < surface.positions.size(); ++v) {
@@ -68,8 +83,8 @@ void writePly(const texture::TexturedSurface& surface, const std::filesystem::pa
     const auto& color = surface.color[v];
     for (int c = 0; c < 3; ++c) bytes.put(encodeSrgb(color[c]));
     bytes.put(toByte(color[3]));
-    bytes.put((surface.coordinate[v].x() + 0.5f) / width);
-    bytes.put((surface.coordinate[v].y() + 0.5f) / height);
+    bytes.put(share(surface.coordinate[v].x(), width));
+    bytes.put(share(surface.coordinate[v].y(), height));
     bytes.put(surface.orientation[v]);
     bytes.put(surface.previousPosition[v]);
     bytes.put(surface.velocity[v]);

@@ -5,11 +5,15 @@
 #include "sim/frame.h"
 #include "texture/surface.h"
 
+#include <nlohmann/json.hpp>
+
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace fluidtex::tools {
+
+using Json = nlohmann::ordered_json;
 
 // Wall seconds of the stages of one frame.
 struct StageSeconds {
@@ -17,23 +21,27 @@ struct StageSeconds {
 };
 
 struct Report {
-  std::string scene;  // as resolved, JSON
+  Json scene;  // as resolved
   std::uint64_t seed = 0;
   int threads = 1;
-  std::vector<std::string> frames;  // one JSON object each
+  std::vector<Json> frames;  // one object each
 };
 
-std::string frameRecord(const sim::Frame& frame, const texture::TexturedSurface& surface,
-                        std::optional<int> singularities, const texture::SynthesisStats& synthesis,
-                        const StageSeconds& seconds);
+// All about one frame but what it cost.
+Json frameRecord(const sim::Frame& frame, const texture::TexturedSurface& surface,
+                 std::optional<int> singularities, const texture::SynthesisStats& synthesis);
+
+// Adds to a frame's record, or brings up to date, the time it took and the program's peak memory so far.
+void recordCost(Json& record, const StageSeconds& seconds);
 
 std::string toJson(const Report& report);
 
 // Reads back what toJson() wrote. Throws std::runtime_error when it is something else.
 Report parseReport(const std::string& json);
 
-// Why results of scene `before` (resolved, JSON) cannot be continued by scene `now`: the first key that
-// differs, with both values, or empty where they agree. The number of frames may differ.
-std::string sceneDifference(const std::string& before, const std::string& now);
+// Why results of scene `before` (resolved) cannot be continued by scene `now`: the first key that differs,
+// with both values, or empty where they agree. The number of frames may differ where the camera stands still;
+// one that turns is spread over all frames.
+std::string sceneDifference(const Json& before, const Json& now);
 
 }  // namespace fluidtex::tools

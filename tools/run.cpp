@@ -1,5 +1,6 @@
 // fluidtex run SCENE: simulate, texture, render and write, frame by frame, in memory.
 #include "tools/common_options.h"
+#include "tools/errors.h"
 #include "tools/frame_loop.h"
 
 #include <spdlog/sinks/basic_file_sink.h>
@@ -24,10 +25,11 @@ void onInterrupt(int) {
   std::signal(SIGTERM, SIG_DFL);
 }
 
-void logTo(const std::filesystem::path& file, bool append, bool verbose) {
+// Lines are added to what is there: a run that starts anew empties the file when it clears the earlier run.
+void logTo(const std::filesystem::path& file, bool verbose) {
   std::filesystem::create_directories(file.parent_path());
   auto logger = std::make_shared<spdlog::logger>(
-      "fluidtex", std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string(), !append));
+      "fluidtex", std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string()));
   logger->set_level(verbose ? spdlog::level::debug : spdlog::level::info);
   logger->flush_on(spdlog::level::info);
   spdlog::set_default_logger(logger);
@@ -44,7 +46,7 @@ void run(const CommonOptions& options) {
   run.threads = options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(run.threads));
-  logTo(run.out / "log.txt", options.resume, options.verbose);
+  logTo(run.out / "log.txt", options.verbose);
   std::signal(SIGINT, onInterrupt);
   std::signal(SIGTERM, onInterrupt);
   runScene(scene, run, stopRequested);

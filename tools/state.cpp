@@ -1,20 +1,33 @@
 #include "tools/state.h"
 
+#include "render/frame_name.h"
 #include "tools/atomic_file.h"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <sstream>
 #include <system_error>
 #include <type_traits>
+#include <vector>
 
 namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr char kMagic[8] = {'f', 't', 'x', 's', 'u', 'r', 'f', '1'};
+
+constexpr const char* kSolver = "solver.vdb";
+constexpr const char* kSurface = "surface.bin";
+constexpr const char* kReport = "run.json";
+constexpr const char* kManifest = "manifest.txt";
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& what) {
+  throw std::runtime_error(file.string() + ": " + what + "; remove the state folder to start anew");
+}
 
 // Visits every part of a surface in the one order that both directions share.
 template <typename Surface, typename Visit>
@@ -59,8 +72,7 @@ struct Reader {
 
   void take(void* target, std::uint64_t bytes) {
     if (bytes > left || !in.read(static_cast<char*>(target), static_cast<std::streamsize>(bytes)))
-      throw std::runtime_error(file.string() +
-                               ": the file is cut short; remove the state folder to start anew");
+      refuse(file, "the file is cut short");
     left -= bytes;
   }
   template <typename T>
@@ -82,26 +94,84 @@ struct Reader {
   }
 };
 
-fs::path frameFolder(const fs::path& stateFolder, int frame) {
-  std::ostringstream name;
-  name.width(4);
-  name.fill('0');
-  name << frame;
-  return stateFolder / name.str();
+// Whether every array has a value for each vertex and every corner of a triangle is a vertex.
+bool fitsTogether(const texture::TexturedSurface& surface) {
+  const std::size_t count = surface.positions.size();
+  const auto fits = [&](const auto&... arrays) { return ((arrays.size() == count) && ...); };
+  return fits(surface.normals, surface.orientation, surface.color, surface.coordinate, surface.gradient,
+              surface.age, surface.trust, surface.previousPosition, surface.velocity, surface.contact) &&
+         std::all_of(surface.maps.begin(), surface.maps.end(),
+                     [&](const auto& map) { return fits(map.second); }) &&
+         std::all_of(surface.triangles.begin(), surface.triangles.end(),
+                     [&](const texture::Vec3I& t) { return t[0] < count && t[1] < count && t[2] < count; });
 }
 
-// Number of the frame a folder of states belongs to; -1 for anything else.
-int frameOf(const fs::path& folder) {
-  const std::string name = folder.filename().string();
-  if (name.empty() || name.find_first_not_of("0123456789") != std::string::npos) return -1;
-  return std::stoi(name);
+// A state's frame; nothing for anything else that lies in the folder of states.
+std::optional<int> frameOf(const fs::path& folder) {
+  return render::frameNumber(folder.filename().string());
+}
+
+std::ifstream opened(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) refuse(file, "cannot be read");
+  return in;
 }
 
 std::string readText(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw std::runtime_error(file.string() + ": cannot be read; remove the state folder to start anew");
+  std::ifstream in = opened(file);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void writeText(const std::string& text, const fs::path& file) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::system_error(errno, std::generic_category(), file.string() + ": cannot write");
+}
+
+// A line of the manifest: name, size in bytes, hash. The hash is FNV-1a of 64 bits (Fowler, Noll, Vo), taken
+// over words of 8 bytes for speed, the last one filled up with zeros; the shift lets high bits reach low ones
+// too.
+std::string manifestLine(const fs::path& file) {
+  std::ifstream in = opened(file);
+  std::vector<std::uint64_t> words(1 << 16);
+  std::uint64_t size = 0, hash = 0xcbf29ce484222325u;
+  while (in) {
+    in.read(reinterpret_cast<char*>(words.data()),
+            static_cast<std::streamsize>(words.size() * sizeof words[0]));
+    const auto count = static_cast<std::size_t>(in.gcount());
+    std::memset(reinterpret_cast<char*>(words.data()) + count, 0,
+                (sizeof words[0] - count % sizeof words[0]) % 8);
+    for (std::size_t i = 0; i < (count + 7) / 8; ++i) {
+      hash = (hash ^ words[i]) * 0x100000001b3u;
+      hash ^= hash >> 32;
+    }
+    size += count;
+  }
+  return fmt::format("{} {} {:016x}\n", file.filename().string(), size, hash);
+}
+
+std::string manifestOf(const fs::path& folder) {
+  std::string lines;
+  for (const char* name : {kSolver, kSurface, kReport}) lines += manifestLine(folder / name);
+  return lines;
+}
+
+// Refuses a state whose files are not those that were written.
+void checkFiles(const fs::path& folder) {
+  const std::string lines = readText(folder / kManifest);
+  for (const char* name : {kSolver, kSurface, kReport})
+    if (lines.find(manifestLine(folder / name)) == std::string::npos)
+      refuse(folder / name, "is damaged: not the size or the content that was written");
+}
+
+void removeStatesBut(std::optional<int> kept, const fs::path& stateFolder) {
+  std::vector<fs::path> old;
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(stateFolder, missing))
+    if (const std::optional<int> frame = frameOf(entry.path()); frame && frame != kept)
+      old.push_back(entry.path());
+  for (const fs::path& folder : old) removeFolderAtomically(folder);
 }
 
 }  // namespace
@@ -121,15 +191,11 @@ void writeSurface(const texture::TexturedSurface& surface, const fs::path& file)
 }
 
 texture::TexturedSurface readSurface(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw std::runtime_error(file.string() + ": cannot be read; remove the state folder to start anew");
+  std::ifstream in = opened(file);
   Reader read{in, fs::file_size(file), file};
   char magic[sizeof kMagic];
   read.take(magic, sizeof magic);
-  if (std::memcmp(magic, kMagic, sizeof magic) != 0)
-    throw std::runtime_error(file.string() +
-                             ": is no surface of this version; remove the state folder to start anew");
+  if (std::memcmp(magic, kMagic, sizeof magic) != 0) refuse(file, "is no surface of this version");
   texture::TexturedSurface surface;
   eachPart(surface, read);
   std::uint64_t maps = 0;
@@ -139,36 +205,40 @@ texture::TexturedSurface readSurface(const fs::path& file) {
     read(name);
     read(surface.maps[name]);
   }
+  if (read.left > 0) refuse(file, "goes on after its end");
+  if (!fitsTogether(surface)) refuse(file, "is damaged: its arrays and triangles do not fit together");
   return surface;
 }
 
 void saveState(const RunState& state, const fs::path& stateFolder) {
-  writeFolderAtomically(frameFolder(stateFolder, state.solver.frame), [&](const fs::path& folder) {
-    sim::writeState(state.solver, folder / "solver.vdb");
-    writeSurface(state.surface, folder / "surface.bin");
-    std::ofstream report(folder / "run.json", std::ios::binary);
-    report << state.report;
-    report.close();
-    if (!report) throw std::system_error(errno, std::generic_category(), folder.string() + ": cannot write");
+  writeFolderAtomically(stateFolder / render::frameName(state.solver.frame), [&](const fs::path& folder) {
+    sim::writeState(state.solver, folder / kSolver);
+    writeSurface(state.surface, folder / kSurface);
+    writeText(state.report, folder / kReport);
+    writeText(manifestOf(folder), folder / kManifest);
   });
-  for (const auto& entry : fs::directory_iterator(stateFolder)) {
-    const int frame = frameOf(entry.path());
-    if (frame >= 0 && frame != state.solver.frame) fs::remove_all(entry.path());
-  }
+  removeStatesBut(state.solver.frame, stateFolder);
 }
 
 std::optional<RunState> loadState(const fs::path& stateFolder) {
-  fs::path newest;
+  std::optional<int> newest;
   std::error_code missing;
   for (const auto& entry : fs::directory_iterator(stateFolder, missing))
-    if (frameOf(entry.path()) >= 0 && (newest.empty() || frameOf(newest) < frameOf(entry.path())))
-      newest = entry.path();
-  if (newest.empty()) return std::nullopt;
+    newest = std::max(newest, frameOf(entry.path()));
+  if (!newest) return std::nullopt;
+  const fs::path folder = stateFolder / render::frameName(*newest);
+  checkFiles(folder);
   RunState state;
-  state.solver = sim::readState(newest / "solver.vdb");
-  state.surface = readSurface(newest / "surface.bin");
-  state.report = readText(newest / "run.json");
+  state.solver = sim::readState(folder / kSolver);
+  state.surface = readSurface(folder / kSurface);
+  state.report = readText(folder / kReport);
   return state;
+}
+
+void removeStates(const fs::path& stateFolder) {
+  removeStatesBut(std::nullopt, stateFolder);
+  std::error_code notEmpty;
+  fs::remove(stateFolder, notEmpty);
 }
 
 }  // namespace fluidtex::tools

@@ -1,5 +1,6 @@
 // OUT/state: what --resume continues from. One folder a frame, OUT/state/0007, replaced as a whole; only the
-// newest stays.
+// newest stays. In it the solver's grids, the surface, the report, and a manifest with the size and the hash
+// of each, by which a damaged file is noticed.
 #pragma once
 
 #include "sim/solver.h"
@@ -17,14 +18,20 @@ struct RunState {
   std::string report;                // run.json as far as it went
 };
 
-// Throws std::system_error or openvdb::IoError when the disk refuses.
+// Throws std::system_error, std::runtime_error or openvdb::IoError when the disk refuses.
 void saveState(const RunState& state, const std::filesystem::path& stateFolder);
 
-// The newest state in the folder; nothing if there is none. Throws std::runtime_error when it is damaged.
+// The newest state in the folder; nothing if there is none. Throws std::runtime_error when a file of it is
+// missing, cut short or changed, with one sentence that names it, and openvdb::IoError when solver.vdb is
+// whole but no state.
 std::optional<RunState> loadState(const std::filesystem::path& stateFolder);
 
-// Bit for bit what writeSurface() got; exposed for tests. Throws std::runtime_error, naming the file, when it
-// is cut short or is no such file.
+// Removes all states, and the folder if nothing else is in it.
+void removeStates(const std::filesystem::path& stateFolder);
+
+// Bit for bit what writeSurface() got; exposed for tests. writeSurface() throws std::system_error when the
+// disk refuses. readSurface() throws std::runtime_error, naming the file, when it is cut short, goes on too
+// long, is no such file, or holds arrays or triangles that do not fit together.
 void writeSurface(const texture::TexturedSurface& surface, const std::filesystem::path& file);
 texture::TexturedSurface readSurface(const std::filesystem::path& file);
 

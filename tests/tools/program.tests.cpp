@@ -41,11 +41,12 @@ TEST_CASE("fluidtex run: writes every file of a run, and run.json with every fra
   INFO(run.output);
   REQUIRE(run.exitCode == 0);
   CHECK_THAT(run.output, Catch::Contains("frame 5/5"));
-  CHECK(filesIn(out) == std::vector<std::string>{
-                            "frames/0001.png", "frames/0002.png", "frames/0003.png", "frames/0004.png",
-                            "frames/0005.png", "log.txt", "run.json", "small.mp4", "state/0005/run.json",
-                            "state/0005/solver.vdb", "state/0005/surface.bin", "surface/0001.ply",
-                            "surface/0002.ply", "surface/0003.ply", "surface/0004.ply", "surface/0005.ply"});
+  CHECK(filesIn(out) ==
+        std::vector<std::string>{"frames/0001.png", "frames/0002.png", "frames/0003.png", "frames/0004.png",
+                                 "frames/0005.png", "log.txt", "run.json", "small.mp4",
+                                 "state/0005/manifest.txt", "state/0005/run.json", "state/0005/solver.vdb",
+                                 "state/0005/surface.bin", "surface/0001.ply", "surface/0002.ply",
+                                 "surface/0003.ply", "surface/0004.ply", "surface/0005.ply"});
   const auto json = nlohmann::json::parse(readBytes(out / "run.json"));
   REQUIRE(json.at("frames").size() == 5);
   const auto& first = json.at("frames").front();

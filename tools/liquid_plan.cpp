@@ -1,0 +1,96 @@
+// A block of cells whose centre is farther from every surface than its corners are from the centre is all
+// liquid or all empty; any other is cut into eight.
+#include "tools/liquid_plan.h"
+
+#include "sim/mac_grid.h"
+#include "sim/shapes.h"
+
+#include <tbb/blocked_range3d.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace fluidtex::tools {
+namespace {
+
+using openvdb::Coord;
+using sim::Vec3d;
+
+constexpr int kBlock = 64;  // cells across of the largest blocks, a power of two
+
+LiquidPlan sum(const LiquidPlan& a, const LiquidPlan& b) {
+  return {a.cells + b.cells, a.atStart + b.atStart, a.surfaceCells + b.surfaceCells};
+}
+
+class Counter {
+ public:
+  explicit Counter(const sim::Options& options)
+      : m_options(options), m_h(options.voxelSize()), m_cells(sim::cellCount(options.size, m_h)) {
+    for (const sim::LiquidBody& body : options.liquid) m_liquid.emplace_back(body.shape, m_h);
+    for (const sim::Solid& solid : options.solids)
+      if (solid.from <= 0.0) m_solids.emplace_back(solid.shape, m_h);
+  }
+
+  const Coord& cells() const { return m_cells; }
+
+  LiquidPlan count(const Coord& low, int size) const {
+    Vec3d center;
+    std::int64_t cells = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int inside = std::min(size, m_cells[axis] - low[axis]);
+      if (inside <= 0) return {};
+      cells *= inside;
+      center[axis] = m_h * (low[axis] + 0.5 * size);
+    }
+    const double ever = distance(center, false), atStart = distance(center, true);
+    if (size == 1) return {ever < 0.0, atStart < 0.0, ever < 0.0 && ever > -m_h};
+    // One cell more than to the corners: the surface's own cells reach that far from it.
+    const double reach = m_h * (0.5 * std::sqrt(3.0) * size + 1.0);
+    if (std::abs(ever) > reach && std::abs(atStart) > reach)
+      return {ever < 0.0 ? cells : 0, atStart < 0.0 ? cells : 0, 0};
+    LiquidPlan plan;
+    const int half = size / 2;
+    for (int part = 0; part < 8; ++part)
+      plan =
+          sum(plan, count(low.offsetBy((part & 1) * half, (part >> 1 & 1) * half, (part >> 2) * half), half));
+    return plan;
+  }
+
+ private:
+  // To the surface of all liquid, or of what is there at the start; negative inside, never too large in
+  // magnitude.
+  double distance(const Vec3d& x, bool atStart) const {
+    double d = sim::kForever;
+    for (std::size_t b = 0; b < m_liquid.size(); ++b)
+      if (!atStart || m_options.liquid[b].from <= 0.0) d = std::min(d, m_liquid[b](x));
+    for (const sim::ShapeDistance& solid : m_solids) d = std::max(d, -solid(x));
+    for (int axis = 0; axis < 3; ++axis) d = std::max({d, -x[axis], x[axis] - m_options.size[axis]});
+    return d;
+  }
+
+  const sim::Options& m_options;
+  double m_h;
+  Coord m_cells;
+  std::vector<sim::ShapeDistance> m_liquid, m_solids;
+};
+
+}  // namespace
+
+LiquidPlan planLiquid(const sim::Options& options) {
+  const Counter counter(options);
+  const auto blocks = [&](int axis) { return (counter.cells()[axis] + kBlock - 1) / kBlock; };
+  return tbb::parallel_reduce(
+      tbb::blocked_range3d<int>(0, blocks(2), 0, blocks(1), 0, blocks(0)), LiquidPlan{},
+      [&](const tbb::blocked_range3d<int>& range, LiquidPlan plan) {
+        for (int k = range.pages().begin(); k != range.pages().end(); ++k)
+          for (int j = range.rows().begin(); j != range.rows().end(); ++j)
+            for (int i = range.cols().begin(); i != range.cols().end(); ++i)
+              plan = sum(plan, counter.count(Coord(i * kBlock, j * kBlock, k * kBlock), kBlock));
+        return plan;
+      },
+      sum);
+}
+
+}  // namespace fluidtex::tools
