@@ -1,4 +1,4 @@
-// Path tracing with next-event estimation of the sun, combined with sampling of the material by the balance
+// Path tracing with next-event estimation of the sun, combined with sampling of the material by the power
 // heuristic [Veach97]. The picture is cut into tiles; inside one, all paths advance together one step at a
 // time, so that rays of a kind reach Embree in one go.
 #include "render/path_tracer.h"
@@ -237,7 +237,7 @@ void checkInput(const texture::TexturedSurface& surface, const std::vector<Solid
   if (options.samples < 1 || options.samples > 65536)
     throw std::invalid_argument("samples a pixel must lie between 1 and 65536");
   if (options.bounces < 0) throw std::invalid_argument("the number of bounces must not be negative");
-  if (!(options.roughness > 0.0)) throw std::invalid_argument("the coat's roughness must be above 0");
+  if (!(options.roughness >= 0.0)) throw std::invalid_argument("the coat's roughness must not be negative");
   if (!surface.color.empty() && surface.color.size() != vertices)
     throw std::invalid_argument("the surface's colours do not match its vertices");
   if (!surface.normals.empty() && surface.normals.size() != vertices)

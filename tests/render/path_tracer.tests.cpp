@@ -203,4 +203,19 @@ TEST_CASE("path tracer: input that does not fit together is refused", "[render]"
   REQUIRE_THROWS_AS(traceRadiance(bad, {}, evenLight(8, 8, 1), unitView()), std::invalid_argument);
   REQUIRE_THROWS_AS(traceRadiance(ball, {}, evenLight(0, 8, 1), unitView()), std::invalid_argument);
   REQUIRE_THROWS_AS(traceRadiance(ball, {}, evenLight(8, 8, 0), unitView()), std::invalid_argument);
+  Options rough = evenLight(8, 8, 1);
+  rough.roughness = -0.1;
+  REQUIRE_THROWS_AS(traceRadiance(ball, {}, rough, unitView()), std::invalid_argument);
+}
+
+TEST_CASE("path tracer: a coat without any roughness is as smooth as coats can be", "[render]") {
+  const auto ball = sphere(Vec3f(0.5f), 0.3f, 3, Vec4f(0.2f, 0.2f, 0.2f, 1.0f));
+  Options smoothest = evenLight(16, 16, 4);
+  smoothest.gloss = 1.0;
+  smoothest.roughness = 0.0;
+  Options nearly = smoothest;
+  nearly.roughness = 0.001;
+  const Picture picture = traceRadiance(ball, {}, smoothest, unitView());
+  REQUIRE(picture.rgb == traceRadiance(ball, {}, nearly, unitView()).rgb);
+  for (const float value : picture.rgb) REQUIRE(std::isfinite(value));
 }
