@@ -25,6 +25,9 @@ endif()
 if(FLUIDTEX_SANITIZE)
   target_compile_options(fluidtex_flags INTERFACE -fsanitize=${FLUIDTEX_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(fluidtex_flags INTERFACE -fsanitize=${FLUIDTEX_SANITIZE})
+  if(FLUIDTEX_SANITIZE MATCHES "undefined")
+    target_compile_options(fluidtex_flags INTERFACE -fno-sanitize-recover=all)  # else it is told, and nothing fails
+  endif()
 endif()
 
 # fluidtex_room(NAME SOURCES... ): one static library per top-level folder.

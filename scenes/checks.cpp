@@ -15,6 +15,9 @@ namespace {
 // A grid needs some cells across to tell liquid, surface and wall apart.
 constexpr double kFewestCells = 4.0;
 
+// As many as texture.points may be.
+constexpr double kMostPoints = 50e6;
+
 const char* const kAxes[] = {"x", "y", "z"};
 
 // As many iterations as there are windows: the defaults, the last one repeated.
@@ -22,6 +25,12 @@ std::vector<int> fitted(std::vector<int> iterations, std::size_t windows) {
   const int last = iterations.back();
   iterations.resize(windows, last);
   return iterations;
+}
+
+// To two digits, as a length that can be recommended.
+double roundedUp(double length) {
+  const double step = std::pow(10.0, std::floor(std::log10(length)) - 1.0);
+  return std::ceil(length / step) * step;
 }
 
 void checkDomain(const Scene& scene, Reader& reader) {
@@ -118,12 +127,20 @@ void checkTexture(const Scene& scene, Reader& reader) {
     checkCount("texture.first_iterations", synthesis.firstIterations);
     checkCount("texture.later_iterations", synthesis.laterIterations);
   }
+  if (!reader.clean("texture.spacing") || !reader.clean("domain.size")) return;
   const Vec3d& size = scene.sim.size;
-  const double shortest = std::min({size[0], size[1], size[2]});
-  if (reader.clean("texture.spacing") && reader.clean("domain.size") && scene.texture.spacing >= shortest) {
+  const double spacing = scene.texture.spacing, shortest = std::min({size[0], size[1], size[2]});
+  if (spacing >= shortest) {
     reader.fault("texture.spacing",
-                 written(scene.texture.spacing) + " m is as long as the domain's shortest side or longer",
+                 written(spacing) + " m is as long as the domain's shortest side or longer",
                  "give less than " + written(shortest) + " m");
+  }
+  const double faces = 2.0 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
+  if (spacing > 0.0 && faces / spacing / spacing > kMostPoints) {
+    reader.fault("texture.spacing",
+                 written(spacing) + " m would put more than " + written(kMostPoints) +
+                     " points on the domain's six faces",
+                 "give " + written(roundedUp(std::sqrt(faces / kMostPoints))) + " m or more");
   }
 }
 

@@ -31,7 +31,8 @@ class Writer : public Visitor {
     put(key, Json::array({width, height}));
   }
   void file(const std::string& key, std::filesystem::path& value, const std::vector<std::string>&) override {
-    put(key, value.generic_string());
+    // Absolute, so that it says the same wherever the scene is read from.
+    put(key, std::filesystem::absolute(value).lexically_normal().generic_string());
   }
   void choice(const std::string& key, int& value, const std::vector<std::string>& words) override {
     put(key, words[std::size_t(value)]);
