@@ -53,3 +53,14 @@ TEST_CASE("removeTemporaries: takes away what a killed run left, and only that",
   removeTemporaries(scratch.path / "not there");
   CHECK(filesIn(scratch.path) == std::vector<std::string>{"0001.png"});
 }
+
+TEST_CASE("removeFolderAtomically: the folder goes with all in it; one that is not there is no fault",
+          "[tools]") {
+  const Scratch scratch;
+  writeTextAtomically(scratch.path / "0007" / "a" / "b", "x");
+  // Left from a kill while the same folder was being removed.
+  writeTextAtomically(scratch.path / ".tmp-old-0007" / "c", "x");
+  removeFolderAtomically(scratch.path / "0007");
+  removeFolderAtomically(scratch.path / "0007");
+  CHECK(fs::is_empty(scratch.path));
+}

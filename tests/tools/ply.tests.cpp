@@ -63,6 +63,20 @@ TEST_CASE("PLY: has the properties of docs/formats.md in their order, and the by
   CHECK(valueAt<std::int32_t>(bytes, face + 5) == 2);
 }
 
+TEST_CASE("PLY: coordinates stay within 0 and 1 where a toroidal exemplar leads over its edge", "[tools]") {
+  const Scratch scratch;
+  texture::TexturedSurface surface = sampleSurface();  // of an exemplar of 8 x 4
+  surface.coordinate = {{7.75f, 3.9f}, {7.25f, 0.0f}, {0.0f, 3.25f}, {7.5f, 3.5f}};
+  tools::writePly(surface, scratch.path / "a.ply");
+  const std::string bytes = readBytes(scratch.path / "a.ply");
+  const std::size_t body = bytes.find("end_header\n") + 11, stride = (bytes.size() - body - 4 * 13) / 4;
+  const float expected[4][2] = {
+      {0.25f / 8, 0.4f / 4}, {7.75f / 8, 0.5f / 4}, {0.5f / 8, 3.75f / 4}, {0.0f, 0.0f}};
+  for (std::size_t v = 0; v < 4; ++v)
+    for (std::size_t k = 0; k < 2; ++k)
+      CHECK(valueAt<float>(bytes, body + v * stride + 28 + 4 * k) == Approx(expected[v][k]).margin(1e-6));
+}
+
 TEST_CASE("PLY: a frame without surface is a file without vertices", "[tools]") {
   const Scratch scratch;
   tools::writePly({}, scratch.path / "a.ply");

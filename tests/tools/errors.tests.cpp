@@ -1,0 +1,18 @@
+#include "tools/errors.h"
+
+#include "sim/read_mesh.h"
+#include "sim/solver.h"
+#include "texture/exemplar.h"
+
+#include <catch2/catch.hpp>
+
+using namespace fluidtex;
+
+TEST_CASE("errors: wrong input is 1, what fails on the way 2, an interrupt 130", "[tools]") {
+  CHECK(tools::guarded([] {}) == tools::kDone);
+  CHECK(tools::guarded([] { throw tools::UsageError("test: a wish"); }) == tools::kInputWrong);
+  CHECK(tools::guarded([] { throw sim::MeshError("test: a mesh"); }) == tools::kInputWrong);
+  CHECK(tools::guarded([] { throw texture::ExemplarError("test: an exemplar"); }) == tools::kInputWrong);
+  CHECK(tools::guarded([] { throw sim::SolverError("test: a step"); }) == tools::kFailed);
+  CHECK(tools::guarded([] { throw tools::Interrupted(); }) == tools::kInterrupted);
+}
