@@ -46,6 +46,18 @@ double longestStep(const Options& options, double fastest) {
   return speed > 0.0 ? std::min(frame, std::min(options.cfl, kMaxTrace - 1.0) * h / speed) : frame;
 }
 
+// Substeps shorter than this share of a frame lead nowhere.
+constexpr double kShortest = 1e-5;
+
+[[noreturn]] void failFast(double time, double speed) {
+  std::ostringstream message;
+  message
+      << "the simulation cannot go on at time " << time << " s: the velocity is " << speed
+      << " m/s, and it would take over " << 1.0 / kShortest
+      << " substeps to a frame; was a velocity given in other units than m/s, or the domain not in metres?";
+  throw SolverError(message.str());
+}
+
 [[noreturn]] void fail(double time, double dt, const PressureReport& report) {
   std::ostringstream message;
   message << "the simulation cannot go on at time " << time << " s: ";
@@ -114,7 +126,8 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       return;
     }
     const double remaining = time - m_state.time;
-    const double longest = longestStep(m_options, maxAbs(liquid.velocity));
+    const double speed = maxAbs(liquid.velocity), longest = longestStep(m_options, speed);
+    if (longest < kShortest / m_options.frameRate) failFast(m_state.time, speed);
     double dt = remaining / std::ceil(remaining / longest * (1.0 - kSameTime));
     bool last = dt > (1.0 - kSameTime) * remaining;
 

@@ -56,22 +56,20 @@ void addGravity(Velocity& velocity, const Vec3d& change) {
   }
 }
 
-// Whether what is at this cell beside a solid goes away from it, `kick` being what gravity adds in a step.
-// Where the pressure holds the liquid the normal velocity is rounding; under ceilings nothing holds a film
-// that is too thin to have a pressure of its own.
+// Whether the velocity at a closed face of this cell leads away from the solid, `kick` being what gravity
+// adds to it in a step: liquid in the wall's own cell only is too thin a film for a pressure of its own, and
+// nothing holds it under a ceiling.
 bool leavesSolid(const Velocity& velocity, const FloatGrid& solidPhi, const Coord& cell, const Vec3d& kick) {
-  constexpr double kStill = 0.1;  // of what gravity adds
-  double outward = 0.0, square = 0.0;
+  const float deep = -kDeepInSolid * static_cast<float>(solidPhi.voxelSize()[0]);
   for (int a = 0; a < 3; ++a) {
     Coord below = cell, above = cell;
     below[a] -= 1;
     above[a] += 1;
     const FloatTree& speed = velocity.component[a]->constTree();
-    const double normal = solidPhi.constTree().getValue(above) - solidPhi.constTree().getValue(below);
-    outward += normal * (0.5 * (speed.getValue(cell) + speed.getValue(above)) + kick[a]);
-    square += normal * normal;
+    if (solidPhi.constTree().getValue(below) < deep && speed.getValue(cell) + kick[a] > 0.0) return true;
+    if (solidPhi.constTree().getValue(above) < deep && speed.getValue(above) + kick[a] < 0.0) return true;
   }
-  return outward > kStill * kick.length() * std::sqrt(square);
+  return false;
 }
 
 // From here on the surface knows where liquid has let go of a solid: there a gap opens, elsewhere it is

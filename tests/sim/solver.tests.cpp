@@ -116,6 +116,12 @@ TEST_CASE("solver: water leaves a ceiling") {
   CHECK(hanging == 0);
 }
 
+TEST_CASE("solver: a velocity of no use ends with a sentence, not with endless substeps") {
+  Solver solver(tank(16, {{Shape{Sphere{Vec3d(0.5), 0.2}}, Vec3d(0.0, 0.0, 1e9), 0.0}}));
+  solver.next();
+  CHECK_THROWS_WITH(solver.next(), Catch::Contains("m/s") && Catch::Contains("cannot go on"));
+}
+
 TEST_CASE("solver: nothing hangs at a ceiling, however little it is") {
   const double h = 1.0 / 24;
   Options options;
