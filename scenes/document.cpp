@@ -1,5 +1,7 @@
 #include "scenes/document.h"
 
+#include "scenes/schema.h"
+
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -14,12 +16,6 @@
 namespace fluidtex::scenes {
 
 namespace {
-
-// Of each group one key can be given; see overlay().
-const std::vector<std::vector<std::string>> kExclusive = {
-    {"box", "sphere", "half_space", "mesh", "union", "difference"},
-    {"points", "spacing"},
-};
 
 Origin inFile(const std::string& file, int line, int column) {
   return {0, line, column, file + ":" + std::to_string(line) + ":" + std::to_string(column), ""};
@@ -116,11 +112,12 @@ void overlayTable(Node& base, const Table& layer, const std::string& path, Fault
     // First all that is displaced, so that two exclusive keys of one layer both stay, to be found wrong
     // later.
     for (const Entry& entry : layer) {
-      for (const std::vector<std::string>& group : kExclusive) {
-        if (std::find(group.begin(), group.end(), entry.key) == group.end()) continue;
-        std::erase_if(*table, [&](const Entry& other) {
-          return other.key != entry.key && std::find(group.begin(), group.end(), other.key) != group.end();
-        });
+      for (const auto* keys : {&kShapeKeys, &kDensityKeys}) {
+        const auto in = [&](const std::string& key) {
+          return std::find(keys->begin(), keys->end(), key) != keys->end();
+        };
+        if (!in(entry.key)) continue;
+        std::erase_if(*table, [&](const Entry& other) { return other.key != entry.key && in(other.key); });
       }
     }
   }

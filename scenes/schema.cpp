@@ -50,7 +50,7 @@ void describeTexture(Visitor& visitor, texture::Options& texture) {
         visitor.file("exemplar", texture.exemplar.file, {});
         visitor.flag("toroidal", texture.exemplar.toroidal);
         const bool spacingGiven =
-            visitor.alternative(texture.spacing > 0.0, {"points", "spacing"}, Need::optional) == 1;
+            visitor.alternative(texture.spacing > 0.0, kDensityKeys, Need::optional) == 1;
         if (spacingGiven) {
           visitor.absent("points");
           visitor.number("spacing", texture.spacing, kPositive);

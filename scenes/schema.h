@@ -7,6 +7,11 @@
 
 namespace fluidtex::scenes {
 
+// Keys of which only one can stand in a table: in the order of sim::Shape's kinds, and points before spacing.
+inline const std::vector<std::string> kShapeKeys = {"box",  "sphere", "half_space",
+                                                    "mesh", "union",  "difference"};
+inline const std::vector<std::string> kDensityKeys = {"points", "spacing"};
+
 void describe(Visitor& visitor, Scene& scene);
 
 // The shape keys of one liquid, solid or part: box, sphere, half_space, mesh, union or difference.

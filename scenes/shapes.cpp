@@ -7,8 +7,6 @@ namespace fluidtex::scenes {
 
 namespace {
 
-const std::vector<std::string> kShapeKeys = {"box", "sphere", "half_space", "mesh", "union", "difference"};
-
 // The shape as the kind asked for, with that kind's defaults if it was another.
 template <class Kind>
 Kind& as(sim::Shape& shape) {

@@ -1,11 +1,15 @@
 #include "scenes/scene.h"
 
+#include "scenes/schema.h"
 #include "tests/scenes/scene_file.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <map>
 #include <set>
+#include <sstream>
 
 namespace fluidtex::scenes {
 
@@ -28,6 +32,39 @@ void collectKeys(const Json& value, const std::string& path, std::set<std::strin
   } else {
     keys.insert(path);
   }
+}
+
+// A row of one of the guide's tables of keys.
+struct GuideRow {
+  std::string section;  // "domain", "texture.surface", "liquid"; "shape" for the shapes; empty for the whole
+  std::string key;
+  std::vector<std::string> cells;  // without the blanks around them
+};
+
+// Heads: ## `[domain]` or ## `[[liquid]]`: ...; rows: | `key` | type | `default` | what it is |
+std::vector<GuideRow> guideRows() {
+  std::istringstream guide(textOf(FLUIDTEX_SOURCE_DIR "/scenes/README.md"));
+  std::vector<GuideRow> rows;
+  std::string section;
+  for (std::string line; std::getline(guide, line);) {
+    if (line.starts_with("##")) {
+      section = line.substr(0, line.rfind(']') + 1);
+      section = section.substr(std::min(section.find('[') + 1, section.size()));
+      std::erase_if(section, [](char c) { return c == '[' || c == ']'; });
+      if (line == "## Shapes") section = "shape";
+    }
+    if (!line.starts_with("| `")) continue;
+    GuideRow row{section, "", {}};
+    std::istringstream stream(line.substr(1));
+    for (std::string cell; std::getline(stream, cell, '|');) {
+      cell.erase(0, cell.find_first_not_of(' '));
+      cell.erase(cell.find_last_not_of(' ') + 1);
+      row.cells.push_back(cell);
+    }
+    row.key = row.cells[0].substr(1, row.cells[0].size() - 2);
+    rows.push_back(row);
+  }
+  return rows;
 }
 
 // A scene in which every key of the schema is given, none with its default.
@@ -298,55 +335,78 @@ TEST_CASE("scene: files are found from the scene's folder, wherever it is read f
   CHECK(loadScene(folder.write("absolute.toml", text)).texture.exemplar.file == folder.path() / "e.png");
 }
 
+TEST_CASE("scene: the resolved scene is the same wherever the file is named from", "[scenes]") {
+  const SceneFolder folder;
+  const std::filesystem::path file = folder.write("s.toml", kFullScene),
+                              before = std::filesystem::current_path();
+  const std::string resolved = loadScene(file).resolved;
+  std::filesystem::current_path(folder.path() / "pictures");
+  Overrides exemplar;
+  exemplar.exemplar = "../e.png";
+  const std::string relative = loadScene("../s.toml").resolved,
+                    chosen = loadScene("../s.toml", exemplar).resolved;
+  std::filesystem::current_path(before);
+  CHECK(relative == resolved);
+  CHECK(chosen == resolved);
+}
+
 TEST_CASE("scene: Windows line ends and a byte order mark do not matter", "[scenes]") {
   std::string text = "\xef\xbb\xbf";
   for (const char letter : kGoodScene) text += letter == '\n' ? std::string("\r\n") : std::string(1, letter);
   CHECK(faultsOf(text).empty());
 }
 
-TEST_CASE("scene: the guide tells every key", "[scenes]") {
-  const std::string guide = textOf(FLUIDTEX_SOURCE_DIR "/scenes/README.md");
+TEST_CASE("scene: the guide tells every key in its own table, and no other", "[scenes]") {
+  // Keys that the guide tells elsewhere: those inside shapes, and the quality, which is no key of a file.
+  const auto elsewhere = [](const std::string& key) {
+    const auto inside = [&](const std::string& shape) {
+      return ("." + key + ".").find("." + shape + ".") != key.npos;
+    };
+    return key == "quality" || std::any_of(kShapeKeys.begin(), kShapeKeys.end(), inside);
+  };
   std::set<std::string> keys;
   collectKeys(Json::parse(sceneOf(kFullScene).resolved), "", keys);
-  for (const std::string& key : keys) {
-    INFO(key);
-    std::string quoted("`");
-    quoted += key.substr(key.rfind('.') + 1);
-    quoted += "`";
-    CHECK(guide.find(quoted) != std::string::npos);
+  std::erase_if(keys, elsewhere);
+  std::set<std::string> told;
+  for (const GuideRow& row : guideRows())
+    if (row.section != "shape") told.insert(row.section.empty() ? row.key : row.section + "." + row.key);
+  CHECK(keys.size() > 50);
+  CHECK(told == keys);
+}
+
+TEST_CASE("scene: the guide tells every shape and what is inside it", "[scenes]") {
+  std::map<std::string, std::string> shapes;
+  for (const GuideRow& row : guideRows())
+    if (row.section == "shape") shapes[row.key] = row.cells[1];
+  const std::map<std::string, std::vector<std::string>> inside = {
+      {"box", {"min", "max"}}, {"sphere", {"center", "radius"}},
+      {"union", {}},           {"half_space", {"point", "normal"}},
+      {"difference", {}},      {"mesh", {"file", "scale", "translate"}}};
+  CHECK(shapes.size() == kShapeKeys.size());
+  for (const std::string& shape : kShapeKeys) {
+    INFO(shape);
+    REQUIRE(shapes.contains(shape));
+    for (const std::string& key : inside.at(shape))
+      CHECK_THAT(shapes[shape], Catch::Contains(std::string("`").append(key).append("`")));
   }
 }
 
 TEST_CASE("scene: the guide's defaults are the ones that are used", "[scenes]") {
   const Json resolved = Json::parse(sceneOf(kGoodScene + "[[solid]]\nmesh = { file = 'm.obj' }\n").resolved);
-  std::istringstream guide(textOf(FLUIDTEX_SOURCE_DIR "/scenes/README.md"));
-  Json table = resolved;
   int compared = 0;
-  // Heads: ## `[domain]` or ## `[[liquid]]`: ...; rows: | `key` | type | `default` | what it is |
-  for (std::string line; std::getline(guide, line);) {
-    if (line.starts_with("##")) {
-      table = resolved;
-      std::string head = line.substr(0, line.rfind(']') + 1);
-      head = head.substr(std::min(head.find('[') + 1, head.size()));
-      std::erase_if(head, [](char c) { return c == '[' || c == ']'; });
-      std::istringstream parts(head);
-      for (std::string part; std::getline(parts, part, '.');) {
-        if (table.contains(part)) table = table[part];
-      }
-      if (table.is_array()) table = table[0];
-    }
-    if (!line.starts_with("| `")) continue;
-    std::vector<std::string> cells;
-    std::istringstream stream(line.substr(1));
-    for (std::string cell; std::getline(stream, cell, '|');) cells.push_back(cell);
-    if (cells.size() != 4 || !cells[2].starts_with(" `")) continue;
-    const std::string key = cells[0].substr(2, cells[0].size() - 4),
-                      value = cells[2].substr(2, cells[2].size() - 4);
-    const Json expected = Json::parse(value, nullptr, false);
+  for (const GuideRow& row : guideRows()) {
+    if (row.cells.size() != 4 || !row.cells[2].starts_with("`")) continue;
+    const Json expected = Json::parse(row.cells[2].substr(1, row.cells[2].size() - 2), nullptr, false);
     if (expected.is_discarded()) continue;  // told in words
-    INFO(line);
-    REQUIRE(table.contains(key));
-    CHECK(table[key] == expected);
+    INFO(row.section << " " << row.key);
+    Json table = resolved;
+    std::istringstream parts(row.section);
+    for (std::string part; std::getline(parts, part, '.');) {
+      REQUIRE(table.contains(part));
+      table = Json(table[part].is_array() ? table[part][0] : table[part]);
+    }
+    REQUIRE(table.contains(row.key));
+    CHECK(table[row.key] == expected);
     ++compared;
   }
   CHECK(compared > 40);
