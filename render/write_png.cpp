@@ -1,6 +1,8 @@
 #include "render/render.h"
 
 #include <OpenImageIO/imageio.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -19,7 +21,9 @@ std::uint8_t encodeSrgb(float linear) {
 
 void writePng(const Picture& picture, const std::filesystem::path& file) {
   std::vector<std::uint8_t> bytes(picture.rgb.size());
-  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = encodeSrgb(picture.rgb[i]);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bytes.size(), 1 << 14), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) bytes[i] = encodeSrgb(picture.rgb[i]);
+  });
 
   const auto fail = [&](const std::string& why) {
     throw std::runtime_error(file.string() + ": the picture could not be written: " + why);

@@ -1,29 +1,14 @@
 #include "render/render.h"
 
+#include "tests/scratch.h"
+
 #include <OpenImageIO/imageio.h>
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 using namespace fluidtex::render;
 namespace fs = std::filesystem;
-
-namespace {
-
-fs::path scratch(const std::string& name) {
-  const fs::path folder = fs::temp_directory_path() / "fluidtex_test_render_png";
-  fs::create_directories(folder);
-  return folder / name;
-}
-
-std::string bytesOf(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-}  // namespace
 
 TEST_CASE("png: flat sRGB colours come back exactly", "[render]") {
   // All 256 values of a channel: linear by the standard's own formula, in double.
@@ -35,7 +20,8 @@ TEST_CASE("png: flat sRGB colours come back exactly", "[render]") {
         picture.rgb.push_back(
             static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4)));
       }
-  const fs::path file = scratch("flat.png.tmp");
+  const Scratch scratch;
+  const fs::path file = scratch.path / "flat.png.tmp";
   writePng(picture, file);
   auto input = OIIO::ImageInput::open(file.string());
   REQUIRE(input);
@@ -51,7 +37,8 @@ TEST_CASE("png: flat sRGB colours come back exactly", "[render]") {
 }
 
 TEST_CASE("png: values out of range are clipped", "[render]") {
-  const fs::path file = scratch("clipped.png");
+  const Scratch scratch;
+  const fs::path file = scratch.path / "clipped.png";
   writePng({2, 1, {-1.0f, 2.0f, std::nanf(""), 1e30f, -0.0f, 1.0f}}, file);
   auto input = OIIO::ImageInput::open(file.string());
   std::vector<std::uint8_t> pixels(6);
@@ -62,10 +49,11 @@ TEST_CASE("png: values out of range are clipped", "[render]") {
 TEST_CASE("png: the same picture gives the same bytes", "[render]") {
   Picture picture{31, 17, std::vector<float>(31 * 17 * 3)};
   for (std::size_t i = 0; i < picture.rgb.size(); ++i) picture.rgb[i] = static_cast<float>(i % 97) / 97.0f;
-  writePng(picture, scratch("a.png"));
-  writePng(picture, scratch("b.png"));
-  REQUIRE(bytesOf(scratch("a.png")).size() > 100);
-  REQUIRE(bytesOf(scratch("a.png")) == bytesOf(scratch("b.png")));
+  const Scratch scratch;
+  writePng(picture, scratch.path / "a.png");
+  writePng(picture, scratch.path / "b.png");
+  REQUIRE(readBytes(scratch.path / "a.png").size() > 100);
+  REQUIRE(readBytes(scratch.path / "a.png") == readBytes(scratch.path / "b.png"));
 }
 
 TEST_CASE("png: a place that cannot be written is named", "[render]") {

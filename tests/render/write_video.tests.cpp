@@ -1,4 +1,6 @@
+#include "render/frame_name.h"
 #include "render/render.h"
+#include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
 
@@ -6,7 +8,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <memory>
 
 using namespace fluidtex::render;
@@ -14,17 +15,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A fresh folder with frames FIRST..LAST in which the brightness rises.
-fs::path frames(const std::string& name, int first, int last, int width, int height) {
-  const fs::path folder = fs::temp_directory_path() / "fluidtex_test_render_video" / name;
-  fs::remove_all(folder);
+// A folder in `scratch` with frames FIRST..LAST in which the brightness rises.
+fs::path frames(const Scratch& scratch, const std::string& name, int first, int last, int width, int height) {
+  const fs::path folder = scratch.path / name;
   fs::create_directories(folder);
   for (int frame = first; frame <= last; ++frame) {
-    char file[16];
-    std::snprintf(file, sizeof file, "%04d.png", frame);
     const float grey = 0.1f * static_cast<float>(frame - first + 1);
     writePng({width, height, std::vector<float>(static_cast<std::size_t>(width) * height * 3, grey)},
-             folder / file);
+             folder / (frameName(frame) + ".png"));
   }
   return folder;
 }
@@ -42,15 +40,11 @@ std::string probe(const fs::path& video, const std::string& entries) {
   return text;
 }
 
-std::string bytesOf(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 }  // namespace
 
 TEST_CASE("video: frames, size, rate, format and colours are as said", "[render]") {
-  const fs::path folder = frames("plain", 3, 7, 64, 36);
+  const Scratch scratch;
+  const fs::path folder = frames(scratch, "plain", 3, 7, 64, 36);
   const fs::path video = folder / "out.tmp";
   writeVideo(folder, 3, 7, 24.0, video);
   REQUIRE(probe(video, "nb_read_frames") == "5");
@@ -60,24 +54,27 @@ TEST_CASE("video: frames, size, rate, format and colours are as said", "[render]
 }
 
 TEST_CASE("video: odd sizes and names with special characters work", "[render]") {
-  const fs::path folder = frames("odd %03d 'x' $HOME", 1, 2, 33, 17);
+  const Scratch scratch;
+  const fs::path folder = frames(scratch, "odd %03d 'x' $HOME", 1, 2, 33, 17);
   const fs::path video = folder / "a b.mp4";
   writeVideo(folder, 1, 2, 29.97, video);
-  REQUIRE(bytesOf(video).size() > 200);
+  REQUIRE(readBytes(video).size() > 200);
   fs::rename(video, folder.parent_path() / "odd.mp4");
   REQUIRE(probe(folder.parent_path() / "odd.mp4", "nb_read_frames,width,height") == "32,16,2");
 }
 
 TEST_CASE("video: the same frames give the same bytes", "[render]") {
-  const fs::path folder = frames("twice", 1, 4, 48, 48);
+  const Scratch scratch;
+  const fs::path folder = frames(scratch, "twice", 1, 4, 48, 48);
   writeVideo(folder, 1, 4, 24.0, folder / "a.mp4");
   writeVideo(folder, 1, 4, 24.0, folder / "b.mp4");
-  REQUIRE(bytesOf(folder / "a.mp4").size() > 200);
-  REQUIRE(bytesOf(folder / "a.mp4") == bytesOf(folder / "b.mp4"));
+  REQUIRE(readBytes(folder / "a.mp4").size() > 200);
+  REQUIRE(readBytes(folder / "a.mp4") == readBytes(folder / "b.mp4"));
 }
 
 TEST_CASE("video: a missing frame is named", "[render]") {
-  const fs::path folder = frames("gap", 1, 3, 16, 16);
+  const Scratch scratch;
+  const fs::path folder = frames(scratch, "gap", 1, 3, 16, 16);
   fs::remove(folder / "0002.png");
   REQUIRE_THROWS_WITH(
       writeVideo(folder, 1, 3, 24.0, folder / "v.mp4"),
@@ -87,7 +84,8 @@ TEST_CASE("video: a missing frame is named", "[render]") {
 }
 
 TEST_CASE("video: what ffmpeg complains about is passed on in one line", "[render]") {
-  const fs::path folder = frames("fails", 1, 1, 16, 16);
+  const Scratch scratch;
+  const fs::path folder = frames(scratch, "fails", 1, 1, 16, 16);
   try {
     writeVideo(folder, 1, 1, 24.0, "/nonexistent_folder/v.mp4");
     FAIL("nothing was thrown");
@@ -103,7 +101,8 @@ TEST_CASE("video: what ffmpeg complains about is passed on in one line", "[rende
 }
 
 TEST_CASE("video: a machine without ffmpeg is told so", "[render]") {
-  const fs::path folder = frames("without", 1, 1, 16, 16);
+  const Scratch scratch;
+  const fs::path folder = frames(scratch, "without", 1, 1, 16, 16);
   const std::string path = std::getenv("PATH");
   setenv("PATH", folder.c_str(), 1);
   std::string what;

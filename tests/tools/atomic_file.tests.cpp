@@ -1,6 +1,6 @@
 #include "tools/atomic_file.h"
 
-#include "tests/tools/scratch.h"
+#include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
 

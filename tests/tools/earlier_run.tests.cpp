@@ -1,6 +1,6 @@
 #include "tools/earlier_run.h"
 
-#include "tests/tools/scratch.h"
+#include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
 

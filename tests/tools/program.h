@@ -1,7 +1,7 @@
 // Starts the program as a user would, in a process of its own.
 #pragma once
 
-#include "tests/tools/scratch.h"
+#include "tests/scratch.h"
 
 #include <fcntl.h>
 #include <sys/wait.h>

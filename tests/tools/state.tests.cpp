@@ -1,7 +1,7 @@
 #include "tools/state.h"
 
 #include "tests/tools/sample_surface.h"
-#include "tests/tools/scratch.h"
+#include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
 
