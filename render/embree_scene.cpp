@@ -1,10 +1,10 @@
 // On Embree 3 [Wald14]. Which of two triangles a ray through their common edge meets depends on the order
-// inside the structure; parallel building could change that order from run to run, so each scene is built by
-// one thread.
+// inside the structure. Embree's builder at medium quality (binned surface areas, no spatial splits) makes
+// the same structure on any number of threads: it bins by counts and bounds alone, and sorts the triangles of
+// a leaf. Higher quality, or a refitted scene, would need that to be looked at again.
 #include "render/embree_scene.h"
 
 #include <embree3/rtcore.h>
-#include <tbb/task_arena.h>
 
 #include <cstring>
 #include <limits>
@@ -114,8 +114,7 @@ std::uint32_t EmbreeScene::add(const std::vector<Vec3f>& positions,
 }
 
 void EmbreeScene::commit() {
-  tbb::task_arena alone(1);
-  alone.execute([this] { rtcJoinCommitScene(m_handles->scene); });
+  rtcJoinCommitScene(m_handles->scene);
   check(m_handles->device, "building a scene");
 }
 

@@ -35,7 +35,8 @@ class EmbreeScene {
   // Copies a mesh in and returns its number. Throws std::runtime_error if memory runs out.
   std::uint32_t add(const std::vector<Vec3f>& positions, const std::vector<texture::Vec3I>& triangles);
 
-  // Builds; to be called once after the last add(). The structure does not depend on the number of threads.
+  // Builds, on all threads; to be called once after the last add(). The structure does not depend on their
+  // number.
   void commit();
 
   // Finds the first hit of every ray.

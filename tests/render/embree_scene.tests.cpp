@@ -2,6 +2,8 @@
 #include "render/sampling.h"
 #include "shapes.h"
 
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 #include <catch2/catch.hpp>
 
 using namespace fluidtex::render;
@@ -91,4 +93,43 @@ TEST_CASE("embree scene: an empty scene blocks nothing", "[render]") {
   std::vector<Ray> rays = raysTowards(Vec3f(0.0f, 0.0f, 1.0f), 9);
   scene.intersect(rays, Coherence::alike);
   for (const Ray& ray : rays) REQUIRE_FALSE(ray.hit());
+}
+
+TEST_CASE(
+    "embree scene: which triangle is met on a common edge or corner is the same on any number of threads",
+    "[render]") {
+  const tbb::global_control many(tbb::global_control::max_allowed_parallelism, 8);
+  // Large enough that its triangles are sorted into the structure by all threads.
+  const auto ball = shapes::sphere(Vec3f(0.0f), 1.0f, 6, Vec4f(1.0f));
+  REQUIRE(ball.triangles.size() > 50000);
+  std::vector<Ray> rays;
+  for (const Vec3f& corner : ball.positions) rays.push_back({corner * 3.0f, -corner});
+  for (const auto& t : ball.triangles) {
+    const Vec3f middle = (ball.positions[t[0]] + ball.positions[t[1]]) * 0.5f;
+    rays.push_back({middle * 3.0f, -middle});
+  }
+  const auto metIn = [&](const std::vector<fluidtex::texture::Vec3I>& mesh, int threads, int run) {
+    EmbreeScene scene;
+    scene.add(ball.positions, mesh);
+    tbb::task_arena arena(threads);
+    arena.execute([&] { scene.commit(); });
+    std::vector<Ray> traced = rays;
+    scene.intersect(traced, run % 2 == 0 ? Coherence::alike : Coherence::scattered);
+    std::vector<std::uint32_t> triangles;
+    for (const Ray& ray : traced) triangles.push_back(ray.triangle);
+    return triangles;
+  };
+  const auto met = [&](int threads, int run) { return metIn(ball.triangles, threads, run); };
+  const auto alike = met(1, 0), scattered = met(1, 1);
+  // The order matters indeed: from back to front, other triangles are met.
+  const auto count = static_cast<std::uint32_t>(ball.triangles.size());
+  const auto backwards = metIn({ball.triangles.rbegin(), ball.triangles.rend()}, 1, 0);
+  int others = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) others += count - 1 - backwards[i] != alike[i];
+  REQUIRE(others > 100);
+  for (const int threads : {2, 3, 8})
+    for (int run = 0; run < 4; ++run) {
+      INFO(threads << " threads");
+      REQUIRE((met(threads, run) == (run % 2 == 0 ? alike : scattered)));
+    }
 }
