@@ -102,7 +102,7 @@ class FrameLoop {
     {
       Stopwatch watch(seconds.write);
       recordCost(m_report.frames.back(), seconds);
-      saveState({m_solver->state(), m_surface, toJson(m_report)}, m_options.out / "state");
+      saveState(m_solver->state(), m_surface, toJson(m_report), m_options.out / "state");
     }
     recordCost(m_report.frames.back(), seconds);
     writeTextAtomically(m_options.out / "run.json", toJson(m_report));
@@ -193,19 +193,22 @@ class FrameLoop {
                     [&](const fs::path& file) { writePly(m_surface, file); });
   }
 
-  std::vector<render::Solid> visibleSolids(double time) {
-    if (m_solids.empty())
-      for (const sim::Solid& solid : m_scene.sim.solids) {
-        sim::TriangleMesh mesh;
-        if (solid.visible) mesh = sim::triangulate(solid.shape, m_scene.sim.size, m_scene.sim.voxelSize());
-        m_solids.push_back({std::move(mesh.positions), std::move(mesh.triangles), solid.color});
-      }
-    std::vector<render::Solid> visible;
-    for (std::size_t i = 0; i < m_solids.size(); ++i) {
+  // Made anew only where a solid has come or gone.
+  const std::vector<render::Solid>& visibleSolids(double time) {
+    std::vector<std::size_t> visible;
+    for (std::size_t i = 0; i < m_scene.sim.solids.size(); ++i) {
       const sim::Solid& solid = m_scene.sim.solids[i];
-      if (solid.visible && solid.from <= time && time < solid.until) visible.push_back(m_solids[i]);
+      if (solid.visible && solid.from <= time && time < solid.until) visible.push_back(i);
     }
-    return visible;
+    if (visible == m_visible) return m_solids;
+    m_solids.clear();
+    for (const std::size_t i : visible) {
+      const sim::Solid& solid = m_scene.sim.solids[i];
+      sim::TriangleMesh mesh = sim::triangulate(solid.shape, m_scene.sim.size, m_scene.sim.voxelSize());
+      m_solids.push_back({std::move(mesh.positions), std::move(mesh.triangles), solid.color});
+    }
+    m_visible = std::move(visible);
+    return m_solids;
   }
 
   void finish() {
@@ -266,6 +269,7 @@ class FrameLoop {
   texture::Synthesizer m_synthesizer;
   std::unique_ptr<sim::Solver> m_solver;
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
+  std::vector<std::size_t> m_visible;  // numbers of the solids in m_solids
   std::vector<render::Solid> m_solids;
   Report m_report;
   Progress* m_progress = nullptr;

@@ -210,14 +210,15 @@ texture::TexturedSurface readSurface(const fs::path& file) {
   return surface;
 }
 
-void saveState(const RunState& state, const fs::path& stateFolder) {
-  writeFolderAtomically(stateFolder / render::frameName(state.solver.frame), [&](const fs::path& folder) {
-    sim::writeState(state.solver, folder / kSolver);
-    writeSurface(state.surface, folder / kSurface);
-    writeText(state.report, folder / kReport);
+void saveState(const sim::State& solver, const texture::TexturedSurface& surface, const std::string& report,
+               const fs::path& stateFolder) {
+  writeFolderAtomically(stateFolder / render::frameName(solver.frame), [&](const fs::path& folder) {
+    sim::writeState(solver, folder / kSolver);
+    writeSurface(surface, folder / kSurface);
+    writeText(report, folder / kReport);
     writeText(manifestOf(folder), folder / kManifest);
   });
-  removeStatesBut(state.solver.frame, stateFolder);
+  removeStatesBut(solver.frame, stateFolder);
 }
 
 std::optional<RunState> loadState(const fs::path& stateFolder) {

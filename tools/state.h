@@ -12,6 +12,7 @@
 
 namespace fluidtex::tools {
 
+// What is read back.
 struct RunState {
   sim::State solver;
   texture::TexturedSurface surface;  // of that frame: what the next one carries over
@@ -19,7 +20,8 @@ struct RunState {
 };
 
 // Throws std::system_error, std::runtime_error or openvdb::IoError when the disk refuses.
-void saveState(const RunState& state, const std::filesystem::path& stateFolder);
+void saveState(const sim::State& solver, const texture::TexturedSurface& surface, const std::string& report,
+               const std::filesystem::path& stateFolder);
 
 // The newest state in the folder; nothing if there is none. Throws std::runtime_error when a file of it is
 // missing, cut short or changed, with one sentence that names it, and openvdb::IoError when solver.vdb is

@@ -1,7 +1,7 @@
 #include "tools/state.h"
 
-#include "tests/tools/sample_surface.h"
 #include "tests/scratch.h"
+#include "tests/tools/sample_surface.h"
 
 #include <catch2/catch.hpp>
 
@@ -79,7 +79,7 @@ TEST_CASE("state: a surface that does not fit together, or goes on after its end
 TEST_CASE("state: a file that is cut, changed or missing is refused by a sentence that names it", "[tools]") {
   const Scratch scratch;
   const fs::path states = scratch.path / "state", folder = states / "0003";
-  tools::saveState({sampleSolverState(3), sampleSurface(), "report"}, states);
+  tools::saveState(sampleSolverState(3), sampleSurface(), "report", states);
   REQUIRE(tools::loadState(states).has_value());
   for (const char* name : {"solver.vdb", "surface.bin", "run.json", "manifest.txt"}) {
     const std::string whole = readBytes(folder / name);
@@ -112,7 +112,7 @@ TEST_CASE("state: the newest whole folder is what is loaded, older ones go", "[t
   const Scratch scratch;
   CHECK_FALSE(tools::loadState(scratch.path / "state").has_value());
   for (int frame : {9, 10})
-    tools::saveState({sampleSolverState(frame), sampleSurface(), "report"}, scratch.path / "state");
+    tools::saveState(sampleSolverState(frame), sampleSurface(), "report", scratch.path / "state");
   CHECK_FALSE(fs::exists(scratch.path / "state" / "0009"));
   // A state that was being written, or removed, when the program died.
   fs::create_directories(scratch.path / "state" / ".tmp-0011");
@@ -132,7 +132,7 @@ TEST_CASE("state: only folders with a frame's name are states, and only they are
     std::ofstream(states / name / "x") << "mine";
   }
   CHECK_FALSE(tools::loadState(states).has_value());
-  tools::saveState({sampleSolverState(7), sampleSurface(), "report"}, states);
+  tools::saveState(sampleSolverState(7), sampleSurface(), "report", states);
   CHECK(tools::loadState(states)->solver.frame == 7);
   tools::removeStates(states);
   CHECK(filesIn(states) == std::vector<std::string>{"7/x", "99999999999999999999/x", "notes/x"});
