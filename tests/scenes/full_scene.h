@@ -1,0 +1,107 @@
+// A scene in which everything is said, and a look at the keys of what becomes of it.
+#pragma once
+
+#include "tests/scenes/scene_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <set>
+#include <string>
+
+namespace fluidtex::scenes {
+
+using Json = nlohmann::json;
+
+inline Scene sceneOf(const std::string& text) {
+  const SceneFolder folder;
+  return loadScene(folder.write("s.toml", text));
+}
+
+// The keys of all tables, dotted, numbers of list members left out.
+inline void collectKeys(const Json& value, const std::string& path, std::set<std::string>& keys) {
+  if (value.is_object()) {
+    for (const auto& [key, inner] : value.items())
+      collectKeys(inner, path.empty() ? key : path + "." + key, keys);
+  } else if (value.is_array() && !value.empty() && value[0].is_object()) {
+    for (const Json& inner : value) collectKeys(inner, path, keys);
+  } else {
+    keys.insert(path);
+  }
+}
+
+// A scene in which every key of the schema is given, none with its default.
+inline const std::string kFullScene = R"(
+name = "all of it"
+frames = 5
+frame_rate = 30
+seed = 99
+[domain]
+size = [3, 2, 1.5]
+resolution = 48
+[fluid]
+density = 900
+viscosity = 0.5
+gravity = [1, 0, -3]
+[simulation]
+cfl = 1.5
+[[liquid]]
+box = { min = [0, 0.5, 0], max = [1, 1, 0.5] }
+velocity = [1, 2, 3]
+from = 0.25
+[[liquid]]
+union = [ { sphere = { center = [1, 1, 1], radius = 0.5 } }, { difference = [ { half_space = { point = [0, 0, 0.1], normal = [0, 0, 2] } }, { mesh = { file = "m.obj", scale = 2, translate = [3, 2, 1] } } ] } ]
+[[solid]]
+name = "gate"
+mesh = { file = "m.obj" }
+from = 0.5
+until = 0.75
+visible = false
+color = [1, 0.25, 0]
+[[solid]]
+sphere = { center = [1, 1, 1], radius = 0.5 }
+until = inf
+[texture]
+exemplar = "e.png"
+toroidal = true
+points = 1234
+method = "kwatra07"
+windows = [21, 11]
+first_iterations = [7, 8]
+later_iterations = [0, 2]
+robust_exponent = 1.5
+soft_constraint = 0.7
+histogram = 1
+usage = 2
+core = 0.9
+feature = 0.4
+gradient = 0.6
+keep_stretch = 2
+[texture.surface]
+points = "random"
+levels = 4
+repulsion_sweeps = 12
+[camera]
+from = [9, 8, 7]
+at = [1, 2, 3]
+fov = 50
+turn = -90
+[light]
+sun_direction = [0, 0, 1]
+sun_color = [1, 2, 3]
+sun_size = 1
+sky_color = [0.1, 0.2, 0.3]
+horizon_color = [0.4, 0.5, 0.6]
+[render]
+size = [320, 180]
+samples = 2
+bounces = 1
+gloss = 0.5
+roughness = 0.25
+exposure = 1.25
+ground = false
+ground_color = [0.1, 0.1, 0.1]
+tank = false
+tank_color = [0.2, 0.2, 0.2]
+)";
+
+}  // namespace fluidtex::scenes
