@@ -216,14 +216,4 @@ Image halve(const Image& image, bool toroidal) {
   return result;
 }
 
-float encodeSrgb(float linear) {
-  if (linear < 0.0f) return -encodeSrgb(-linear);
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-}
-
-float decodeSrgb(float encoded) {
-  if (encoded < 0.0f) return -decodeSrgb(-encoded);
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
 }  // namespace fluidtex::texture

@@ -28,9 +28,4 @@ Image gradientEnergy(const Image& luminance, bool toroidal);
 // with the first where it is toroidal.
 Image halve(const Image& image, bool toroidal);
 
-// The sRGB transfer curve, 0..1 to 0..1; values outside are continued by the curve, below zero as an odd
-// function.
-float encodeSrgb(float linear);
-float decodeSrgb(float encoded);
-
 }  // namespace fluidtex::texture

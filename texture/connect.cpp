@@ -3,9 +3,9 @@
 // collapse.
 #include "texture/connect.h"
 
+#include "texture/parallel.h"
+#include "texture/point_grid.h"
 #include "texture/remesh.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,21 +59,15 @@ class VertexGrid {
     Vec3f position;
     std::uint32_t vertex;
   };
-  std::uint32_t slot(int x, int y, int z) const {
-    std::uint64_t h = std::uint64_t(std::uint32_t(x)) * 0x9e3779b1u ^
-                      std::uint64_t(std::uint32_t(y)) * 0x85ebca77u ^
-                      std::uint64_t(std::uint32_t(z)) * 0xc2b2ae3du;
-    h *= 0x9e3779b97f4a7c15ULL;
-    return std::uint32_t(std::size_t(h >> 32) & m_mask);
-  }
+  std::uint32_t slot(int x, int y, int z) const { return std::uint32_t(cellHash({x, y, z}) & m_mask); }
   float m_inverse;
   std::size_t m_mask = 0;
   std::vector<std::uint32_t> m_first;
   std::vector<Item> m_items;
 };
 
-// The half-edge h whose triangle holds the foot of p, found by walking across edges from a vertex nearby;
-// `outside` is the barycentric weight of the corner opposite to h, the smallest of the three.
+// The half-edge whose triangle holds the foot of p, found by walking across edges from a vertex nearby;
+// `smallest` is the least of the three barycentric weights, that of the corner opposite to the edge.
 struct Place {
   std::uint32_t edge = kNone;
   float smallest = -1e30f;
@@ -189,12 +183,10 @@ EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const
   constexpr float kLongest = 1.4f;  // edges of the old mesh, in mean edge lengths
   constexpr float kTooNear = 0.4f;  // spacings: two points in one place
   EditableMesh mesh = makeEditableMesh(surface.positions, surface.triangles);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertexCount(), 1024), [&](const auto& range) {
-    for (std::size_t v = range.begin(); v < range.end(); ++v) {
-      const Vec3f gradient = phi.sample(mesh.position[v]).gradient;
-      const float length = gradient.length();
-      if (length > 0.0f) mesh.normal[v] = gradient / length;
-    }
+  forEachIndex(mesh.vertexCount(), [&](std::uint32_t v) {
+    const Vec3f gradient = phi.sample(mesh.position[v]).gradient;
+    const float length = gradient.length();
+    if (length > 0.0f) mesh.normal[v] = gradient / length;
   });
   if (kLongest * kEdgePerSpacing * spacing < 1.7f)
     splitLongEdges(mesh, phi, kLongest * kEdgePerSpacing * spacing);
@@ -202,11 +194,9 @@ EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const
   const VertexGrid grid(mesh.position, 2.0f * std::min(1.0f, kLongest * spacing));
   const std::size_t count = points.position.size();
   std::vector<std::uint32_t> nearest(count);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1024), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      nearest[i] = grid.nearest(points.position[i],
-                                [&](std::uint32_t v) { return mesh.normal[v].dot(points.normal[i]) > 0.0f; });
-    }
+  forEachIndex(count, [&](std::uint32_t i) {
+    nearest[i] = grid.nearest(points.position[i],
+                              [&](std::uint32_t v) { return mesh.normal[v].dot(points.normal[i]) > 0.0f; });
   });
   std::vector<std::uint32_t> owner(mesh.vertexCount(), kNone);
   const auto distance = [&](std::uint32_t i, std::uint32_t v) {

@@ -2,7 +2,7 @@
 // after Dey, Edelsbrunner, Guha, Nekhayev, "Topology preserving edge contraction" (1999).
 #include "texture/editable_mesh.h"
 
-#include <tbb/parallel_for.h>
+#include "texture/parallel.h"
 
 #include <algorithm>
 #include <cassert>
@@ -150,7 +150,7 @@ void EditableMesh::collapse(std::uint32_t h) {
   }
 }
 
-std::vector<std::uint32_t> EditableMesh::compact(std::size_t firstNew) {
+void EditableMesh::compact(std::size_t firstNew) {
   // Where a vertex goes: after the one of lowest rank among its neighbours that came before it.
   std::vector<std::uint32_t> rank(position.size());
   std::vector<std::pair<std::uint32_t, std::uint32_t>> order;  // rank, old vertex
@@ -202,7 +202,6 @@ std::vector<std::uint32_t> EditableMesh::compact(std::size_t firstNew) {
     packed.twin[h] = newHalfEdgeOf[twin[oldHalfEdgeOf[h]]];
   }
   *this = std::move(packed);
-  return oldVertexOf;
 }
 
 EditableMesh makeEditableMesh(std::vector<Vec3f> positions, const std::vector<Vec3I>& triangles) {
@@ -227,14 +226,12 @@ EditableMesh makeEditableMesh(std::vector<Vec3f> positions, const std::vector<Ve
     starting[cursor[mesh.origin[h]]++] = h;
     mesh.outgoing[mesh.origin[h]] = h;
   }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, halfEdges, 8192), [&](const auto& range) {
-    for (std::size_t h = range.begin(); h < range.end(); ++h) {
-      const std::uint32_t a = mesh.origin[h], b = mesh.target(std::uint32_t(h));
-      for (std::uint32_t k = first[b]; k < first[b + 1]; ++k) {
-        if (mesh.target(starting[k]) == a) mesh.twin[h] = starting[k];
-      }
-      assert(mesh.twin[h] != EditableMesh::kNone);
+  forEachIndex(halfEdges, [&](std::uint32_t h) {
+    const std::uint32_t a = mesh.origin[h], b = mesh.target(h);
+    for (std::uint32_t k = first[b]; k < first[b + 1]; ++k) {
+      if (mesh.target(starting[k]) == a) mesh.twin[h] = starting[k];
     }
+    assert(mesh.twin[h] != EditableMesh::kNone);
   });
   return mesh;
 }

@@ -58,9 +58,8 @@ struct EditableMesh {
   void collapse(std::uint32_t h);
 
   // Drops what is gone. Vertices from number `firstNew` on are moved next to their neighbours, the others
-  // keep their order; triangles follow their vertices: what is near on the surface is near in memory. Returns
-  // each new vertex's old number.
-  std::vector<std::uint32_t> compact(std::size_t firstNew);
+  // keep their order; triangles follow their vertices: what is near on the surface is near in memory.
+  void compact(std::size_t firstNew);
 
  private:
   std::uint32_t newTriangle();

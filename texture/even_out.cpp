@@ -3,7 +3,7 @@
 // mesh generator in MATLAB" (2004).
 #include "texture/remesh.h"
 
-#include <tbb/parallel_for.h>
+#include "texture/parallel.h"
 
 #include <algorithm>
 #include <cassert>
@@ -50,13 +50,8 @@ struct Spreader {
 
   // One sweep over the vertices in `active`: all that are awake move at once. Returns those that moved.
   std::vector<std::uint32_t> sweep(const std::vector<std::uint32_t>& active, float wake, float sleep) {
-    const auto parallel = [](std::size_t n, const auto& body) {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 512), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
-      });
-    };
     std::vector<Vec3f> moves(active.size());
-    parallel(active.size(), [&](std::size_t i) {
+    forEachIndex(active.size(), [&](std::uint32_t i) {
       const std::uint32_t v = active[i];
       moves[i] = push(v);
       const float limit = (awake[v] ? sleep : wake) * edge;
@@ -71,7 +66,7 @@ struct Spreader {
     }
     oldPosition.resize(movers.size());
     oldNormal.resize(movers.size());
-    parallel(movers.size(), [&](std::size_t i) {
+    forEachIndex(movers.size(), [&](std::uint32_t i) {
       const std::uint32_t v = movers[i];
       oldPosition[i] = mesh.position[v];
       oldNormal[i] = mesh.normal[v];
@@ -106,11 +101,9 @@ struct Spreader {
     for (std::uint32_t i = 0; i < movers.size(); ++i) suspects[i] = i;
     std::vector<std::uint8_t> reverted(movers.size(), 0);
     while (true) {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, suspects.size(), 512), [&](const auto& range) {
-        for (std::size_t k = range.begin(); k < range.end(); ++k) {
-          const std::uint32_t i = suspects[k];
-          undo[i] = !reverted[i] && worstFacing(mesh, movers[i]) < kFacing;
-        }
+      forEachIndex(suspects.size(), [&](std::uint32_t k) {
+        const std::uint32_t i = suspects[k];
+        undo[i] = !reverted[i] && worstFacing(mesh, movers[i]) < kFacing;
       });
       std::vector<std::uint32_t> left;
       bool any = false;

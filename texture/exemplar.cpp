@@ -3,6 +3,7 @@
 #include "texture/channels.h"
 #include "texture/read_image.h"
 #include "texture/search.h"
+#include "texture/srgb.h"
 
 #include <tbb/parallel_for.h>
 

@@ -3,7 +3,8 @@
 // the order of vertices does not matter.
 #include "texture/histogram.h"
 
-#include <tbb/blocked_range.h>
+#include "texture/parallel.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -12,25 +13,24 @@
 namespace fluidtex::texture {
 namespace {
 
-using Bins = std::array<int, kMaxChannels>;
-
 Bins binsOf(const HistogramTarget& target, const Float8& value) {
   const Float8 position = (value - target.low) * target.scale;
   Bins bins;
-  for (int c = 0; c < kMaxChannels; ++c) bins[c] = int(std::clamp(position[c], 0.0f, kHistogramBins - 0.5f));
+  for (int c = 0; c < kMaxChannels; ++c)
+    bins[c] = std::uint8_t(std::clamp(position[c], 0.0f, kHistogramBins - 0.5f));
   return bins;
 }
 
 // Counts in chunks of fixed size, so that sums are the same on any number of threads (they are whole numbers
 // besides).
-template <typename ValueAt>
-Histogram shares(const HistogramTarget& target, std::size_t count, int channels, const ValueAt& valueAt) {
+template <typename BinsAt>
+Histogram shares(std::size_t count, int channels, const BinsAt& binsAt) {
   constexpr std::size_t kChunk = 4096;
   using Counts = std::array<std::array<std::uint32_t, kHistogramBins>, kMaxChannels>;
   std::vector<Counts> partial((count + kChunk - 1) / kChunk, Counts{});
   tbb::parallel_for(std::size_t(0), partial.size(), [&](std::size_t chunk) {
     for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i) {
-      const Bins bins = binsOf(target, valueAt(i));
+      const Bins bins = binsAt(i);
       for (int c = 0; c < channels; ++c) ++partial[chunk][c][bins[c]];
     }
   });
@@ -57,16 +57,18 @@ HistogramTarget makeHistogramTarget(const TexelImage& image) {
   target.low = low;
   for (int c = 0; c < kMaxChannels; ++c)
     target.scale[c] = high[c] > low[c] ? float(kHistogramBins) / (high[c] - low[c]) : 0.0f;
+  target.bins.resize(image.data.size());
+  forEachIndex(target.bins.size(), [&](std::uint32_t i) { target.bins[i] = binsOf(target, image.data[i]); });
   const std::size_t width = std::size_t(image.width), count = width * std::size_t(image.height);
-  target.exemplar = shares(target, count, image.channels, [&](std::size_t i) {
-    return image.data[(i / width + std::size_t(image.margin)) * std::size_t(image.stride) + i % width +
-                      std::size_t(image.margin)];
+  target.exemplar = shares(count, image.channels, [&](std::size_t i) {
+    return target.bins[(i / width + std::size_t(image.margin)) * std::size_t(image.stride) + i % width +
+                       std::size_t(image.margin)];
   });
   return target;
 }
 
 Histogram histogramOf(const HistogramTarget& target, const Values& values, int channels) {
-  return shares(target, values.size(), channels, [&](std::size_t i) { return values[i]; });
+  return shares(values.size(), channels, [&](std::size_t i) { return binsOf(target, values[i]); });
 }
 
 std::vector<float> histogramWeights(const HistogramTarget& target, const Histogram& surface,
@@ -77,15 +79,12 @@ std::vector<float> histogramWeights(const HistogramTarget& target, const Histogr
       excess[c][b] = float(strength * kHistogramBins) *
                      std::max(0.0f, surface.share[c][b] - target.exemplar.share[c][b]);
   std::vector<float> weights(image.data.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, weights.size(), 4096),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                        const Bins bins = binsOf(target, image.data[i]);
-                        float sum = 1.0f;
-                        for (int c = 0; c < image.channels; ++c) sum += excess[c][bins[c]];
-                        weights[i] = 1.0f / sum;
-                      }
-                    });
+  forEachIndex(weights.size(), [&](std::uint32_t i) {
+    const Bins& bins = target.bins[i];
+    float sum = 1.0f;
+    for (int c = 0; c < image.channels; ++c) sum += excess[c][bins[c]];
+    weights[i] = 1.0f / sum;
+  });
   return weights;
 }
 

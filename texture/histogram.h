@@ -18,9 +18,13 @@ struct Histogram {
   std::array<std::array<float, kHistogramBins>, kMaxChannels> share{};
 };
 
+// The bin of each channel.
+using Bins = std::array<std::uint8_t, kMaxChannels>;
+
 struct HistogramTarget {
   Float8 low{}, scale{};  // bin = clamp((value - low) * scale)
   Histogram exemplar;
+  std::vector<Bins> bins;  // of every texel of image.data
 };
 
 HistogramTarget makeHistogramTarget(const TexelImage& image);

@@ -3,8 +3,9 @@
 // so that ambiguous faces are decided alike from both sides.
 #include "texture/isosurface.h"
 
+#include "texture/parallel.h"
+
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
@@ -326,17 +327,13 @@ IsoSurface isoSurface(const LevelSet& phi) {
 }
 
 double area(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles) {
-  return tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<std::size_t>(0, triangles.size(), 4096), 0.0,
-      [&](const auto& range, double sum) {
-        for (std::size_t t = range.begin(); t < range.end(); ++t) {
-          const openvdb::Vec3d a(positions[triangles[t][0]]), b(positions[triangles[t][1]]),
-              c(positions[triangles[t][2]]);
-          sum += 0.5 * (b - a).cross(c - a).length();
-        }
-        return sum;
-      },
-      [](double a, double b) { return a + b; });
+  constexpr std::size_t kTermsAtOnce = 4096;
+  const auto areaOf = [&](std::uint32_t t) {
+    const openvdb::Vec3d a(positions[triangles[t][0]]), b(positions[triangles[t][1]]),
+        c(positions[triangles[t][2]]);
+    return 0.5 * (b - a).cross(c - a).length();
+  };
+  return sumOf(triangles.size(), areaOf, kTermsAtOnce);
 }
 
 }  // namespace fluidtex::texture

@@ -1,10 +1,9 @@
 #include "texture/labels.h"
 
 #include "texture/complex.h"
+#include "texture/parallel.h"
+#include "texture/point_grid.h"
 #include "texture/random.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,14 +13,6 @@ namespace fluidtex::texture {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
-template <typename Body>
-void forEachVertex(std::size_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 512),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t v = range.begin(); v != range.end(); ++v) body(std::uint32_t(v));
-                    });
-}
 
 }  // namespace
 
@@ -43,7 +34,7 @@ Labels labelsOf(const SurfaceMesh& mesh, const std::vector<Vec2f>& coordinate,
                 const std::vector<TexelGradient>& gradient) {
   Labels labels(coordinate.size());
   const auto scale = float(mesh.spacing);
-  forEachVertex(labels.size(), [&](std::uint32_t v) {
+  forEachIndex(labels.size(), [&](std::uint32_t v) {
     const Vec3f &d = mesh.orientation[v], b = rowAxis(d, mesh.normals[v]);
     const TexelGradient& g = gradient[v];
     labels[v] = {coordinate[v],
@@ -61,7 +52,7 @@ TexelGradient gradientOf(const Label& label, const Vec3f& orientation, const Vec
 
 Values lookUp(const TexelImage& image, const Labels& labels) {
   Values values(labels.size());
-  forEachVertex(labels.size(), [&](std::uint32_t v) { values[v] = image.sample(labels[v].texel); });
+  forEachIndex(labels.size(), [&](std::uint32_t v) { values[v] = image.sample(labels[v].texel); });
   return values;
 }
 
@@ -114,20 +105,12 @@ Labels blockLabels(const MeshView& view, const TexelImage& image, float size, st
 
 Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const SurfaceMesh& fine,
                     const TexelImage& fineImage) {
-  // Coarse vertices sorted by cell of a grid; a fine vertex looks into the 27 cells around it, then farther.
+  // A fine vertex looks into the 27 cells around it, then farther.
   const double cell = 1.5 * coarse.spacing;
-  using Key = std::array<int, 3>;
-  const auto keyOf = [&](const Vec3f& x) {
-    return Key{int(std::floor(x[0] / cell)), int(std::floor(x[1] / cell)), int(std::floor(x[2] / cell))};
-  };
-  std::vector<std::pair<Key, std::uint32_t>> sorted(coarse.positions.size());
-  forEachVertex(sorted.size(), [&](std::uint32_t v) { sorted[v] = {keyOf(coarse.positions[v]), v}; });
-  std::sort(sorted.begin(), sorted.end());
-
+  const PointGrid grid(coarse.positions, cell);
   Labels result(fine.positions.size());
-  forEachVertex(result.size(), [&](std::uint32_t v) {
+  forEachIndex(result.size(), [&](std::uint32_t v) {
     const Vec3f& x = fine.positions[v];
-    const Key at = keyOf(x);
     std::uint32_t best = kNone;
     float bestDistance = std::numeric_limits<float>::max();
     const auto offer = [&](std::uint32_t u) {
@@ -135,13 +118,7 @@ Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const Surfa
       if (coarse.normals[u].dot(fine.normals[v]) < 0.3f) distance += float(9.0 * cell * cell);
       if (distance < bestDistance) bestDistance = distance, best = u;
     };
-    for (int i = -1; i <= 1; ++i) {
-      for (int j = -1; j <= 1; ++j) {  // cells of one column follow each other in the sorted order
-        const Key from{at[0] + i, at[1] + j, at[2] - 1}, to{at[0] + i, at[1] + j, at[2] + 2};
-        auto it = std::lower_bound(sorted.begin(), sorted.end(), std::make_pair(from, std::uint32_t(0)));
-        for (; it != sorted.end() && it->first < to; ++it) offer(it->second);
-      }
-    }
+    grid.visitNear(x, offer);
     if (best == kNone)  // a drop the coarser level has lost
       for (std::uint32_t u = 0; u < coarse.positions.size(); ++u) offer(u);
     if (best == kNone) return;

@@ -1,35 +1,16 @@
 #include "texture/mesh_stats.h"
 
+#include "texture/editable_mesh.h"
+
+#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace fluidtex::texture {
-namespace {
-
-int countComponents(std::size_t vertices, const std::vector<Vec3I>& triangles) {
-  std::vector<std::uint32_t> parent(vertices);
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  int components = static_cast<int>(vertices);
-  for (const auto& triangle : triangles)
-    for (int corner = 1; corner < 3; ++corner) {
-      const std::uint32_t a = root(triangle[0]), b = root(triangle[corner]);
-      if (a == b) continue;
-      parent[b] = a;
-      --components;
-    }
-  return components;
-}
-
-}  // namespace
-
 MeshStats meshStats(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles) {
   MeshStats stats;
   if (triangles.empty()) return stats;
-  stats.components = countComponents(positions.size(), triangles);
+  const std::vector<std::uint32_t> component = components(positions.size(), triangles);
+  for (std::uint32_t v = 0; v < component.size(); ++v) stats.components += component[v] == v;
   double sum = 0.0, squares = 0.0;
   for (const auto& triangle : triangles)
     for (int corner = 0; corner < 3; ++corner) {

@@ -3,6 +3,8 @@
 #include "texture/neighborhood.h"
 
 #include "texture/complex.h"
+#include "texture/parallel.h"
+#include "texture/random.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -48,8 +50,8 @@ class Flattener {
     Complexd turn;
   };
 
-  // Flattens all within `half` pixels of the centre. Afterwards placed() holds the piece and reach() how far it
-  // can be trusted.
+  // Flattens all within `half` pixels of the centre. Afterwards placed() holds the piece and reach() how far
+  // it can be trusted.
   void flatten(std::uint32_t center, double half) {
     m_half = half;
     place(center);
@@ -65,11 +67,7 @@ class Flattener {
   void rasterize(int window, PixelSource* pixels) const;
 
  private:
-  // What vertex v, whose neighbour over edge h lies at `neighbor`, would be: its position and turn. edge and
-  // rotation are v's.
-  struct Prediction {
-    Complexd turn, edge;
-  };
+  // The turn of a vertex as its neighbour over edge h has it; h is the vertex's own.
   Complexd turnThrough(const Placed& neighbor, std::uint32_t h) const {
     return product(neighbor.turn, std::conj(Complexd(m_view.connection.rotation[h])));
   }
@@ -211,13 +209,6 @@ void Flattener::rasterize(int window, PixelSource* pixels) const {
   });
 }
 
-std::uint64_t scramble(std::uint64_t x) {  // splitmix64's finaliser: a fixed permutation of 64-bit numbers
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
 void append(Neighborhoods& to, const Neighborhoods& more) {
   const std::uint32_t base = to.first.back();
   to.center.insert(to.center.end(), more.center.begin(), more.center.end());
@@ -239,7 +230,7 @@ std::vector<std::uint32_t> selectCenters(const MeshView& view, float radius,
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
   order.reserve(count);
   for (std::uint32_t v = 0; v < count; ++v)
-    if (wanted.empty() || wanted[v]) order.emplace_back(scramble(v), v);
+    if (wanted.empty() || wanted[v]) order.emplace_back(mix64(v), v);
   std::sort(order.begin(), order.end());
 
   std::vector<std::uint32_t> centers, queue;
@@ -264,8 +255,17 @@ std::vector<std::uint32_t> selectCenters(const MeshView& view, float radius,
   return centers;
 }
 
-Neighborhoods buildNeighborhoods(const MeshView& view, int window, std::vector<std::uint32_t> centers,
-                                 PixelNeighborhoods* pixels, double widest) {
+namespace {
+
+// One a thread; their arrays over all vertices are worth keeping from one call to the next.
+using Flatteners = tbb::enumerable_thread_specific<Flattener>;
+
+Flatteners makeFlatteners(const MeshView& view) {
+  return Flatteners([view] { return Flattener(view); });
+}
+
+Neighborhoods build(Flatteners& flatteners, int window, std::vector<std::uint32_t> centers,
+                    PixelNeighborhoods* pixels, double widest = std::numeric_limits<double>::infinity()) {
   if (window < 3 || window % 2 == 0)
     throw std::invalid_argument("the width of a window must be odd and at least 3");
   constexpr std::size_t kChunk = 64;
@@ -284,7 +284,6 @@ Neighborhoods buildNeighborhoods(const MeshView& view, int window, std::vector<s
     std::vector<Complexf> turn;
   };
   std::vector<Piece> pieces(chunks);
-  tbb::enumerable_thread_specific<Flattener> flatteners([&] { return Flattener(view); });
   tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t chunk) {
     Flattener& flattener = flatteners.local();
     Piece& piece = pieces[chunk];
@@ -318,10 +317,19 @@ Neighborhoods buildNeighborhoods(const MeshView& view, int window, std::vector<s
   return result;
 }
 
+}  // namespace
+
+Neighborhoods buildNeighborhoods(const MeshView& view, int window, std::vector<std::uint32_t> centers,
+                                 PixelNeighborhoods* pixels, double widest) {
+  Flatteners flatteners = makeFlatteners(view);
+  return build(flatteners, window, std::move(centers), pixels, widest);
+}
+
 Neighborhoods coverSurface(const MeshView& view, int window, const std::vector<std::uint8_t>& wanted,
                            PixelNeighborhoods* pixels) {
+  Flatteners flatteners = makeFlatteners(view);
   Neighborhoods result =
-      buildNeighborhoods(view, window, selectCenters(view, 0.25f * float(window), wanted), pixels);
+      build(flatteners, window, selectCenters(view, 0.25f * float(window), wanted), pixels);
   const std::size_t count = view.mesh.positions.size();
   // A shrunk neighbourhood may not reach all that its centre was to cover; the second radius makes every
   // vertex its own. Where those are needed nothing wide can be flattened, so that nothing wide is tried.
@@ -330,8 +338,8 @@ Neighborhoods coverSurface(const MeshView& view, int window, const std::vector<s
     for (const std::uint32_t v : result.vertex) open[v] = 0;
     if (std::find_if(open.begin(), open.end(), [](std::uint8_t o) { return o != 0; }) == open.end()) break;
     PixelNeighborhoods morePixels;
-    append(result, buildNeighborhoods(view, window, selectCenters(view, radius, open),
-                                      pixels ? &morePixels : nullptr, kFillerReach));
+    append(result, build(flatteners, window, selectCenters(view, radius, open),
+                         pixels ? &morePixels : nullptr, kFillerReach));
     if (pixels) pixels->insert(pixels->end(), morePixels.begin(), morePixels.end());
   }
   return result;

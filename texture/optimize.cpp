@@ -2,10 +2,7 @@
 
 #include "texture/complex.h"
 #include "texture/matches.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
+#include "texture/parallel.h"
 
 #include <algorithm>
 #include <cassert>
@@ -14,28 +11,6 @@
 
 namespace fluidtex::texture {
 namespace {
-
-constexpr std::size_t kGrain = 512;
-
-template <typename Body>
-void forEachVertex(std::size_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t v = range.begin(); v != range.end(); ++v) body(std::uint32_t(v));
-                    });
-}
-
-// A sum that is the same on any number of threads.
-template <typename Term>
-double sumOf(std::size_t count, const Term& term) {
-  return tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<std::size_t>(0, count, kGrain), 0.0,
-      [&](const tbb::blocked_range<std::size_t>& range, double sum) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) sum += double(term(i));
-        return sum;
-      },
-      std::plus<double>());
-}
 
 // phi of the header.
 struct RobustNorm {
@@ -101,7 +76,7 @@ void average(Run& run, double room) {
 
   Values plain = run.state.value, reweighed = reweigh ? run.state.value : Values{};
   std::vector<float> total(count, 0.0f);
-  forEachVertex(count, [&](std::uint32_t v) {
+  forEachIndex(count, [&](std::uint32_t v) {
     if (!run.free(v)) return;
     Float8 sum{}, weightedSum{};
     float weight = 0.0f, weightedWeight = 0.0f;
@@ -145,7 +120,7 @@ void average(Run& run, double room) {
   const double gain = 0.999 * (distanceFrom(run.state.value) + std::max(room, 0.0)),
                cost = distanceFrom(reweighed);
   const auto share = float(cost > gain ? std::sqrt(gain / cost) : 1.0);
-  forEachVertex(count, [&](std::uint32_t v) {
+  forEachIndex(count, [&](std::uint32_t v) {
     if (total[v] > 0.0f) run.state.value[v] = plain[v] + share * (reweighed[v] - plain[v]);
   });
 }
@@ -154,7 +129,7 @@ void average(Run& run, double room) {
 // centre.
 void copyCores(Run& run) {
   const auto core = float(run.options.core);
-  forEachVertex(run.state.value.size(), [&](std::uint32_t v) {
+  forEachIndex(run.state.value.size(), [&](std::uint32_t v) {
     if (!run.free(v)) return;
     float best = std::numeric_limits<float>::max();
     std::uint32_t chosen = 0;
@@ -209,7 +184,7 @@ EnergyTrace optimize(const Level& level, const Pass& pass, const SynthesisOption
     for (std::size_t v = 0; v < count; ++v) covered += run.byVertex.first[v + 1] > run.byVertex.first[v];
     const auto unit = float(together / double(std::max<std::size_t>(covered, 1)));
     run.held.resize(count);
-    forEachVertex(count, [&](std::uint32_t v) {
+    forEachIndex(count, [&](std::uint32_t v) {
       run.held[v] = run.free(v) ? unit * level.constraint.weight[v] : 0.0f;
     });
   }
@@ -231,7 +206,7 @@ std::vector<float> constraintWeights(const MeshView& view, const Values& value,
                                      const std::vector<float>& trust, double f) {
   const std::size_t count = value.size();
   std::vector<float> gradient(count);
-  forEachVertex(count, [&](std::uint32_t v) {
+  forEachIndex(count, [&](std::uint32_t v) {
     float sum = 0.0f;
     const auto around = view.graph.around(v);
     for (const std::uint32_t u : around) {
@@ -243,7 +218,7 @@ std::vector<float> constraintWeights(const MeshView& view, const Values& value,
   const double mean =
       sumOf(count, [&](std::size_t v) { return gradient[v]; }) / double(std::max<std::size_t>(count, 1));
   std::vector<float> weight(count);
-  forEachVertex(count, [&](std::uint32_t v) {
+  forEachIndex(count, [&](std::uint32_t v) {
     const double steep = mean > 0.0 ? std::min(3.0, gradient[v] / mean) : 0.0;
     weight[v] = float(f * (1.0 + steep)) * trust[v];
   });

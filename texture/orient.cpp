@@ -7,23 +7,18 @@
 #include "texture/orient.h"
 
 #include "texture/complex.h"
+#include "texture/parallel.h"
+#include "texture/point_grid.h"
 #include "texture/random.h"
 #include "texture/tangent.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 namespace fluidtex::texture {
 namespace {
 
-constexpr std::size_t kGrain = 1024;
 // A direction that is not believed at all still starts with this length, so that it decides where nothing
 // else does.
 constexpr float kLeastLength = 0.01f;
@@ -35,14 +30,6 @@ constexpr int kSweepsPerBurst = 10;
 // smoothest field.
 constexpr float kStartNoise = 1.0f;
 
-template <typename Body>
-void forEachVertex(std::size_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t v = range.begin(); v != range.end(); ++v) body(std::uint32_t(v));
-                    });
-}
-
 // A tangent field in progress: at each vertex the vector length * (re d + im b), d = axes[v], b = d x n. The
 // length says how much the direction is believed.
 struct Field {
@@ -50,15 +37,8 @@ struct Field {
   std::vector<Complexf> values;
 };
 
-// The part of x in the tangent plane, normalised; `otherwise` where nothing is left of it.
-Vec3f tangentUnit(const Vec3f& x, const Vec3f& n, const Vec3f& otherwise) {
-  const Vec3f projected = x - n * n.dot(x);
-  const float length = projected.length();
-  return length > 1e-6f ? projected / length : otherwise;
-}
-
 void normalise(std::vector<Complexf>& values) {
-  forEachVertex(values.size(), [&](std::uint32_t v) {
+  forEachIndex(values.size(), [&](std::uint32_t v) {
     const float length = std::abs(values[v]);
     values[v] = length > 1e-30f ? values[v] / length : Complexf(1.0f, 0.0f);
   });
@@ -80,7 +60,7 @@ void diffuse(const VertexGraph& graph, const Connection& connection, int sweeps,
              const std::vector<float>& pull, std::vector<Complexf>& values) {
   std::vector<Complexf> next(values.size());
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    forEachVertex(values.size(), [&](std::uint32_t v) {
+    forEachIndex(values.size(), [&](std::uint32_t v) {
       const Complexf mean = average(graph, connection, values, v);
       next[v] = pull.empty() ? mean : mean * (1.0f - pull[v]) + pull[v];
     });
@@ -89,15 +69,11 @@ void diffuse(const VertexGraph& graph, const Connection& connection, int sweeps,
 }
 
 double dot(const std::vector<Complexf>& a, const std::vector<Complexf>& b) {
-  return tbb::parallel_deterministic_reduce(
-      tbb::blocked_range<std::size_t>(0, a.size(), kGrain), 0.0,
-      [&](const tbb::blocked_range<std::size_t>& range, double sum) {
-        for (std::size_t v = range.begin(); v != range.end(); ++v) {
-          sum += double(a[v].real()) * b[v].real() + double(a[v].imag()) * b[v].imag();
-        }
-        return sum;
-      },
-      std::plus<>());
+  constexpr std::size_t kTermsAtOnce = 1024;
+  return sumOf(
+      a.size(),
+      [&](std::uint32_t v) { return double(a[v].real()) * b[v].real() + double(a[v].imag()) * b[v].imag(); },
+      kTermsAtOnce);
 }
 
 // values = L^-1 values, up to a factor, by conjugate gradients of so many sweeps at most. L is the
@@ -109,7 +85,7 @@ void invertLaplacian(const VertexGraph& graph, const Connection& connection, int
   constexpr double kSmallResidual = 1e-4;  // relative; the next solve goes on from here
   const std::size_t count = values.size();
   const auto laplacian = [&](const std::vector<Complexf>& x, std::vector<Complexf>& out) {
-    forEachVertex(count, [&](std::uint32_t v) {
+    forEachIndex(count, [&](std::uint32_t v) {
       const std::uint32_t begin = graph.first[v], end = graph.first[v + 1];
       Complexf sum = float(end - begin) * (1.0f + kShift) * x[v];
       for (std::uint32_t h = begin; h < end; ++h)
@@ -122,7 +98,7 @@ void invertLaplacian(const VertexGraph& graph, const Connection& connection, int
   const double whole = dot(values, values), energy = dot(x, image);
   if (!(energy > 0.0)) return;
   const auto guess = float(whole / energy);  // the best multiple of the values themselves
-  forEachVertex(count, [&](std::uint32_t v) {
+  forEachIndex(count, [&](std::uint32_t v) {
     x[v] *= guess;
     residual[v] = values[v] - guess * image[v];
   });
@@ -133,71 +109,26 @@ void invertLaplacian(const VertexGraph& graph, const Connection& connection, int
     const double curvature = dot(direction, image);
     if (!(curvature > 0.0)) break;
     const auto step = float(size / curvature);
-    forEachVertex(count, [&](std::uint32_t v) {
+    forEachIndex(count, [&](std::uint32_t v) {
       x[v] += step * direction[v];
       residual[v] -= step * image[v];
     });
     const double earlier = size;
     size = dot(residual, residual);
     const auto keep = float(size / earlier);
-    forEachVertex(count, [&](std::uint32_t v) { direction[v] = residual[v] + keep * direction[v]; });
+    forEachIndex(count, [&](std::uint32_t v) { direction[v] = residual[v] + keep * direction[v]; });
   }
   values.swap(x);
 }
 
 void writeOrientation(const Field& field, SurfaceMesh& mesh) {
   mesh.orientation.resize(mesh.positions.size());
-  forEachVertex(mesh.positions.size(), [&](std::uint32_t v) {
+  forEachIndex(mesh.positions.size(), [&](std::uint32_t v) {
     const Vec3f &d = field.axes[v], &n = mesh.normals[v];
     const Complexf& x = field.values[v];
     mesh.orientation[v] =
         tangentUnit((d * x.real() + rowAxis(d, n) * x.imag()) / std::max(std::abs(x), 1e-30f), n, d);
   });
-}
-
-// Points sorted into cubes, for looking up those near a position.
-class PointGrid {
- public:
-  PointGrid(const std::vector<Vec3f>& points, double cellSize) : m_scale(1.0 / cellSize) {
-    m_entries.resize(points.size());
-    forEachVertex(points.size(), [&](std::uint32_t i) { m_entries[i] = {cellOf(points[i]), i}; });
-    std::sort(m_entries.begin(), m_entries.end());
-  }
-
-  // Calls visit(index) for every point in the 3x3x3 cells around x, in an order that depends on the points
-  // alone.
-  template <typename Visit>
-  void visitNear(const Vec3f& x, const Visit& visit) const {
-    const Cell c = cellOf(x);
-    for (int i = c[0] - 1; i <= c[0] + 1; ++i) {
-      for (int j = c[1] - 1; j <= c[1] + 1; ++j) {
-        auto entry = std::lower_bound(m_entries.begin(), m_entries.end(), Entry{{i, j, c[2] - 1}, 0});
-        for (; entry != m_entries.end() && entry->cell <= Cell{i, j, c[2] + 1}; ++entry) visit(entry->index);
-      }
-    }
-  }
-
- private:
-  using Cell = std::array<int, 3>;
-  struct Entry {
-    Cell cell{};
-    std::uint32_t index = 0;
-    auto operator<=>(const Entry&) const = default;
-  };
-
-  Cell cellOf(const Vec3f& x) const {
-    return {int(std::floor(x.x() * m_scale)), int(std::floor(x.y() * m_scale)),
-            int(std::floor(x.z() * m_scale))};
-  }
-
-  double m_scale;
-  std::vector<Entry> m_entries;
-};
-
-// x, tangent at normal `from`, turned into the tangent plane at `to` about their common perpendicular; from .
-// to > -1.
-Vec3f turnedTangent(const Vec3f& x, const Vec3f& from, const Vec3f& to) {
-  return x - (from + to) * (to.dot(x) / (1.0f + from.dot(to)));
 }
 
 // The field of one level as seen from the vertices of another: a mean over the near vertices whose normals
@@ -208,7 +139,7 @@ Field handOver(const SurfaceMesh& from, const SurfaceMesh& to) {
   const PointGrid grid(from.positions, reach);
   Field field{referenceVectors(to.normals), std::vector<Complexf>(to.positions.size())};
   const auto reach2 = float(reach * reach);
-  forEachVertex(to.positions.size(), [&](std::uint32_t v) {
+  forEachIndex(to.positions.size(), [&](std::uint32_t v) {
     const Vec3f &x = to.positions[v], &n = to.normals[v];
     Vec3f sum(0.0f);
     float weights = 0.0f;
@@ -238,7 +169,7 @@ void orientCoarsest(SurfaceMesh& mesh, int sweeps) {
   const VertexGraph graph = buildVertexGraph(mesh);
   Field field{referenceVectors(mesh.normals), std::vector<Complexf>(mesh.positions.size())};
   const Connection connection = buildConnection(mesh, graph, field.axes);
-  forEachVertex(field.values.size(), [&](std::uint32_t v) {
+  forEachIndex(field.values.size(), [&](std::uint32_t v) {
     const double re = 2.0 * randomUnit(0, 2ull * v) - 1.0, im = 2.0 * randomUnit(0, 2ull * v + 1) - 1.0;
     field.values[v] = Complexf(1.0f, 0.0f) + kStartNoise * Complexf(float(re), float(im));
   });
@@ -260,7 +191,7 @@ void orientCarried(SurfaceMesh& mesh, const Carried& carried, const OrientOption
   const std::size_t count = mesh.positions.size();
   Field field{referenceVectors(mesh.normals), std::vector<Complexf>(count)};
   std::vector<float> pull(count);
-  forEachVertex(count, [&](std::uint32_t v) {
+  forEachIndex(count, [&](std::uint32_t v) {
     const float trust = std::clamp(carried.trust[v], 0.0f, 1.0f);
     field.axes[v] = tangentUnit(carried.orientation[v], mesh.normals[v], field.axes[v]);
     field.values[v] = std::max(trust, kLeastLength);
@@ -291,7 +222,7 @@ std::vector<int> singularities(const SurfaceMesh& mesh) {
   const VertexGraph graph = buildVertexGraph(mesh);
   const Connection connection = buildConnection(mesh, graph, mesh.orientation);
   std::vector<int> indices(mesh.triangles.size());
-  forEachVertex(mesh.triangles.size(), [&](std::uint32_t t) {
+  forEachIndex(mesh.triangles.size(), [&](std::uint32_t t) {
     // Against the field as axes, each edge's rotation is the turn of the field along it; what is left of
     // their sum once the curvature of the triangle is taken off is a number of full turns.
     Complexf around(1.0f, 0.0f);

@@ -2,21 +2,17 @@
 // hash.
 #include "texture/points.h"
 
+#include "texture/parallel.h"
+#include "texture/point_grid.h"
+#include "texture/random.h"
+
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace fluidtex::texture {
 namespace {
-
-// A hash of a counter (SplitMix64's finaliser): the same random number for the same key, in any order, on any
-// thread.
-std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ULL;
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebULL;
-  return x ^ x >> 31;
-}
 
 float unit(std::uint64_t random) {
   return float(random >> 40) * 0x1p-24f;
@@ -58,13 +54,7 @@ class GrowingGrid {
     std::uint32_t index, next;
   };
   int index3(float x) const { return int(std::floor(x * m_inverse)); }
-  std::size_t slot(int x, int y, int z) const {
-    std::uint64_t h = std::uint64_t(std::uint32_t(x)) * 0x9e3779b1u ^
-                      std::uint64_t(std::uint32_t(y)) * 0x85ebca77u ^
-                      std::uint64_t(std::uint32_t(z)) * 0xc2b2ae3du;
-    h *= 0x9e3779b97f4a7c15ULL;
-    return std::size_t(h >> 32) & (m_head.size() - 1);
-  }
+  std::size_t slot(int x, int y, int z) const { return cellHash({x, y, z}) & (m_head.size() - 1); }
   template <class Hit>
   bool cellHas(std::size_t s, const Vec3f& p, float radius, const Hit& hit) const {
     for (std::uint32_t i = m_head[s]; i != kNone; i = m_items[i].next) {
@@ -76,6 +66,33 @@ class GrowingGrid {
   std::vector<std::uint32_t> m_head;
   std::vector<Item> m_items;
 };
+
+struct Dart {
+  Vec3f position, normal;
+};
+
+// Calls offer(position, normal) for random points of triangle t, keyed by its cell and its number there.
+template <class Offer>
+void throwDarts(const IsoSurface& surface, std::size_t t, std::uint64_t key, float perArea,
+                const Offer& offer) {
+  const openvdb::Coord& cell = surface.cells[t];
+  std::uint64_t ordinal = 0;
+  while (ordinal < t && surface.cells[t - std::size_t(ordinal) - 1] == cell) ++ordinal;
+  const std::uint64_t triangleKey = mix64(
+      mix64(mix64(mix64(key ^ std::uint32_t(cell.x())) ^ std::uint32_t(cell.y())) ^ std::uint32_t(cell.z())) ^
+      ordinal);
+  const Vec3f& a = surface.positions[surface.triangles[t][0]];
+  const Vec3f ab = surface.positions[surface.triangles[t][1]] - a,
+              ac = surface.positions[surface.triangles[t][2]] - a;
+  const Vec3f normal = ab.cross(ac);
+  const float length = normal.length();
+  const int darts = int(0.5f * length * perArea + unit(triangleKey));
+  for (int d = 0; d < darts; ++d) {
+    const std::uint64_t random = mix64(triangleKey + std::uint64_t(d) + 1);
+    const float r = std::sqrt(unit(random)), s = unit(random << 24);
+    offer(a + ab * (r * (1.0f - s)) + ac * (r * s), normal / length);
+  }
+}
 
 }  // namespace
 
@@ -99,47 +116,40 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
   points.position.reserve(expected + expected / 8 + 16);
   points.normal.reserve(points.position.capacity());
   GrowingGrid grid(dartRadius, expected);
+  const auto taken = [&](const Vec3f& p, const Vec3f& n, float radius) {
+    return grid.anyWithin(p, radius, [&](std::uint32_t i) { return points.normal[i].dot(n) > kSameSide; });
+  };
   const auto place = [&](const Vec3f& p, const Vec3f& n, float radius) {
-    const bool taken =
-        grid.anyWithin(p, radius, [&](std::uint32_t i) { return points.normal[i].dot(n) > kSameSide; });
-    if (taken) return;
+    if (taken(p, n, radius)) return;
     grid.insert(p, std::uint32_t(points.position.size()));
     points.position.push_back(p);
     points.normal.push_back(n);
   };
 
   std::vector<LevelSet::Projection> projected(seeds.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seeds.size(), 1024), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      if (!std::isfinite(seeds[i].lengthSqr())) continue;
-      projected[i] = phi.project(seeds[i], kReach);
-      if ((projected[i].position - seeds[i]).lengthSqr() < kStill * kStill) projected[i].position = seeds[i];
-    }
+  forEachIndex(seeds.size(), [&](std::uint32_t i) {
+    if (!std::isfinite(seeds[i].lengthSqr())) return;
+    projected[i] = phi.project(seeds[i], kReach);
+    if ((projected[i].position - seeds[i]).lengthSqr() < kStill * kStill) projected[i].position = seeds[i];
   });
   for (const LevelSet::Projection& p : projected) {
     if (p.known && p.distance < kSnapped) place(p.position, p.normal, kSeedDistance * spacing);
   }
 
+  // Darts that a seed keeps out are dropped in parallel: mostly that is all of them. The others are placed
+  // one after the other.
+  constexpr std::size_t kChunk = 512;  // triangles
   const float perArea = kDartsPerPoint / (spacing * spacing);
-  std::uint64_t ordinal = 0;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    ordinal = t > 0 && surface.cells[t] == surface.cells[t - 1] ? ordinal + 1 : 0;
-    const openvdb::Coord& cell = surface.cells[t];
-    const std::uint64_t triangleKey =
-        mix(mix(mix(mix(key ^ std::uint32_t(cell.x())) ^ std::uint32_t(cell.y())) ^ std::uint32_t(cell.z())) ^
-            ordinal);
-    const Vec3f& a = surface.positions[surface.triangles[t][0]];
-    const Vec3f ab = surface.positions[surface.triangles[t][1]] - a,
-                ac = surface.positions[surface.triangles[t][2]] - a;
-    const Vec3f normal = ab.cross(ac);
-    const float length = normal.length();
-    const int darts = int(0.5f * length * perArea + unit(triangleKey));
-    for (int d = 0; d < darts; ++d) {
-      const std::uint64_t random = mix(triangleKey + std::uint64_t(d) + 1);
-      const float r = std::sqrt(unit(random)), s = unit(random << 24);
-      place(a + ab * (r * (1.0f - s)) + ac * (r * s), normal / length, dartRadius);
-    }
-  }
+  const std::size_t count = surface.triangles.size();
+  std::vector<std::vector<Dart>> darts((count + kChunk - 1) / kChunk);
+  tbb::parallel_for(std::size_t(0), darts.size(), [&](std::size_t chunk) {
+    for (std::size_t t = chunk * kChunk; t < std::min(count, (chunk + 1) * kChunk); ++t)
+      throwDarts(surface, t, key, perArea, [&](const Vec3f& p, const Vec3f& n) {
+        if (seeds.empty() || !taken(p, n, dartRadius)) darts[chunk].push_back({p, n});
+      });
+  });
+  for (const std::vector<Dart>& thrown : darts)
+    for (const Dart& dart : thrown) place(dart.position, dart.normal, dartRadius);
   return points;
 }
 

@@ -6,8 +6,9 @@
 namespace fluidtex::texture {
 
 struct PointSet {
-  std::vector<Vec3f> position;  // index space, on the zero set
-  std::vector<Vec3f> normal;    // unit, outward
+  // Index space: seeds on the zero set, fresh points on the flat triangles of the iso-surface.
+  std::vector<Vec3f> position;
+  std::vector<Vec3f> normal;  // unit, outward
 };
 
 // `seeds` (index space; near the zero set) brought onto the surface, without those nearer than half a spacing

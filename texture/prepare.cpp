@@ -4,10 +4,9 @@
 
 #include "texture/connect.h"
 #include "texture/isosurface.h"
+#include "texture/parallel.h"
 #include "texture/points.h"
 #include "texture/remesh.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cassert>
@@ -48,15 +47,13 @@ SurfaceMesh toWorld(const EditableMesh& mesh, const openvdb::math::Transform& tr
   result.spacing = spacing;
   result.positions.resize(mesh.vertexCount());
   result.normals.resize(mesh.vertexCount());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.vertexCount(), 2048), [&](const auto& range) {
-    for (std::size_t v = range.begin(); v < range.end(); ++v) {
-      result.positions[v] = Vec3f(transform.indexToWorld(openvdb::Vec3d(mesh.position[v])));
-      const bool known = mesh.normal[v].lengthSqr() > 0.5f;
-      const Vec3f normal = known ? mesh.normal[v] : normalOfTriangles(mesh, std::uint32_t(v));
-      openvdb::Vec3d n = transform.baseMap()->applyIJT(openvdb::Vec3d(normal));
-      n.normalize();
-      result.normals[v] = Vec3f(n);
-    }
+  forEachIndex(mesh.vertexCount(), [&](std::uint32_t v) {
+    result.positions[v] = Vec3f(transform.indexToWorld(openvdb::Vec3d(mesh.position[v])));
+    const bool known = mesh.normal[v].lengthSqr() > 0.5f;
+    const Vec3f normal = known ? mesh.normal[v] : normalOfTriangles(mesh, v);
+    openvdb::Vec3d n = transform.baseMap()->applyIJT(openvdb::Vec3d(normal));
+    n.normalize();
+    result.normals[v] = Vec3f(n);
   });
   result.triangles = trianglesOf(mesh);
   return result;

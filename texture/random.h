@@ -6,17 +6,17 @@
 
 namespace fluidtex::texture {
 
-// All bits of the result depend on all bits of both arguments (the finaliser of splitmix64 [Steele14],
-// twice).
+// All bits of the result depend on all bits of the argument (the finaliser of splitmix64 [Steele14]): a fixed
+// permutation of the numbers.
+constexpr std::uint64_t mix64(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
 constexpr std::uint64_t randomBits(std::uint64_t seed, std::uint64_t counter) {
-  std::uint64_t x = seed;
-  for (int round = 0; round < 2; ++round) {
-    x += 0x9e3779b97f4a7c15u + (round == 0 ? counter : 0u);
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    x ^= x >> 31;
-  }
-  return x;
+  return mix64(mix64(seed + counter));
 }
 
 // In [0, 1).

@@ -1,6 +1,6 @@
 #include "texture/read_image.h"
 
-#include "texture/channels.h"
+#include "texture/srgb.h"
 
 #include <OpenImageIO/imageio.h>
 #include <tbb/parallel_for.h>

@@ -1,10 +1,8 @@
 #include "texture/renewal.h"
 
 #include "texture/complex.h"
+#include "texture/parallel.h"
 #include "texture/random.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,14 +18,6 @@ constexpr float kRestSeconds = 0.4f;    // ten frames of a film: as long as the 
 constexpr float kYoungPatience = 1.2f;  // new texture must be this much worse again before it is renewed
 constexpr float kLeastGain = 0.05f;     // a piece is renewed if its badness falls by this on average
 constexpr int kBlurSweeps = 8;          // badness is averaged over about this many edges' reach in all
-
-template <typename Body>
-void forEachVertex(std::size_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 512),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t v = range.begin(); v != range.end(); ++v) body(std::uint32_t(v));
-                    });
-}
 
 bool lost(const TexelImage& image, const Label& label, float trust) {
   if (trust < kLowTrust) return true;
@@ -58,7 +48,7 @@ float noiseAt(const Vec2f& texel, std::uint64_t seed) {
 
 std::vector<float> badness(const SeamModel& model, const Labels& labels, const std::vector<float>& trust) {
   std::vector<float> result = seamCosts(model, labels);
-  forEachVertex(result.size(), [&](std::uint32_t v) {
+  forEachIndex(result.size(), [&](std::uint32_t v) {
     result[v] = kSeamWeight * result[v] + stretchBadness(model.image, labels[v], trust[v]);
   });
   return result;
@@ -69,7 +59,7 @@ std::vector<std::uint8_t> worthRenewing(const SeamModel& model, const Labels& la
                                         double keepStretch, std::uint64_t seed) {
   std::vector<float> bad = badness(model, labels, trust), blurred(bad.size());
   for (int sweep = 0; sweep < kBlurSweeps; ++sweep) {
-    forEachVertex(bad.size(), [&](std::uint32_t v) {
+    forEachIndex(bad.size(), [&](std::uint32_t v) {
       float sum = bad[v];
       const auto around = model.view.graph.around(v);
       for (const std::uint32_t u : around) sum += bad[u];
@@ -79,7 +69,7 @@ std::vector<std::uint8_t> worthRenewing(const SeamModel& model, const Labels& la
   }
   const auto kept = float(std::log(keepStretch));
   std::vector<std::uint8_t> result(labels.size());
-  forEachVertex(labels.size(), [&](std::uint32_t v) {
+  forEachIndex(labels.size(), [&](std::uint32_t v) {
     const float young = std::max(0.0f, 1.0f - age[v] / kRestSeconds);
     const float threshold = kept * (0.8f + 0.4f * noiseAt(labels[v].texel, seed));
     result[v] = bad[v] > threshold * (1.0f + kYoungPatience * young);
@@ -90,7 +80,7 @@ std::vector<std::uint8_t> worthRenewing(const SeamModel& model, const Labels& la
 std::vector<std::uint8_t> grown(const VertexGraph& graph, std::vector<std::uint8_t> mask, int rings) {
   for (int ring = 0; ring < rings; ++ring) {
     std::vector<std::uint8_t> next = mask;
-    forEachVertex(mask.size(), [&](std::uint32_t v) {
+    forEachIndex(mask.size(), [&](std::uint32_t v) {
       for (const std::uint32_t u : graph.around(v))
         if (mask[u]) next[v] = 1;
     });
@@ -104,7 +94,7 @@ Labels settle(const SeamModel& model, const Labels& carried, const Labels& propo
   const std::size_t count = carried.size();
   Labels result = carried;
   renewed.assign(count, 0);
-  forEachVertex(count, [&](std::uint32_t v) {
+  forEachIndex(count, [&](std::uint32_t v) {
     const Vec2f difference = texelDifference(model.image, proposed[v].texel, carried[v].texel);
     if (difference.lengthSqr() <= kSameTexel * kSameTexel &&
         stretch(carried[v]) <= stretch(proposed[v]) + 0.05f)
@@ -119,7 +109,7 @@ Labels settle(const SeamModel& model, const Labels& carried, const Labels& propo
   // What renewing a vertex changes: its own badness, and its share of that of neighbours that stay.
   const VertexGraph& graph = model.view.graph;
   std::vector<float> change(count, 0.0f);
-  forEachVertex(count, [&](std::uint32_t v) {
+  forEachIndex(count, [&](std::uint32_t v) {
     if (!renewed[v]) return;
     change[v] = after[v] - before[v];
     for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {

@@ -3,9 +3,7 @@
 #include "texture/seams.h"
 
 #include "texture/complex.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "texture/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +11,8 @@
 namespace fluidtex::texture {
 namespace {
 
-template <typename Body>
-void forEach(std::size_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 256),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t i = range.begin(); i != range.end(); ++i) body(std::uint32_t(i));
-                    });
-}
+// A vertex's own cost is taken for a dozen labels.
+constexpr std::size_t kSeamGrain = 128;
 
 float length(const Float8& difference, const Float8& weight) {
   return std::sqrt(sum8(weight * difference * difference));
@@ -56,8 +49,12 @@ std::vector<std::vector<std::uint32_t>> colored(const VertexGraph& graph,
 
 }  // namespace
 
+float seamUnit(const TexelImage& image, const Float8& channelWeight) {
+  return std::max(randomDifference(image, channelWeight), 1e-6f);
+}
+
 SeamModel makeSeamModel(const MeshView& view, const TexelImage& image, const Float8& channelWeight) {
-  return {view, image, channelWeight, std::max(randomDifference(image, channelWeight), 1e-6f)};
+  return {view, image, channelWeight, seamUnit(image, channelWeight)};
 }
 
 float seamCost(const SeamModel& model, const Label& atV, const Label& atU, std::uint32_t h) {
@@ -76,7 +73,7 @@ float seamCost(const SeamModel& model, const Label& atV, const Label& atU, std::
 std::vector<float> seamCosts(const SeamModel& model, const Labels& labels) {
   const VertexGraph& graph = model.view.graph;
   std::vector<float> costs(labels.size());
-  forEach(labels.size(), [&](std::uint32_t v) {
+  forEachIndex(labels.size(), [&](std::uint32_t v) {
     float sum = 0.0f;
     for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h)
       sum += seamCost(model, labels[v], labels[graph.neighbor[h]], h);
@@ -94,39 +91,43 @@ void straightenSeams(const SeamModel& model, const LabelTerms& terms, const std:
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     std::vector<std::uint8_t> changed(labels.size(), 0);
     for (const std::vector<std::uint32_t>& members : classes) {
-      forEach(members.size(), [&](std::uint32_t i) {
-        const std::uint32_t v = members[i];
-        if (!active[v]) return;
-        const std::uint32_t begin = graph.first[v], end = graph.first[v + 1];
-        const auto costOf = [&](const Label& label, float bound) {
-          float cost = ownCost(model, terms, label, v);
-          for (std::uint32_t h = begin; h < end && cost < bound; ++h)
-            cost += seamCost(model, label, labels[graph.neighbor[h]], h);
-          return cost;
-        };
-        constexpr float kAny = 1e30f;
-        constexpr float kGain = 1e-4f;  // less is rounding
-        const float present = costOf(labels[v], kAny);
-        float least = present;
-        Label best = labels[v];
-        const auto offer = [&](const Label& label) {
-          if (texelDifference(model.image, label.texel, best.texel).lengthSqr() < 0.04f) return;
-          const float cost = costOf(label, least);
-          if (cost < least - kGain) least = cost, best = label;
-        };
-        for (std::uint32_t h = begin; h < end; ++h) {
-          const Label& other = labels[graph.neighbor[h]];
-          const Label here =
-              continued(model.image, other, model.view.connection.edge[h], model.view.connection.rotation[h]);
-          if (texelDifference(model.image, here.texel, labels[v].texel).lengthSqr() > kCoherent * kCoherent)
-            offer(here);
-        }
-        if (alternative) offer((*alternative)[v]);
-        if (least < present) {
-          labels[v] = best;
-          changed[v] = 1;
-        }
-      });
+      forEachIndex(
+          members.size(),
+          [&](std::uint32_t i) {
+            const std::uint32_t v = members[i];
+            if (!active[v]) return;
+            const std::uint32_t begin = graph.first[v], end = graph.first[v + 1];
+            const auto costOf = [&](const Label& label, float bound) {
+              float cost = ownCost(model, terms, label, v);
+              for (std::uint32_t h = begin; h < end && cost < bound; ++h)
+                cost += seamCost(model, label, labels[graph.neighbor[h]], h);
+              return cost;
+            };
+            constexpr float kAny = 1e30f;
+            constexpr float kGain = 1e-4f;  // less is rounding
+            const float present = costOf(labels[v], kAny);
+            float least = present;
+            Label best = labels[v];
+            const auto offer = [&](const Label& label) {
+              if (texelDifference(model.image, label.texel, best.texel).lengthSqr() < 0.04f) return;
+              const float cost = costOf(label, least);
+              if (cost < least - kGain) least = cost, best = label;
+            };
+            for (std::uint32_t h = begin; h < end; ++h) {
+              const Label& other = labels[graph.neighbor[h]];
+              const Label here = continued(model.image, other, model.view.connection.edge[h],
+                                           model.view.connection.rotation[h]);
+              if (texelDifference(model.image, here.texel, labels[v].texel).lengthSqr() >
+                  kCoherent * kCoherent)
+                offer(here);
+            }
+            if (alternative) offer((*alternative)[v]);
+            if (least < present) {
+              labels[v] = best;
+              changed[v] = 1;
+            }
+          },
+          kSeamGrain);
     }
     std::fill(active.begin(), active.end(), 0);
     bool any = false;

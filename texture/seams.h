@@ -15,6 +15,8 @@ struct SeamModel {
   Float8 channelWeight{};  // of squared differences
   float unit = 1.0f;       // the difference of random texels: costs are in these units
 };
+// The unit of an exemplar: a scan of the image, to be kept where it is asked for again.
+float seamUnit(const TexelImage& image, const Float8& channelWeight);
 SeamModel makeSeamModel(const MeshView& view, const TexelImage& image, const Float8& channelWeight);
 
 // Cost of edge h, from v to u, between two labels: zero where they continue each other, else kSeamLength +

@@ -1,13 +1,11 @@
 // The passes of a frame: which levels, windows and starts, and what is made of the result.
 #include "texture/synthesize.h"
 
-#include "texture/channels.h"
 #include "texture/optimize.h"
+#include "texture/parallel.h"
 #include "texture/random.h"
 #include "texture/renewal.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "texture/srgb.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +19,7 @@ struct SearchTables {
   // By level.
   std::vector<TexelImage> image;
   std::vector<HistogramTarget> histogram;
+  std::vector<float> seamUnit;
   // By level and window.
   std::map<std::pair<int, int>, SearchTable> table;
 };
@@ -39,14 +38,6 @@ constexpr float kStretchCost = 1.0f;
 constexpr int kSeamSweeps = 8;
 
 using Progress = std::function<void(double)>;
-
-template <typename Body>
-void forEachVertex(std::size_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 512),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t v = range.begin(); v != range.end(); ++v) body(std::uint32_t(v));
-                    });
-}
 
 // A level's mesh with graph and connection.
 struct PreparedMesh {
@@ -103,6 +94,11 @@ Float8 seamChannels(const Synthesizer& synthesizer) {
       synthesizer.options.gradientWeight > 0.0 && channels > synthesizer.exemplar.colorChannels;
   for (int c = 0; c < channels - (gradient ? 1 : 0); ++c) weight[c] = 1.0f;
   return weight;
+}
+
+SeamModel seamModel(const Synthesizer& synthesizer, const MeshView& view, std::size_t level) {
+  const SearchTables& tables = *synthesizer.tables;
+  return {view, tables.image[level], seamChannels(synthesizer), tables.seamUnit[level]};
 }
 
 Float8 encoded(const Vec4f& color, int channels) {
@@ -172,8 +168,8 @@ State synthesizeFirst(Synthesizer& synthesizer, const Surface& surface, int fram
               });
     done += share;
     if (synthesizer.options.method == Method::coordinates)
-      straightenSeams(makeSeamModel(level.view, image, seamChannels(synthesizer)),
-                      {kStretchCost, kFirstData, &state.average}, {}, nullptr, kSeamSweeps, state.labels);
+      straightenSeams(seamModel(synthesizer, level.view, index), {kStretchCost, kFirstData, &state.average},
+                      {}, nullptr, kSeamSweeps, state.labels);
   }
   return state;
 }
@@ -183,7 +179,7 @@ State synthesizeLater(Synthesizer& synthesizer, const MeshView& view, const Carr
                       std::vector<std::uint8_t>& renewed, SynthesisStats& stats, const Progress& progress) {
   const SynthesisOptions& options = synthesizer.options;
   const TexelImage& image = synthesizer.tables->image.front();
-  const SeamModel seams = makeSeamModel(view, image, seamChannels(synthesizer));
+  const SeamModel seams = seamModel(synthesizer, view, 0);
   const Labels before = labelsOf(view.mesh, carried.coordinate, carried.gradient);
   renewed.assign(before.size(), 0);
 
@@ -211,8 +207,8 @@ State synthesizeColors(Synthesizer& synthesizer, const MeshView& view, const Car
   State state;
   const int channels = synthesizer.exemplar.colorChannels;
   state.value.resize(carried.color.size());
-  forEachVertex(state.value.size(),
-                [&](std::uint32_t v) { state.value[v] = encoded(carried.color[v], channels); });
+  forEachIndex(state.value.size(),
+               [&](std::uint32_t v) { state.value[v] = encoded(carried.color[v], channels); });
   Level level{view, synthesizer.tables->image.front(), synthesizer.tables->histogram.front(), {}, {}};
   level.constraint.value = state.value;
   level.constraint.weight =
@@ -253,6 +249,8 @@ Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options) 
     synthesizer.tables->image.push_back(
         makeTexelImage(image, synthesizer.exemplar.toroidal, largest / 2 + 3));
     synthesizer.tables->histogram.push_back(makeHistogramTarget(synthesizer.tables->image.back()));
+    synthesizer.tables->seamUnit.push_back(
+        seamUnit(synthesizer.tables->image.back(), seamChannels(synthesizer)));
   }
   if (windowsOf(synthesizer, 0).empty())
     throw std::invalid_argument("makeSynthesizer: no window fits the exemplar");
@@ -288,7 +286,7 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
   result.gradient.resize(count);
   result.age.assign(count, 0.0f);
   const TexelImage& image = synthesizer.tables->image.front();
-  forEachVertex(count, [&](std::uint32_t v) {
+  forEachIndex(count, [&](std::uint32_t v) {
     const Label& label = state.labels[v];
     const bool kept = !renewed[v];
     result.coordinate[v] = kept ? image.brought(carried.coordinate[v]) : label.texel;

@@ -3,6 +3,7 @@
 #include "texture/tangent.h"
 
 #include "texture/complex.h"
+#include "texture/parallel.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -15,17 +16,6 @@
 
 namespace fluidtex::texture {
 namespace {
-
-// Grain of the loops over vertices; a vertex costs well under a microsecond.
-constexpr std::size_t kGrain = 512;
-
-template <typename Body>
-void forEachVertex(std::size_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t v = range.begin(); v != range.end(); ++v) body(std::uint32_t(v));
-                    });
-}
 
 [[noreturn]] void throwNotManifold(std::size_t v) {
   throw std::invalid_argument("mesh is not closed and manifold at vertex " + std::to_string(v));
@@ -120,7 +110,7 @@ VertexGraph buildVertexGraph(const SurfaceMesh& mesh) {
 
   graph.neighbor.resize(corners.size());
   std::vector<std::uint8_t> faulty(vertexCount, 0);
-  forEachVertex(vertexCount, [&](std::uint32_t v) {
+  forEachIndex(vertexCount, [&](std::uint32_t v) {
     const std::span<Corner> ring(corners.data() + graph.first[v], corners.data() + graph.first[v + 1]);
     if (!chain(ring)) faulty[v] = 1;
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -152,7 +142,7 @@ Connection buildConnection(const SurfaceMesh& mesh, const VertexGraph& graph,
                       }
                     });
 
-  forEachVertex(vertexCount, [&](std::uint32_t v) {
+  forEachIndex(vertexCount, [&](std::uint32_t v) {
     for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
       const std::uint32_t u = graph.neighbor[h];
       std::uint32_t back = graph.first[u];
@@ -165,7 +155,7 @@ Connection buildConnection(const SurfaceMesh& mesh, const VertexGraph& graph,
   });
 
   const auto scale = float(1.0 / mesh.spacing);
-  forEachVertex(vertexCount, [&](std::uint32_t v) {
+  forEachIndex(vertexCount, [&](std::uint32_t v) {
     for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
       const float length = (mesh.positions[graph.neighbor[h]] - mesh.positions[v]).length();
       connection.edge[h] *= length * scale;
@@ -178,7 +168,7 @@ std::vector<Vec3f> referenceVectors(const std::vector<Vec3f>& normals) {
   // cos 25 degrees: the projection of the first axis is at least 0.42 long wherever it is used.
   constexpr float kNearlyNormal = 0.906f;
   std::vector<Vec3f> axes(normals.size());
-  forEachVertex(normals.size(), [&](std::uint32_t v) {
+  forEachIndex(normals.size(), [&](std::uint32_t v) {
     const Vec3f& n = normals[v];
     const Vec3f world = std::abs(n.x()) < kNearlyNormal ? Vec3f(1, 0, 0) : Vec3f(0, 1, 0);
     Vec3f axis = world - n * n.dot(world);

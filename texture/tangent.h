@@ -11,6 +11,19 @@ namespace fluidtex::texture {
 
 using Complexf = std::complex<float>;
 
+// The part of x in the plane of normal n, normalised; `otherwise` where nothing is left of it.
+inline Vec3f tangentUnit(const Vec3f& x, const Vec3f& n, const Vec3f& otherwise) {
+  const Vec3f projected = x - n * n.dot(x);
+  const float length = projected.length();
+  return length > 1e-6f * x.length() && length > 0.0f ? projected / length : otherwise;
+}
+
+// x, tangent at normal `from`, turned into the tangent plane at `to` about their common perpendicular; from .
+// to > -1.
+inline Vec3f turnedTangent(const Vec3f& x, const Vec3f& from, const Vec3f& to) {
+  return x - (from + to) * (to.dot(x) / (1.0f + from.dot(to)));
+}
+
 // The neighbours of every vertex in order around it (counter-clockwise seen from outside, i.e. the angle in (d, b) falls),
 // compressed rows: neighbours of v are neighbor[first[v]] .. neighbor[first[v+1]-1].
 struct VertexGraph {

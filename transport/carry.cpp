@@ -1,5 +1,7 @@
 #include "transport/carry.h"
 
+#include "texture/parallel.h"
+#include "texture/tangent.h"
 #include "transport/backtrace.h"
 #include "transport/closest_point.h"
 #include "transport/velocity_sampler.h"
@@ -24,25 +26,9 @@ using texture::Vec3f;
 using texture::Vec3I;
 using texture::Vec4f;
 
-constexpr std::size_t kGrain = 256;
 // A triangle that faces the other way is taken only if all that agree are further off by this many scales of
 // trust.
 constexpr double kOtherSide = 4.0;
-
-template <typename Body>
-void forEachVertex(std::size_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, kGrain),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t v = range.begin(); v != range.end(); ++v) body(v);
-                    });
-}
-
-// The part of x in the tangent plane, normalised; `otherwise` where nothing is left of it.
-Vec3f tangentUnit(const Vec3f& x, const Vec3f& n, const Vec3f& otherwise) {
-  const Vec3f projected = x - n * n.dot(x);
-  const float length = projected.length();
-  return length > 1e-6f * x.length() && length > 0.0f ? projected / length : otherwise;
-}
 
 Vec3f anyTangent(const Vec3f& n) {
   const Vec3f world = std::abs(n.x()) < 0.9f ? Vec3f(1, 0, 0) : Vec3f(0, 1, 0);
@@ -117,9 +103,7 @@ Vec3f orientationAt(const TexturedSurface& previous, const Landing& landing) {
   Vec3f sum(0.0f);
   for (int i = 0; i < 3; ++i) {
     const Vec3f &d = previous.orientation[landing.corners[i]], &from = previous.normals[landing.corners[i]];
-    const float cosine = from.dot(to);
-    const Vec3f turned = cosine > -0.9f ? d - (from + to) * (to.dot(d) / (1.0f + cosine)) : d;
-    sum += turned * landing.point.weight[i];
+    sum += (from.dot(to) > -0.9f ? texture::turnedTangent(d, from, to) : d) * landing.point.weight[i];
   }
   const Vec3f& nearest = previous.orientation[landing.corners[landing.nearest]];
   // Near a singularity the corners cancel out; there one of them is as good as any.
@@ -134,7 +118,7 @@ Vec3f orientationAt(const TexturedSurface& previous, const Landing& landing) {
 Vec3f turnedWithFlow(const Vec3f& d, const Mat3d& map, const Vec3f& normal) {
   const Mat3d inverse = adjugate(map);  // times det B, whose sign is all that matters here
   const double sign = map.det() < 0.0 ? -1.0 : 1.0;
-  return tangentUnit(Vec3f(inverse * Vec3d(d) * sign), normal, anyTangent(normal));
+  return texture::tangentUnit(Vec3f(inverse * Vec3d(d) * sign), normal, anyTangent(normal));
 }
 
 // q(x_new) = q_old(origin(x_new)), so its gradient is grad q_old B; what points out of the new surface has no
@@ -165,7 +149,7 @@ std::vector<Vec3f> moved(const std::vector<Vec3f>& positions, const sim::Frame& 
 std::vector<Vec3f> velocityAt(const std::vector<Vec3f>& positions, const sim::Frame& frame) {
   std::vector<Vec3f> result(positions.size(), Vec3f(0.0f));
   if (frame.substeps.empty()) return result;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), kGrain),
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), texture::kGrain),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       VelocitySampler sampler(frame.substeps.back());
                       for (std::size_t v = range.begin(); v != range.end(); ++v) {
@@ -180,7 +164,7 @@ std::vector<std::uint8_t> contactAt(const std::vector<Vec3f>& positions, const s
   if (!frame.solidPhi) return result;
   const openvdb::FloatGrid& solid = *frame.solidPhi;
   const auto limit = float(0.5 * solid.voxelSize().x());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), kGrain),
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), texture::kGrain),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       const auto accessor = solid.getConstAccessor();
                       for (std::size_t v = range.begin(); v != range.end(); ++v) {
@@ -206,7 +190,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   carried.age.resize(count);
   carried.trust.resize(count);
   carried.previousPosition.resize(count);
-  forEachVertex(count, [&](std::size_t v) {
+  texture::forEachIndex(count, [&](std::uint32_t v) {
     const Mat3d& map = trace.map[v];
     const Vec3f& normal = next.normals[v];
     // A normal is a gradient, grad phi_new = grad phi_old B; so the old one is B^-T of the new one, = (adj

@@ -36,15 +36,6 @@ Image bar(float background, float value) {
 
 }  // namespace
 
-TEST_CASE("srgb: the curve's published values, and back", "[texture]") {
-  CHECK(encodeSrgb(0.0f) == 0.0f);
-  CHECK_THAT(encodeSrgb(1.0f), WithinAbs(1.0, 1e-6));
-  CHECK_THAT(encodeSrgb(0.5f), WithinAbs(0.7353569, 1e-6));
-  CHECK_THAT(decodeSrgb(0.5f), WithinAbs(0.2140411, 1e-6));
-  for (float value = -0.5f; value < 2.0f; value += 0.013f)
-    CHECK_THAT(decodeSrgb(encodeSrgb(value)), WithinAbs(value, 1e-5));
-}
-
 TEST_CASE("blur: the response to a point is a Gaussian of unit sum and variance sigma^2", "[texture]") {
   for (const double sigma : {1.0, 3.0}) {
     const Image point = grey(65, 65, [](int x, int y) { return x == 32 && y == 32 ? 1.0f : 0.0f; });

@@ -2,6 +2,7 @@
 
 #include "tests/texture/sample_images.h"
 #include "texture/channels.h"
+#include "texture/srgb.h"
 
 #include <catch2/catch.hpp>
 

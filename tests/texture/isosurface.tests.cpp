@@ -1,29 +1,20 @@
 #include "texture/isosurface.h"
 
 #include "level_sets.h"
+#include "tests/texture/characteristics.h"
 #include "texture/editable_mesh.h"
 
 #include <catch2/catch.hpp>
 
 #include <map>
 
+using namespace fluidtex;
 using namespace fluidtex::texture;
 
 namespace {
 
-// Euler characteristic of each component, as a sorted multiset: characteristic -> how many have it.
-std::map<long, int> characteristics(std::size_t vertices, const std::vector<Vec3I>& triangles) {
-  const std::vector<std::uint32_t> component = components(vertices, triangles);
-  std::map<std::uint32_t, long> twice;  // 2 V - T = 2 (V - E + T) where 2 E = 3 T
-  for (std::uint32_t root : component) twice[root] += 2;
-  for (const Vec3I& t : triangles) --twice[component[t[0]]];
-  std::map<long, int> result;
-  for (const auto& [root, value] : twice) ++result[value / 2];
-  return result;
-}
-
 std::map<long, int> characteristics(const IsoSurface& s) {
-  return characteristics(s.positions.size(), s.triangles);
+  return testing::characteristics(s.positions.size(), s.triangles);
 }
 
 // The signs of a block of 4^3 nodes come from the bits of a hash; all around it is outside.
@@ -77,7 +68,7 @@ std::map<long, int> tetrahedraCharacteristics(const FloatGrid& phi) {
       }
     } while (std::next_permutation(axes.begin(), axes.end()));
   }
-  return characteristics(numbers.size(), triangles);
+  return testing::characteristics(numbers.size(), triangles);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "texture/prepare.h"
 
 #include "level_sets.h"
+#include "tests/texture/characteristics.h"
 #include "texture/editable_mesh.h"
 #include "texture/isosurface.h"
 
@@ -56,23 +57,13 @@ Quality measure(const SurfaceMesh& mesh, const FloatGrid& grid) {
   return q;
 }
 
-std::map<long, int> characteristics(std::size_t vertices, const std::vector<Vec3I>& triangles) {
-  const std::vector<std::uint32_t> component = components(vertices, triangles);
-  std::map<std::uint32_t, long> twice;
-  for (std::uint32_t root : component) twice[root] += 2;
-  for (const Vec3I& t : triangles) --twice[component[t[0]]];
-  std::map<long, int> result;
-  for (const auto& [root, value] : twice) ++result[value / 2];
-  return result;
-}
-
 // What must hold for every level set, however wild.
 void requireSound(const SurfaceMesh& mesh, const FloatGrid& grid) {
   const IsoSurface iso = isoSurface(LevelSet(grid));
   REQUIRE(isClosedManifold(mesh.positions.size(), mesh.triangles));
   REQUIRE(mesh.normals.size() == mesh.positions.size());
-  CHECK(characteristics(mesh.positions.size(), mesh.triangles) ==
-        characteristics(iso.positions.size(), iso.triangles));
+  CHECK(fluidtex::testing::characteristics(mesh.positions.size(), mesh.triangles) ==
+        fluidtex::testing::characteristics(iso.positions.size(), iso.triangles));
   for (const Vec3f& n : mesh.normals) CHECK(n.length() == Approx(1.0f).margin(1e-4));
   for (const Vec3f& p : mesh.positions) CHECK(std::isfinite(p.lengthSqr()));
 }

@@ -1,0 +1,62 @@
+// Points sorted into cubes of space.
+#pragma once
+
+#include "texture/parallel.h"
+#include "texture/surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fluidtex::texture {
+
+using Cell = std::array<int, 3>;
+
+inline Cell cellAt(const Vec3f& x, double perLength) {
+  return {int(std::floor(x.x() * perLength)), int(std::floor(x.y() * perLength)),
+          int(std::floor(x.z() * perLength))};
+}
+
+// For hash tables of a power of two of slots.
+inline std::size_t cellHash(const Cell& cell) {
+  std::uint64_t h = std::uint64_t(std::uint32_t(cell[0])) * 0x9e3779b1u ^
+                    std::uint64_t(std::uint32_t(cell[1])) * 0x85ebca77u ^
+                    std::uint64_t(std::uint32_t(cell[2])) * 0xc2b2ae3du;
+  h *= 0x9e3779b97f4a7c15u;
+  return std::size_t(h >> 32);
+}
+
+// Points that stay, for looking up those near a position.
+class PointGrid {
+ public:
+  PointGrid(const std::vector<Vec3f>& points, double cellSize) : m_perLength(1.0 / cellSize) {
+    m_entries.resize(points.size());
+    forEachIndex(points.size(), [&](std::uint32_t i) { m_entries[i] = {cellAt(points[i], m_perLength), i}; });
+    std::sort(m_entries.begin(), m_entries.end());
+  }
+
+  // Calls visit(index) for every point in the 3x3x3 cells around x, in an order that depends on the points
+  // alone.
+  template <typename Visit>
+  void visitNear(const Vec3f& x, const Visit& visit) const {
+    const Cell c = cellAt(x, m_perLength);
+    for (int i = c[0] - 1; i <= c[0] + 1; ++i) {
+      for (int j = c[1] - 1; j <= c[1] + 1; ++j) {  // cells of one column follow each other
+        auto entry = std::lower_bound(m_entries.begin(), m_entries.end(), Entry{{i, j, c[2] - 1}, 0});
+        for (; entry != m_entries.end() && entry->cell <= Cell{i, j, c[2] + 1}; ++entry) visit(entry->index);
+      }
+    }
+  }
+
+ private:
+  struct Entry {
+    Cell cell{};
+    std::uint32_t index = 0;
+    auto operator<=>(const Entry&) const = default;
+  };
+
+  double m_perLength;
+  std::vector<Entry> m_entries;
+};
+
+}  // namespace fluidtex::texture

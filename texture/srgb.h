@@ -1,0 +1,19 @@
+// The sRGB transfer curve, 0..1 to 0..1 (IEC 61966-2-1); values outside are continued by the curve, below
+// zero as an odd function.
+#pragma once
+
+#include <cmath>
+
+namespace fluidtex::texture {
+
+inline float encodeSrgb(float linear) {
+  if (linear < 0.0f) return -encodeSrgb(-linear);
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+}
+
+inline float decodeSrgb(float encoded) {
+  if (encoded < 0.0f) return -decodeSrgb(-encoded);
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+}  // namespace fluidtex::texture
