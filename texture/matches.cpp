@@ -191,7 +191,7 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
   const Neighborhoods& n = windows.neighborhoods;
   const TexelImage& image = level.image;
   const bool useTree = pass.table && pass.probes > 0;
-  const int similarCount = pass.table ? std::min(pass.table->similarCount, kMaxSimilar) : 0;
+  const int similarCount = pass.table ? std::min({pass.similar, pass.table->similarCount, kMaxSimilar}) : 0;
   const std::uint64_t key = randomBits(pass.seed, std::uint64_t(iteration));
 
   std::vector<std::vector<std::uint32_t>> batches(kBatches);

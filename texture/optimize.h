@@ -42,9 +42,11 @@ struct Level {
 struct Pass {
   int window = 9;
   int iterations = 1;
-  // Search by tree in every iteration, `probes` leaves. Null: candidates only.
+  // What the table is asked for in every iteration: the windows of `probes` leaves of its tree, and of `similar`
+  // windows like the best so far (as far as it has lists). Null: neither.
   const SearchTable* table = nullptr;
   int probes = 4;
+  int similar = 0;
   bool startFromLabels = true;  // matches start from the labels of the windows' centres; else from the tree
   bool copyCores = true;   // at the end take labels and look the values up at them; else keep the average
   std::uint64_t seed = 0;  // keys this pass's random numbers

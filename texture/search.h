@@ -43,7 +43,9 @@ struct SearchTable {
   bool toroidal = false;
   int width = 0, height = 0;  // of the image
   int margin = 0;             // window / 2 where toroidal, else 0
-  Image padded;  // the image, continued on every side by `margin` pixels; eight more floats follow its last
+  // The image, continued on every side by `margin` pixels; eight more floats follow its last. Only
+  // windowDistance() and nearestWindow() read it: without them it may be emptied, as it is as large as the tree.
+  Image padded;
   std::vector<float> falloff;  // window^2, row-major, sums to 1
   WindowBasis basis;
   WindowTree tree;

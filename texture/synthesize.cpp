@@ -37,6 +37,9 @@ constexpr float kFirstData = 0.15f, kLaterData = 0.4f;
 constexpr float kStretchCost = 1.0f;
 constexpr int kSeamSweeps = 8;
 
+// Later frames start near their best: instead of the tree they search windows like the best so far.
+constexpr int kSimilar = 4;
+
 using Progress = std::function<void(double)>;
 
 // A level's mesh with graph and connection.
@@ -56,8 +59,11 @@ const SearchTable& tableFor(Synthesizer& synthesizer, int level, int window) {
   const auto key = std::make_pair(level, window);
   auto it = synthesizer.tables->table.find(key);
   if (it == synthesizer.tables->table.end()) {
-    SearchTable table = buildSearchTable(synthesizer.exemplar.match[std::size_t(level)],
-                                         synthesizer.exemplar.toroidal, window, synthesizer.options.seed);
+    const bool labels = synthesizer.options.method == Method::coordinates;
+    SearchTable table =
+        buildSearchTable(synthesizer.exemplar.match[std::size_t(level)], synthesizer.exemplar.toroidal,
+                         window, synthesizer.options.seed, level == 0 && labels ? kSimilar : 0);
+    table.padded = {};  // distances are taken from the level's TexelImage
     it = synthesizer.tables->table.emplace(key, std::move(table)).first;
   }
   return it->second;
@@ -130,7 +136,8 @@ void runPasses(Synthesizer& synthesizer, const Level& level, int index, int fram
     Pass pass;
     pass.window = windows[i].first;
     pass.iterations = factor * iterationsOf(iterations, windows[i].second);
-    pass.table = tree ? &tableFor(synthesizer, index, pass.window) : nullptr;
+    pass.table = &tableFor(synthesizer, index, pass.window);
+    if (!tree) pass.probes = 0, pass.similar = kSimilar;
     pass.startFromLabels = labels;
     pass.copyCores = labels;
     pass.seed = keyOf(synthesizer, frame, index, pass.window);

@@ -70,18 +70,54 @@ TEST_CASE("optimize: energy never rises while the window stays") {
   level.constraint.value = state.value;
   const std::vector<float> trust(state.value.size(), 0.7f);
   level.constraint.weight = constraintWeights(level.view, state.value, trust, 0.1);
-  for (const SearchTable* search : {static_cast<const SearchTable*>(nullptr), &table}) {
+  struct Search {
+    const SearchTable* table;
+    int probes, similar;
+  };
+  for (const Search& search : {Search{nullptr, 4, 0}, Search{&table, 4, 4}, Search{&table, 0, 4}}) {
     State copy = state;
     Pass pass;
     pass.window = window;
     pass.iterations = 6;
-    pass.table = search;
+    pass.table = search.table;
+    pass.probes = search.probes;
+    pass.similar = search.similar;
     pass.seed = 11;
     const EnergyTrace trace = optimize(level, pass, options, copy);
     REQUIRE(trace.size() == 7);
     for (std::size_t i = 1; i < trace.size(); ++i) CHECK(trace[i] <= trace[i - 1] * (1.0 + 1e-6));
     CHECK(trace.back() < 0.9 * trace.front());
   }
+}
+
+TEST_CASE("optimize: a window's look-alikes are tried where no tree is searched") {
+  // Four tiles of one noise, each of its own contrast: the surface shows one of them, its labels say another.
+  const OrientedMesh surface = flatBox(24);
+  const Image noise = noiseImage(16, 16, 3, 1);
+  const Image tiles = imageOf(32, 32, 3, [&](int x, int y, int c) {
+    return (1.0f - 0.04f * float(x / 16 + 2 * (y / 16))) * noise.at(x % 16, y % 16)[c];
+  });
+  const Source source(tiles, true);
+  const SearchTable table = buildSearchTable(source.match, true, 9, 1, 4);
+  const Level level{surface.view(), source.image, source.histogram, {}, middle(surface, 6.0f, 24.0f)};
+  SynthesisOptions options;
+  options.usage = options.histogram = 0.0;
+  options.robustExponent = 2.0;
+  const auto energyWith = [&](int similar) {
+    State state;
+    state.labels = laidDown(surface, Vec2f(19.0f, 5.0f));
+    state.value = lookUp(source.image, state.labels);
+    for (Label& label : state.labels) label.texel = source.image.brought(label.texel + Vec2f(16.0f, 0.0f));
+    Pass pass;
+    pass.table = &table;
+    pass.probes = 0;
+    pass.similar = similar;
+    return optimize(level, pass, options, state);
+  };
+  const EnergyTrace with = energyWith(4), without = energyWith(0);
+  CHECK(with.front() == without.front());
+  CHECK(without.back() > 0.1 * without.front());
+  CHECK(with.back() < 0.1 * without.back());
 }
 
 TEST_CASE("optimize: an exemplar laid down whole is at rest, with no energy") {
