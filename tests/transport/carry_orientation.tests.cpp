@@ -1,0 +1,137 @@
+#include "transport/carry.h"
+
+#include "tests/transport/textured_meshes.h"
+#include "texture/orient.h"
+
+#include <algorithm>
+#include <numbers>
+
+using namespace fluidtex;
+using namespace fluidtex::testing;
+using namespace fluidtex::transport;
+
+TEST_CASE("carry: rigid rotation turns orientation and gradient with the surface", "[transport]") {
+  const Vec3d axis(1, 2, 2);
+  const double angle = 0.4;
+  const sim::Frame frame = steadyFrame({0.1, -16, 16}, 1.0, 4, linearFlow(rotationAbout(axis, angle)));
+  const Mat3d turn = exponential(rotationAbout(axis, angle));
+  const SurfaceMesh before = torusMesh(48, 24), after = mappedMesh(before, turn);
+  const TexturedSurface previous =
+      texturedMesh(before, [](const Vec3d& x) { return Vec3d(0.3 + x.z(), x.x(), 0.5); });
+  const Carried carried = carry(previous, frame, after);
+  requireWhole(carried, after);
+  for (std::size_t v = 0; v < after.positions.size(); ++v) {
+    REQUIRE(angleBetween(turn * Vec3d(previous.orientation[v]), Vec3d(carried.orientation[v])) <
+            0.01 * kDegree);
+    REQUIRE((turn * Vec3d(previous.gradient[v].s) - Vec3d(carried.gradient[v].s)).length() <
+            1e-3 * kTexelsPerMeter);
+    REQUIRE((turn * Vec3d(previous.gradient[v].t) - Vec3d(carried.gradient[v].t)).length() <
+            1e-3 * kTexelsPerMeter);
+    REQUIRE((carried.coordinate[v] - previous.coordinate[v]).length() < 0.01f);
+    REQUIRE(carried.trust[v] > 0.999f);
+  }
+}
+
+TEST_CASE("carry: orientation follows closed forms over 200 frames", "[transport][slow]") {
+  // d ~ F d0 for steady linear flow, F = exp(A t), on a surface that moves with the flow (validation cases B1
+  // to B4, B6).
+  struct Case {
+    const char* name;
+    Mat3d a;
+    double time;
+  };
+  const std::vector<Case> cases{{"rigid rotation", rotationAbout({1, 2, 2}, 2 * std::numbers::pi), 1.0},
+                                {"simple shear", matrix(0, 1, 0, 0, 0, 0, 0, 0, 0), 2.0},
+                                {"planar strain", matrix(1, 0, 0, 0, -1, 0, 0, 0, 0), 0.5},
+                                {"triaxial strain", matrix(0.5, 0, 0, 0, 0.25, 0, 0, 0, -0.75), 0.8},
+                                {"general", matrix(0.3, -0.8, 0.2, 0.5, 0.1, -0.4, 0.6, 0.2, -0.4), 1.0}};
+  constexpr int kFrames = 200;
+  for (const auto& [name, a, time] : cases) {
+    INFO(name);
+    const SurfaceMesh start = sphereMesh(7, 0.4);
+    const sim::Frame frame = steadyFrame({0.1, -16, 16}, time / kFrames, 1, linearFlow(a));
+    TexturedSurface surface = texturedMesh(start, constantDirection({0.3, 0.5, 0.8}));
+    const TexturedSurface first = surface;
+    for (int step = 1; step <= kFrames; ++step) {
+      const SurfaceMesh next = mappedMesh(start, exponential(a * (time * step / kFrames)));
+      surface = continued(carry(surface, frame, next), next);
+    }
+    const Mat3d f = exponential(a * time), back = f.inverse();
+    double worst = 0.0, sum = 0.0, worstGradient = 0.0;
+    for (std::size_t v = 0; v < start.positions.size(); ++v) {
+      const double error = angleBetween(f * Vec3d(first.orientation[v]), Vec3d(surface.orientation[v]));
+      worst = std::max(worst, error);
+      sum += error;
+      // Gradients are covectors: they turn with B = F^-1 from the right.
+      const Vec3d expected = back.transpose() * Vec3d(first.gradient[v].s);
+      const Vec3d n(surface.normals[v]);
+      worstGradient =
+          std::max(worstGradient, (expected - n * n.dot(expected) - Vec3d(surface.gradient[v].s)).length());
+    }
+    CHECK(sum / start.positions.size() < 0.02 * kDegree);
+    CHECK(worst < 0.1 * kDegree);
+    CHECK(worstGradient < 0.01 * kTexelsPerMeter);
+  }
+}
+
+TEST_CASE("carry: orientation in a swirl with a closed form", "[transport]") {
+  // B5: Om(r) = exp(-r^2), start (0.6, 0.3), angle 0.4, t = 3: position (-0.483890, 0.464597), d = (0.251743,
+  // 0.967794).
+  const Flow swirl = [](const Vec3d& x) {
+    const double rate = std::exp(-(x.x() * x.x() + x.y() * x.y()));
+    return Vec3d(-rate * x.y(), rate * x.x(), 0.0);
+  };
+  const int frames = 60;
+  const sim::Frame frame = steadyFrame({0.02, -60, 60}, 3.0 / frames, 1, swirl);
+  // A flat sheet in the plane of the flow; its top side is what is looked at.
+  const SurfaceMesh mesh = boxMesh({-1, -1, -0.1}, {1, 1, 0.0}, {200, 200, 10});
+  const Vec3d direction(std::cos(0.4), std::sin(0.4), 0.0);
+  // One pick-up for the whole time by one frame of many substeps: only the trace is put to the test.
+  sim::Frame whole = frame;
+  whole.substeps.assign(frames, frame.substeps[0]);
+  const TexturedSurface previous = texturedMesh(mesh, constantDirection(direction));
+  SurfaceMesh target = mesh;
+  std::size_t nearest = 0;
+  for (std::size_t v = 0; v < target.positions.size(); ++v) {
+    const auto distance = [&](std::size_t u) {
+      return (target.positions[u] - Vec3f(-0.483890f, 0.464597f, 0.0f)).length();
+    };
+    if (target.normals[v].z() > 0.99f &&
+        (distance(v) < distance(nearest) || target.normals[nearest].z() < 0.99f))
+      nearest = v;
+  }
+  target.positions[nearest] = Vec3f(-0.483890f, 0.464597f, 0.0f);
+  const Carried carried = carry(previous, whole, target);
+  CHECK((carried.previousPosition[nearest] - Vec3f(0.6f, 0.3f, 0.0f)).length() < 0.02f * 0.02f);
+  CHECK(angleBetween(Vec3d(carried.orientation[nearest]), Vec3d(0.251743, 0.967794, 0.0)) < 0.1 * kDegree);
+}
+
+TEST_CASE("carry: with orientation, a rigid turn leaves the field as it was", "[transport]") {
+  const double angle = 0.02;
+  texture::Surface start;
+  start.levels.push_back(sphereMesh(16));
+  texture::orient(start, {});
+  SurfaceMesh mesh = start.levels[0];
+  TexturedSurface surface = texturedMesh(mesh, constantDirection({0, 0, 1}));
+  surface.orientation = mesh.orientation;
+  const std::vector<Vec3f> first = mesh.orientation;
+  const Vec3d axis(2, -1, 2);
+  const sim::Frame frame = steadyFrame({0.1, -14, 14}, 1.0, 2, linearFlow(rotationAbout(axis, angle)));
+  const int frames = 10;
+  for (int step = 1; step <= frames; ++step) {
+    texture::Surface next;
+    next.levels.push_back(mappedMesh(mesh, exponential(rotationAbout(axis, angle * step))));
+    const Carried carried = carry(surface, frame, next.levels[0]);
+    texture::orient(next, carried);
+    surface = continued(carried, next.levels[0]);
+    surface.orientation = next.levels[0].orientation;
+  }
+  const Mat3d turn = exponential(rotationAbout(axis, angle * frames));
+  std::vector<double> errors;
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    errors.push_back(angleBetween(turn * Vec3d(first[v]), Vec3d(surface.orientation[v])));
+  }
+  std::sort(errors.begin(), errors.end());
+  CHECK(errors[errors.size() / 2] < 0.2 * kDegree);
+  CHECK(errors[errors.size() * 95 / 100] < 2.0 * kDegree);
+}

@@ -1,0 +1,109 @@
+// Textured surfaces to be carried, and what every carried state must be.
+#pragma once
+
+#include "tests/texture/closed_meshes.h"
+#include "tests/transport/velocity_grids.h"
+#include "transport/carry.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace fluidtex::testing {
+
+using texture::Carried;
+using texture::SurfaceMesh;
+using texture::TexturedSurface;
+using texture::Vec2f;
+using texture::Vec3f;
+using texture::Vec4f;
+
+inline constexpr double kDegree = std::numbers::pi / 180.0;
+inline constexpr double kTexelsPerMeter = 50.0;
+
+inline double angleBetween(const Vec3d& a, const Vec3d& b) {
+  return std::atan2(a.cross(b).length(), a.dot(b));
+}
+
+inline Vec3f projected(const Vec3f& x, const Vec3f& n) {
+  return x - n * n.dot(x);
+}
+
+// Exemplar coordinates that are one linear function of position all over; colour and age likewise.
+inline TexturedSurface texturedMesh(const SurfaceMesh& mesh, const Flow& direction) {
+  TexturedSurface surface;
+  surface.spacing = mesh.spacing;
+  surface.positions = mesh.positions;
+  surface.normals = mesh.normals;
+  surface.triangles = mesh.triangles;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3f &x = mesh.positions[v], &n = mesh.normals[v];
+    Vec3f d = projected(Vec3f(direction(Vec3d(x))), n);
+    d.normalize();
+    surface.orientation.push_back(d);
+    surface.color.emplace_back(0.5f + 0.1f * x.x(), 0.5f + 0.1f * x.y(), 0.5f + 0.1f * x.z(), 1.0f);
+    surface.coordinate.emplace_back(float(kTexelsPerMeter * x.x()), float(kTexelsPerMeter * x.y()));
+    surface.gradient.push_back({projected(Vec3f(float(kTexelsPerMeter), 0, 0), n),
+                                projected(Vec3f(0, float(kTexelsPerMeter), 0), n)});
+    surface.age.push_back(2.0f + x.z());
+    surface.trust.push_back(1.0f);
+  }
+  surface.previousPosition = surface.positions;
+  return surface;
+}
+
+inline Flow constantDirection(const Vec3d& d) {
+  return [d](const Vec3d&) { return d; };
+}
+
+// The mesh after a linear map F: normals turn with F^-T.
+inline SurfaceMesh mappedMesh(SurfaceMesh mesh, const Mat3d& f) {
+  for (Vec3f& x : mesh.positions) x = Vec3f(f * Vec3d(x));
+  const Mat3d normalMap = f.inverse().transpose();
+  for (Vec3f& n : mesh.normals) {
+    n = Vec3f(normalMap * Vec3d(n));
+    n.normalize();
+  }
+  return mesh;
+}
+
+// The state that the next frame starts from, with nothing synthesised in between.
+inline TexturedSurface continued(const Carried& carried, const SurfaceMesh& mesh) {
+  TexturedSurface surface;
+  surface.spacing = mesh.spacing;
+  surface.positions = mesh.positions;
+  surface.normals = mesh.normals;
+  surface.triangles = mesh.triangles;
+  surface.orientation = carried.orientation;
+  surface.color = carried.color;
+  surface.coordinate = carried.coordinate;
+  surface.gradient = carried.gradient;
+  surface.age = carried.age;
+  surface.trust = carried.trust;
+  surface.previousPosition = carried.previousPosition;
+  return surface;
+}
+
+inline void requireWhole(const Carried& carried, const SurfaceMesh& mesh) {
+  const std::size_t count = mesh.positions.size();
+  REQUIRE(carried.orientation.size() == count);
+  REQUIRE(carried.color.size() == count);
+  REQUIRE(carried.coordinate.size() == count);
+  REQUIRE(carried.gradient.size() == count);
+  REQUIRE(carried.age.size() == count);
+  REQUIRE(carried.trust.size() == count);
+  REQUIRE(carried.previousPosition.size() == count);
+  for (std::size_t v = 0; v < count; ++v) {
+    REQUIRE(carried.orientation[v].length() == Approx(1.0).epsilon(1e-5));
+    REQUIRE(std::abs(carried.orientation[v].dot(mesh.normals[v])) < 1e-5f);
+    REQUIRE(std::abs(carried.gradient[v].s.dot(mesh.normals[v])) < 1e-4f * kTexelsPerMeter);
+    REQUIRE(std::abs(carried.gradient[v].t.dot(mesh.normals[v])) < 1e-4f * kTexelsPerMeter);
+    REQUIRE((carried.trust[v] >= 0.0f && carried.trust[v] <= 1.0f));
+    REQUIRE(std::isfinite(carried.color[v].lengthSqr()));
+    REQUIRE(std::isfinite(carried.coordinate[v].lengthSqr()));
+    REQUIRE(std::isfinite(carried.age[v]));
+  }
+}
+
+}  // namespace fluidtex::testing
