@@ -26,19 +26,16 @@ inline constexpr float kSolidLayers = 2.99f;
 
 struct ReinitOptions {
   int iterations = 8;  // of 0.45 h each: how far from the surface the distance is made right
-  // Leave cells next to the surface as they are (the others are still made right). The surface does not move
-  // at all, but what the flow did to the slope there stays.
-  bool keepNear = false;
+  // Cells next to the surface stay as they are (the others are still made right) in every leaf where the root
+  // mean square of | |grad phi| - 1 | over them is below this. There the surface does not move at all, but
+  // what the flow did to the slope stays.
+  double keepSlope = 0.0;
 };
 
 // Turns phi into a signed distance near the surface, which itself stays where it is: cells next to it use its
 // place between the cell centres. Cells in solids more than half a cell deep are left alone (see
 // extendIntoSolids).
 void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, const ReinitOptions& options = {});
-
-// Root mean square of |grad phi| - 1 over the cells next to the surface, solids left out; 0 without a
-// surface.
-double slopeError(const FloatGrid& phi, const FloatGrid& solidPhi);
 
 // Asked of cells in the open beside a solid: has the liquid there let go of the solid, or, where the cell is
 // air, does the velocity lead away from the solid?

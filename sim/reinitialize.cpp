@@ -117,8 +117,28 @@ struct LeafPlan {
   std::vector<std::int16_t> held;  // offsets of cells that keep their value
 };
 
+// Root mean square of |grad phi| - 1 (times h) over these cells; 0 for none. In a film or a gap of one cell
+// the slopes of both sides cancel and say nothing.
+double slopeErrorOf(const std::vector<NearCell>& near, const float* block, float h) {
+  double sum = 0.0, count = 0.0;
+  for (const NearCell& cell : near) {
+    const float* p = block + blockIndex(cell.offset);
+    double square = 0.0;
+    bool ridge = false;
+    for (const int d : kStride) {
+      ridge = ridge || ((p[d] < 0.0f) != (p[0] < 0.0f) && (p[-d] < 0.0f) != (p[0] < 0.0f));
+      square += 0.25 * (p[d] - p[-d]) * (p[d] - p[-d]);
+    }
+    if (ridge) continue;
+    const double error = std::sqrt(square) / h - 1.0;
+    sum += error * error;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
 LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h,
-                  bool keepNear) {
+                  double keepSlope) {
   float block[kBlock] = {};
   gather(phi, origin, kHalo, block, true);
   LeafPlan plan{nearCells(block), {}};
@@ -129,7 +149,7 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
   for (std::int16_t i = 0; i < kLeafSize; ++i) {
     if (solid[i] < deepest) plan.held.push_back(i);
   }
-  if (keepNear) {
+  if (slopeErrorOf(plan.near, block, h) < keepSlope) {
     for (const NearCell& cell : plan.near) plan.held.push_back(static_cast<std::int16_t>(cell.offset));
     plan.near.clear();
   }
@@ -180,7 +200,7 @@ void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, const ReinitOptions
   const auto leaves = leavesOf(phi.tree());
   std::vector<LeafPlan> plans(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    plans[n] = planLeaf(phi.constTree(), solidPhi.constTree(), leaves[n]->origin(), h, options.keepNear);
+    plans[n] = planLeaf(phi.constTree(), solidPhi.constTree(), leaves[n]->origin(), h, options.keepSlope);
   });
   FloatTree predicted(phi.constTree());
   const auto predictedLeaves = leavesOf(predicted);
@@ -192,36 +212,6 @@ void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, const ReinitOptions
       eulerStep(predicted, *leaves[n], plans[n], h, phi.background(), true);
     });
   }
-}
-
-double slopeError(const FloatGrid& phi, const FloatGrid& solidPhi) {
-  const float h = static_cast<float>(phi.voxelSize()[0]);
-  const auto leaves = leavesOf(phi.constTree());
-  std::vector<double> sums(leaves.size()), counts(leaves.size());
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    const LeafPlan plan = planLeaf(phi.constTree(), solidPhi.constTree(), leaves[n]->origin(), h, false);
-    if (plan.near.empty()) return;
-    float block[kBlock] = {};
-    gather(phi.constTree(), leaves[n]->origin(), kHalo, block, true);
-    for (const NearCell& cell : plan.near) {
-      const float* p = block + blockIndex(cell.offset);
-      double square = 0.0;
-      // The steeper side: in a film or a gap the surface on the other side makes the central slope vanish.
-      for (const int d : kStride) {
-        const double slope = std::max(std::abs(p[d] - p[0]), std::abs(p[0] - p[-d]));
-        square += slope * slope;
-      }
-      const double error = std::sqrt(square) / h - 1.0;
-      sums[n] += error * error;
-      counts[n] += 1.0;
-    }
-  });
-  double sum = 0.0, count = 0.0;
-  for (std::size_t n = 0; n < leaves.size(); ++n) {
-    sum += sums[n];
-    count += counts[n];
-  }
-  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
 }
 
 }  // namespace fluidtex::sim
