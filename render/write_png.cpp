@@ -1,20 +1,19 @@
 #include "render/render.h"
+#include "texture/srgb.h"
 
 #include <OpenImageIO/imageio.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 namespace fluidtex::render {
 namespace {
 
-// IEC 61966-2-1.
-std::uint8_t encodeSrgb(float linear) {
-  const float x = std::fmin(std::fmax(linear, 0.0f), 1.0f);
-  const float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
-  return static_cast<std::uint8_t>(std::lround(encoded * 255.0f));
+std::uint8_t encoded(float linear) {
+  return static_cast<std::uint8_t>(std::lround(255.0f * texture::encodeSrgb(std::clamp(linear, 0.0f, 1.0f))));
 }
 
 }  // namespace
@@ -22,7 +21,7 @@ std::uint8_t encodeSrgb(float linear) {
 void writePng(const Picture& picture, const std::filesystem::path& file) {
   std::vector<std::uint8_t> bytes(picture.rgb.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bytes.size(), 1 << 14), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) bytes[i] = encodeSrgb(picture.rgb[i]);
+    for (std::size_t i = range.begin(); i != range.end(); ++i) bytes[i] = encoded(picture.rgb[i]);
   });
 
   const auto fail = [&](const std::string& why) {

@@ -1,5 +1,7 @@
 #include "tools/ply.h"
 
+#include "texture/srgb.h"
+
 #include <algorithm>
 #include <bit>
 #include <cerrno>
@@ -15,11 +17,6 @@ static_assert(std::endian::native == std::endian::little, "PLY bytes are written
 
 std::uint8_t toByte(float value) {
   return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
-}
-
-std::uint8_t encodeSrgb(float linear) {
-  const float c = std::clamp(linear, 0.0f, 1.0f);
-  return toByte(c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f);
 }
 
 std::string header(const texture::TexturedSurface& surface) {
@@ -81,7 +78,7 @@ void writePly(const texture::TexturedSurface& surface, const std::filesystem::pa
     bytes.put(surface.positions[v]);
     bytes.put(surface.normals[v]);
     const auto& color = surface.color[v];
-    for (int c = 0; c < 3; ++c) bytes.put(encodeSrgb(color[c]));
+    for (int c = 0; c < 3; ++c) bytes.put(toByte(texture::encodeSrgb(color[c])));
     bytes.put(toByte(color[3]));
     bytes.put(share(surface.coordinate[v].x(), width));
     bytes.put(share(surface.coordinate[v].y(), height));

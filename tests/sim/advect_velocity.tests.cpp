@@ -1,4 +1,5 @@
 #include "sim/advect_velocity.h"
+#include "tests/sim/velocity_field.h"
 
 #include <catch2/catch.hpp>
 
@@ -27,16 +28,7 @@ struct Fixture {
     }
   }
 
-  Velocity set(const Field& field) const {
-    Velocity result = makeVelocity(h, topology);
-    for (int a = 0; a < 3; ++a) {
-      FloatGrid& grid = *result.component[a];
-      for (auto it = grid.beginValueOn(); it; ++it) {
-        it.setValue(static_cast<float>(field(grid.indexToWorld(it.getCoord()))[a]));
-      }
-    }
-    return result;
-  }
+  Velocity set(const Field& field) const { return velocityField(h, topology, field); }
 
   // Root mean square error of the first two components over faces in the middle of the box.
   double error(const Velocity& velocity, const Field& exact) const {

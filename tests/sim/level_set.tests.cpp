@@ -1,6 +1,7 @@
 #include "sim/level_set.h"
 
 #include "sim/leaf_table.h"
+#include "tests/sim/velocity_field.h"
 
 #include <catch2/catch.hpp>
 
@@ -35,14 +36,7 @@ struct Fixture {
         for (int k = -8; k < cells.z() + 8; k += 8) topology.touchLeaf(Coord(i, j, k))->setValuesOn();
       }
     }
-    Velocity result = makeVelocity(h, topology);
-    for (int a = 0; a < 3; ++a) {
-      FloatGrid& grid = *result.component[a];
-      for (auto it = grid.beginValueOn(); it; ++it) {
-        it.setValue(static_cast<float>(field(grid.indexToWorld(it.getCoord()))[a]));
-      }
-    }
-    return result;
+    return velocityField(h, topology, field);
   }
 
   // Visits every cell of the box with phi at 4^3 points inside, phi trilinear.
