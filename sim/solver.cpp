@@ -25,11 +25,21 @@ Liquid liquidOf(const State& state) {
   return {state.phi, {{state.u, state.v, state.w}}};
 }
 
-void store(State& state, const Liquid& liquid) {
+// Copying a grid, or writing and reading it, can change the last bits of its transform, and with them all
+// that is sampled: a state's grids get theirs anew.
+void setTransforms(State& state, double h) {
+  state.phi->setTransform(cellTransform(h));
+  state.u->setTransform(faceTransform(h, 0));
+  state.v->setTransform(faceTransform(h, 1));
+  state.w->setTransform(faceTransform(h, 2));
+}
+
+void store(State& state, const Liquid& liquid, double h) {
   state.phi = liquid.phi;
   state.u = liquid.velocity.component[0];
   state.v = liquid.velocity.component[1];
   state.w = liquid.velocity.component[2];
+  setTransforms(state, h);
 }
 
 double frameTime(const Options& options, int frame) {
@@ -76,7 +86,7 @@ constexpr double kShortest = 1e-5;
 Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_shared<Solids>(options)) {
   const double h = options.voxelSize();
   m_state.poured.assign(options.liquid.size(), false);
-  store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h)});
+  store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h)}, h);
   m_solid = m_solids->at(0.0);
 }
 
@@ -88,6 +98,7 @@ Solver::Solver(const Options& options, State state)
     message << "the state was made with cells of " << written << " m, the scene asks for " << asked << " m";
     throw SolverError(message.str());
   }
+  setTransforms(m_state, asked);
   m_state.poured.resize(options.liquid.size(), false);
   m_solid = m_solids->at(m_state.time);
 }
@@ -115,7 +126,7 @@ void Solver::applyEvents() {
   if (!changed) return;
   PressureReport report;
   if (!settle(liquid, *solid, m_options, &report)) fail(now, 1.0 / m_options.frameRate, report);
-  store(m_state, liquid);
+  store(m_state, liquid, m_options.voxelSize());
 }
 
 void Solver::advanceTo(double time, Frame& frame, const std::function<void(double)>& report) {
@@ -146,7 +157,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     stats.dtMin = stats.dtMin > 0.0 ? std::min(stats.dtMin, dt) : dt;
     stats.pressureIterations += pressure.iterations;
     stats.pressureResidual = std::max(stats.pressureResidual, pressure.residual);
-    store(m_state, *next);
+    store(m_state, *next, m_options.voxelSize());
     m_state.time = last ? time : m_state.time + dt;
     if (report) report(m_state.time);
   }
