@@ -62,8 +62,12 @@ std::vector<Node> readOverrides(const Overrides& overrides, Faults& faults) {
   if (!overrides.exemplar.empty()) {
     const std::string name = overrides.exemplar.string();
     const Origin origin{int(layers.size()) + 1, 1, 1, "--exemplar " + name, ""};
-    Node texture{Table{{"exemplar", Node{name, origin}}}, origin};
-    layers.push_back(Node{Table{{"texture", std::move(texture)}}, origin});
+    const auto layer = [&](const char* key, auto value) {
+      return Node{Table{{"texture", Node{Table{{key, Node{value, origin}}}, origin}}}, origin};
+    };
+    layers.push_back(layer("exemplar", name));
+    // Whether it wraps was said of the scene's own picture; --set may say it of this one.
+    layers.insert(layers.begin(), layer("toroidal", false));
   }
   return layers;
 }

@@ -177,7 +177,11 @@ void Reader::reportUnknownKeys() {
       const auto found = std::find(lastWords.begin(), lastWords.end(), far);
       right = "did you mean " + unknown.origin.prefix + m_paths[std::size_t(found - lastWords.begin())] + "?";
     } else {
-      right = "known here: " + listed(unknown.siblings);
+      // A key that is asked for on more than one way is known once.
+      std::vector<std::string> known;
+      for (const std::string& key : unknown.siblings)
+        if (std::find(known.begin(), known.end(), key) == known.end()) known.push_back(key);
+      right = "known here: " + listed(known);
     }
     m_faults.add(unknown.origin, joined(unknown.path, unknown.key), "unknown key", right);
   }

@@ -33,7 +33,7 @@ struct Scene {
 struct Overrides {
   Quality quality = Quality::standard;
   std::vector<std::string> set;    // "dotted.key=value", value as in TOML, bare words taken as strings
-  std::filesystem::path exemplar;  // empty: the scene's own
+  std::filesystem::path exemplar;  // empty: the scene's own; else toroidal is false unless set
 };
 
 // Every fault found in the file, one line each:  FILE:LINE:COLUMN: error: KEY: what is wrong; what would be

@@ -46,6 +46,8 @@ void check(const CommonOptions& options) {
   }
   fmt::print("exemplar  {}, {} x {} pixels{}\n", scene.texture.exemplar.file.string(), exemplar.color.width,
              exemplar.color.height, scene.texture.exemplar.toroidal ? ", toroidal" : "");
+  const double pixels = double(exemplar.color.width) * exemplar.color.height;
+  fmt::print("texture   one point shows one pixel: {:.2g} exemplars cover the surface\n", points / pixels);
   fmt::print("pictures  {} x {}, {} paths a pixel\n", scene.render.width, scene.render.height,
              scene.render.samples);
   const double bytes =

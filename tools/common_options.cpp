@@ -91,7 +91,9 @@ void parseFrames(const std::string& text, int frames, int& first, int& last) {
   else if (colon + 1 < text.size())
     last = parseNumber(text.substr(colon + 1), text);
   if (last < first) throw UsageError(fmt::format("--frames {}: ends before it begins", text));
-  if (last > frames) throw UsageError(fmt::format("--frames {}: the scene has {} frames", text, frames));
+  if (last > frames)
+    throw UsageError(
+        fmt::format("--frames {}: the scene has {} frames; --set frames={} makes more", text, frames, last));
 }
 
 }  // namespace fluidtex::tools

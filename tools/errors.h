@@ -15,7 +15,9 @@ struct UsageError : std::runtime_error {
 
 // Stopped on request; the state of the last whole frame is on disk.
 struct Interrupted : std::runtime_error {
-  Interrupted() : std::runtime_error("interrupted; --resume goes on from the last finished frame") {}
+  Interrupted()
+      : std::runtime_error(
+            "interrupted; the same command with --resume goes on from the last finished frame") {}
 };
 
 // Calls body; every exception becomes its sentence on stderr (all the faults of a scene, a line each) and an

@@ -3,6 +3,7 @@
 #include "tools/errors.h"
 #include "tools/frame_loop.h"
 
+#include <fmt/core.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/spdlog.h>
 #include <tbb/global_control.h>
@@ -27,7 +28,11 @@ void onInterrupt(int) {
 
 // Lines are added to what is there: a run that starts anew empties the file when it clears the earlier run.
 void logTo(const std::filesystem::path& file, bool verbose) {
-  std::filesystem::create_directories(file.parent_path());
+  std::error_code error;
+  std::filesystem::create_directories(file.parent_path(), error);
+  if (error)
+    throw UsageError(fmt::format("--out {}: is no folder and none can be made there: {}",
+                                 file.parent_path().string(), error.message()));
   auto logger = std::make_shared<spdlog::logger>(
       "fluidtex", std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string()));
   logger->set_level(verbose ? spdlog::level::debug : spdlog::level::info);

@@ -138,6 +138,11 @@ TEST_CASE("overrides: --set: faults are told at the option", "[scenes]") {
   CHECK(
       faultsOfSetting("texture.windwos=3") ==
       Faulty{"--set texture.windwos=3: error: texture.windwos: unknown key; did you mean texture.windows?"});
+  const Faulty strange = faultsOfSetting("texture.xylophone=3");
+  REQUIRE(strange.size() == 1);
+  const std::size_t points = strange[0].find(" points");  // asked for on two ways, told once
+  REQUIRE(points != std::string::npos);
+  CHECK(strange[0].find(" points", points + 1) == std::string::npos);
   CHECK(faultsOfSetting("frames=many") == Faulty{"--set frames=many: error: frames: wrong type, a string "
                                                  "where a whole number is wanted; write for example "
                                                  "frames = 72"});

@@ -197,6 +197,17 @@ TEST_CASE("scene: files are found from the scene's folder, wherever it is read f
   CHECK(loadScene(folder.write("absolute.toml", text)).texture.exemplar.file == folder.path() / "e.png");
 }
 
+TEST_CASE("scene: another exemplar is not taken to wrap because the scene's own does", "[scenes]") {
+  const SceneFolder folder;
+  const std::filesystem::path file = folder.write("s.toml", kFullScene);
+  Overrides overrides;
+  overrides.exemplar = folder.path() / "e.png";
+  CHECK(loadScene(file).texture.exemplar.toroidal);
+  CHECK_FALSE(loadScene(file, overrides).texture.exemplar.toroidal);
+  overrides.set = {"texture.toroidal=true"};
+  CHECK(loadScene(file, overrides).texture.exemplar.toroidal);
+}
+
 TEST_CASE("scene: the resolved scene is the same wherever the file is named from", "[scenes]") {
   const SceneFolder folder;
   const std::filesystem::path file = folder.write("s.toml", kFullScene),
@@ -205,6 +216,7 @@ TEST_CASE("scene: the resolved scene is the same wherever the file is named from
   std::filesystem::current_path(folder.path() / "pictures");
   Overrides exemplar;
   exemplar.exemplar = "../e.png";
+  exemplar.set = {"texture.toroidal=true"};
   const std::string relative = loadScene("../s.toml").resolved,
                     chosen = loadScene("../s.toml", exemplar).resolved;
   std::filesystem::current_path(before);

@@ -198,7 +198,7 @@ TEST_CASE("scene faults: a number out of its range", "[scenes]") {
       {"[fluid]\nviscosity = -0.1",
        "s.toml:7:1: error: fluid.viscosity: -0.1 is negative; give a number 0 or more"},
       {"[simulation]\ncfl = 0",
-       "s.toml:7:1: error: simulation.cfl: 0 is too small; give a number from 0.1 to 20"},
+       "s.toml:7:1: error: simulation.cfl: 0 is too small; give a number from 0.1 to 4"},
       {"[[liquid]]\nsphere = { center = [1, 1, 1], radius = -1 }",
        "s.toml:7:32: error: liquid.1.sphere.radius: -1 is negative; give a number above 0"},
       {"[[liquid]]\nsphere = { center = [1, 1, 1], radius = 1 }\nfrom = -1",

@@ -80,7 +80,7 @@ TEST_CASE("fluidtex run --resume: interrupted, it exits with 130 and goes on to 
   program.signal(SIGINT);
   const Finished interrupted = program.wait();
   CHECK(interrupted.exitCode == 130);
-  CHECK_THAT(interrupted.err, Catch::Contains("interrupted; --resume goes on"));
+  CHECK_THAT(interrupted.err, Catch::Contains("--resume goes on from the last finished frame"));
   const Finished resumed =
       runProgram({"run", kSmallScene, "--resume", "--frames", "1:3", "--out", broken.string()});
   INFO(resumed.all());
