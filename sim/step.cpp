@@ -58,20 +58,34 @@ void addGravity(Velocity& velocity, const Vec3d& change) {
   }
 }
 
-// Whether the velocity at a closed face of this cell leads away from the solid, `kick` being what gravity
-// adds to it in a step: liquid in the wall's own cell only is too thin a film for a pressure of its own, and
-// nothing holds it under a ceiling.
-bool leavesSolid(const Velocity& velocity, const FloatGrid& solidPhi, const Coord& cell, const Vec3d& kick) {
+// Whether a cell of liquid, outside solids, touches this cell.
+bool touchesLiquid(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord& cell) {
   const float deep = -kDeepInSolid * static_cast<float>(solidPhi.voxelSize()[0]);
-  for (int a = 0; a < 3; ++a) {
-    Coord below = cell, above = cell;
-    below[a] -= 1;
-    above[a] += 1;
-    const FloatTree& speed = velocity.component[a]->constTree();
-    if (solidPhi.constTree().getValue(below) < deep && speed.getValue(cell) + kick[a] > 0.0) return true;
-    if (solidPhi.constTree().getValue(above) < deep && speed.getValue(above) + kick[a] < 0.0) return true;
+  for (int n = 0; n < 27; ++n) {
+    const Coord at = cell.offsetBy(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
+    if (phi.constTree().getValue(at) < 0.0f && solidPhi.constTree().getValue(at) >= deep) return true;
   }
   return false;
+}
+
+// Whether a film thinner than half a cell, so that only the wall's own cell holds it, goes from the wall at
+// this cell. It has no pressure of its own: it goes where the velocity leads away from the solid, `kick`
+// being what gravity adds to it in a step, as it does under a ceiling; and where no liquid feeds it, but on
+// floors, since nothing would move it any more.
+bool leavesSolid(const Liquid& liquid, const FloatGrid& solidPhi, const Coord& cell, const Vec3d& kick) {
+  const float deep = -kDeepInSolid * static_cast<float>(solidPhi.voxelSize()[0]);
+  bool onFloor = false;
+  for (int side = 0; side < 6; ++side) {
+    const int axis = side / 2, out = side % 2 == 0 ? 1 : -1;  // away from the solid on that side
+    Coord beyond = cell, face = cell;
+    beyond[axis] -= out;
+    if (out < 0) face[axis] += 1;
+    if (solidPhi.constTree().getValue(beyond) >= deep) continue;
+    const double speed = liquid.velocity.component[axis]->constTree().getValue(face);
+    if (out * (speed + kick[axis]) > 0.0) return true;
+    onFloor = onFloor || out * kick[axis] < -0.5 * kick.length();
+  }
+  return !onFloor && !touchesLiquid(*liquid.phi, solidPhi, cell);
 }
 
 // From here on the surface knows where liquid has let go of a solid: there a gap opens, elsewhere it is
@@ -89,7 +103,7 @@ void openGaps(Liquid& liquid, const SolidField& solid, const openvdb::MaskGrid& 
   }
   extendIntoSolids(phi, *solid.phi, [&](const Coord& ijk) {
     return phi.constTree().getValue(ijk) < 0.0f ? separating.constTree().isValueOn(ijk)
-                                                : leavesSolid(liquid.velocity, *solid.phi, ijk, kick);
+                                                : leavesSolid(liquid, *solid.phi, ijk, kick);
   });
   trimBand(phi, *solid.phi);
 }
