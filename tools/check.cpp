@@ -12,11 +12,11 @@
 namespace fluidtex::tools {
 namespace {
 
-// Near the dam break's measured peaks, high for the largest: 0.27 GB at 8,000 points, 0.39 GB at 58,000, 0.80
-// GB at 500,000. Leads, not promises.
-constexpr double kBytesPerLiquidCell = 400.0;
-constexpr double kBytesPerPoint = 1400.0;
-constexpr double kBytesProgram = 245e6;
+// Near the dam break's measured peaks: 0.28 GB at 8,000 points, 0.47 GB at 58,000. What a cell takes is mostly the
+// velocities of a frame's substeps, a dozen at a CFL number of 1. Leads, not promises.
+constexpr double kBytesPerLiquidCell = 3000.0;
+constexpr double kBytesPerPoint = 1000.0;
+constexpr double kBytesProgram = 250e6;
 
 void check(const CommonOptions& options) {
   const scenes::Scene scene = loadScene(options);
