@@ -22,7 +22,7 @@ constexpr int kMaxHalvings = 6;
 constexpr double kSameTime = 1e-6;
 
 Liquid liquidOf(const State& state) {
-  return {state.phi, {{state.u, state.v, state.w}}};
+  return {state.phi, {{state.u, state.v, state.w}}, state.markers, state.steps};
 }
 
 // Copying a grid, or writing and reading it, can change the last bits of its transform, and with them all
@@ -34,8 +34,10 @@ void setTransforms(State& state, double h) {
   state.w->setTransform(faceTransform(h, 2));
 }
 
-void store(State& state, const Liquid& liquid, double h) {
+void store(State& state, Liquid liquid, double h) {
   state.phi = liquid.phi;
+  state.markers = std::move(liquid.markers);
+  state.steps = liquid.steps;
   state.u = liquid.velocity.component[0];
   state.v = liquid.velocity.component[1];
   state.w = liquid.velocity.component[2];
@@ -86,7 +88,7 @@ constexpr double kShortest = 1e-5;
 Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_shared<Solids>(options)) {
   const double h = options.voxelSize();
   m_state.poured.assign(options.liquid.size(), false);
-  store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h)}, h);
+  store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0}, h);
   m_solid = m_solids->at(0.0);
 }
 
@@ -108,7 +110,7 @@ void Solver::applyEvents() {
   const double now = m_state.time;
   const auto solid = m_solids->at(now);
   bool changed = m_state.frame == 0;
-  Liquid liquid{m_state.phi->deepCopy(), liquidOf(m_state).velocity};
+  Liquid liquid{m_state.phi->deepCopy(), {{m_state.u, m_state.v, m_state.w}}, {}, m_state.steps};
   if (solid != m_solid) {
     changeSolids(liquid, *m_solid, *solid);
     m_solid = solid;
@@ -126,7 +128,7 @@ void Solver::applyEvents() {
   if (!changed) return;
   PressureReport report;
   if (!settle(liquid, *solid, m_options, &report)) fail(now, 1.0 / m_options.frameRate, report);
-  store(m_state, liquid, m_options.voxelSize());
+  store(m_state, std::move(liquid), m_options.voxelSize());
 }
 
 void Solver::advanceTo(double time, Frame& frame, const std::function<void(double)>& report) {
@@ -157,7 +159,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     stats.dtMin = stats.dtMin > 0.0 ? std::min(stats.dtMin, dt) : dt;
     stats.pressureIterations += pressure.iterations;
     stats.pressureResidual = std::max(stats.pressureResidual, pressure.residual);
-    store(m_state, *next, m_options.voxelSize());
+    store(m_state, std::move(*next), m_options.voxelSize());
     m_state.time = last ? time : m_state.time + dt;
     if (report) report(m_state.time);
   }

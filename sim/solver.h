@@ -1,7 +1,8 @@
-// Free-surface liquid on a MAC grid: particle-free level set, face velocities, pressure by projection.
+// Free-surface liquid on a MAC grid: particle level set, face velocities, pressure by projection.
 #pragma once
 
 #include "sim/frame.h"
+#include "sim/markers.h"
 #include "sim/options.h"
 
 #include <filesystem>
@@ -21,6 +22,8 @@ struct State {
   double time = 0.0;                // s
   openvdb::FloatGrid::Ptr phi;      // liquid, narrow band, metres, negative inside
   openvdb::FloatGrid::Ptr u, v, w;  // face velocities, m/s, of one topology; transforms as in Substep
+  Markers markers;                  // on both sides of the surface
+  std::int64_t steps = 0;           // substeps so far
   // Bodies of Options::liquid that have been put in already, by index.
   std::vector<bool> poured;
 };

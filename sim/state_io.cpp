@@ -2,6 +2,7 @@
 
 #include <openvdb/io/File.h>
 
+#include <cstring>
 #include <string>
 
 namespace fluidtex::sim {
@@ -10,6 +11,47 @@ namespace {
 using openvdb::FloatGrid;
 
 constexpr const char* kGridNames[4] = {"phi", "u", "v", "w"};
+
+// A block as bytes: origin, number of markers, markers.
+void append(std::string& bytes, const MarkerBlock& block) {
+  const std::int32_t head[4] = {block.origin[0], block.origin[1], block.origin[2],
+                                static_cast<std::int32_t>(block.markers.size())};
+  bytes.append(reinterpret_cast<const char*>(head), sizeof head);
+  bytes.append(reinterpret_cast<const char*>(block.markers.data()), block.markers.size() * sizeof(Marker));
+}
+
+void extract(const std::string& bytes, Markers& markers) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    std::int32_t head[4];
+    if (bytes.size() - at < sizeof head) throw openvdb::ValueError("the markers end early");
+    std::memcpy(head, bytes.data() + at, sizeof head);
+    at += sizeof head;
+    const std::size_t size = static_cast<std::size_t>(head[3]) * sizeof(Marker);
+    if (head[3] <= 0 || bytes.size() - at < size) throw openvdb::ValueError("the markers end early");
+    markers.push_back({openvdb::Coord(head[0], head[1], head[2]), std::vector<Marker>(head[3])});
+    std::memcpy(markers.back().markers.data(), bytes.data() + at, size);
+    at += size;
+  }
+}
+
+// Markers are kept in metadata, in parts: a string there has a length of 32 bits.
+constexpr std::size_t kPart = std::size_t{1} << 28;
+
+std::string partName(int part) {
+  return "markers" + std::to_string(part);
+}
+
+void writeMarkers(const Markers& markers, openvdb::MetaMap& metadata) {
+  std::string bytes;
+  int part = 0;
+  for (std::size_t n = 0; n < markers.size(); ++n) {
+    append(bytes, markers[n]);
+    if (bytes.size() < kPart && n + 1 < markers.size()) continue;
+    metadata.insertMeta(partName(part++), openvdb::StringMetadata(bytes));
+    bytes.clear();
+  }
+  metadata.insertMeta("marker_parts", openvdb::Int32Metadata(part));
+}
 
 }  // namespace
 
@@ -25,10 +67,12 @@ void writeState(const State& state, const std::filesystem::path& file) {
   }
   openvdb::MetaMap metadata;
   metadata.insertMeta("frame", openvdb::Int32Metadata(state.frame));
+  metadata.insertMeta("steps", openvdb::Int64Metadata(state.steps));
   metadata.insertMeta("time", openvdb::DoubleMetadata(state.time));
   std::string poured;
   for (const bool done : state.poured) poured += done ? '1' : '0';
   metadata.insertMeta("poured", openvdb::StringMetadata(poured));
+  writeMarkers(state.markers, metadata);
 
   openvdb::initialize();
   openvdb::io::File vdb(file.string());
@@ -45,8 +89,11 @@ State readState(const std::filesystem::path& file) {
     vdb.open(false);
     const auto metadata = vdb.getMetadata();
     state.frame = metadata->metaValue<std::int32_t>("frame");
+    state.steps = metadata->metaValue<std::int64_t>("steps");
     state.time = metadata->metaValue<double>("time");
     for (const char digit : metadata->metaValue<std::string>("poured")) state.poured.push_back(digit == '1');
+    for (int part = 0; part < metadata->metaValue<std::int32_t>("marker_parts"); ++part)
+      extract(metadata->metaValue<std::string>(partName(part)), state.markers);
     FloatGrid::Ptr* grids[4] = {&state.phi, &state.u, &state.v, &state.w};
     for (int n = 0; n < 4; ++n) {
       *grids[n] = openvdb::gridPtrCast<FloatGrid>(vdb.readGrid(kGridNames[n]));

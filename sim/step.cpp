@@ -139,11 +139,16 @@ bool isEmpty(const Liquid& liquid) {
 
 std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, const Options& options,
                            PressureReport* report) {
-  Liquid next{liquid.phi->deepCopy(), {}};
-  advectPhi(*next.phi, liquid.velocity, dt);
-  extendIntoSolids(*next.phi, *solid.phi);
-  reinitialize(*next.phi, *solid.phi, {.iterations = kReinitIterations, .keepSlope = kKeepSlope});
-  trimBand(*next.phi, *solid.phi);
+  Liquid next{
+      liquid.phi->deepCopy(), {}, advectMarkers(liquid.markers, liquid.velocity, dt), liquid.steps + 1};
+  FloatGrid& phi = *next.phi;
+  advectPhi(phi, liquid.velocity, dt);
+  correctPhi(phi, next.markers);
+  extendIntoSolids(phi, *solid.phi);
+  reinitialize(phi, *solid.phi, {.iterations = kReinitIterations, .keepSlope = kKeepSlope});
+  correctPhi(phi, next.markers);
+  maintainMarkers(next.markers, phi, *solid.phi, static_cast<std::uint64_t>(next.steps));
+  trimBand(phi, *solid.phi);
 
   next.velocity = velocityFor(*next.phi, solid);
   advectVelocity(liquid.velocity, next.velocity, *liquid.phi, *next.phi, dt);
@@ -205,6 +210,7 @@ bool settle(Liquid& liquid, const SolidField& solid, const Options& options, Pre
   }
   extendIntoSolids(phi, *solid.phi, never);
   trimBand(phi, *solid.phi);
+  liquid.markers = seedMarkers(phi, *solid.phi, static_cast<std::uint64_t>(liquid.steps));
 
   const Velocity before = liquid.velocity;
   liquid.velocity = velocityFor(phi, solid);

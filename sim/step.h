@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sim/mac_grid.h"
+#include "sim/markers.h"
 #include "sim/pressure.h"
 #include "sim/solids.h"
 
@@ -11,10 +12,13 @@
 
 namespace fluidtex::sim {
 
-// phi and the velocity that belongs to it: projected, extrapolated, at rest relative to solids.
+// phi, the velocity that belongs to it (projected, extrapolated, at rest relative to solids) and the markers
+// that keep phi right.
 struct Liquid {
   FloatGrid::Ptr phi;
   Velocity velocity;
+  Markers markers;
+  std::int64_t steps = 0;  // taken so far: the seed of the markers to come
 };
 
 // Half the width of phi's band in voxels, for steps of at most `cfl` cells.

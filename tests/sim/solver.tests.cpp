@@ -160,7 +160,8 @@ TEST_CASE("solver: a film on a wall goes when no liquid feeds it, on the floor i
   const double h = 1.0 / 24;
   const Frame onWall = frameAfter(tank(24, {box(Vec3d(0.0, 0.3, 0.5), Vec3d(0.3 * h, 0.7, 0.9))}), 4);
   const Frame onFloor = frameAfter(tank(24, {box(Vec3d(0.3, 0.3, 0.0), Vec3d(0.7, 0.7, 0.3 * h))}), 4);
-  CHECK(onWall.stats.volume == 0.0);
+  CHECK(onWall.stats.volume < 0.2 * 0.16 * 0.3 * h);  // what its markers leave is not seen
+  CHECK(cellsAbove(onWall, 0.0) == 0);
   CHECK(onFloor.stats.volume > 0.5 * 0.16 * 0.3 * h);
   // A column in a corner falls; no thread of it stays behind.
   const Frame inCorner = frameAfter(tank(24, {box(Vec3d(0.0, 0.0, 0.5), Vec3d(0.6 * h, 0.6 * h, 1.0))}), 12);

@@ -19,7 +19,10 @@ State someState() {
   State state;
   state.frame = 17;
   state.time = 0.1 + 0.2;  // not a short decimal
+  state.steps = 123456789012;
   state.poured = {true, false, true};
+  state.markers = {{Coord(-8, 0, 16), {{0.1f, 7.9999995f, 3.0f, -0.5f}, {1.0f / 3.0f, 0.0f, 2.5f, 0.1f}}},
+                   {Coord(0, 0, 8), {{4.0f, 5.0f, 6.0f, 0.25f}}}};
   state.phi = makePhi(0.03, 0.21);
   const Velocity velocity = makeVelocity(0.03);
   state.u = velocity.component[0];
@@ -46,6 +49,14 @@ TEST_CASE("state: comes back bit for bit") {
   CHECK(in.frame == out.frame);
   CHECK(in.time == out.time);
   CHECK(in.poured == out.poured);
+  CHECK(in.steps == out.steps);
+  REQUIRE(in.markers.size() == out.markers.size());
+  for (std::size_t n = 0; n < in.markers.size(); ++n) {
+    CHECK(in.markers[n].origin == out.markers[n].origin);
+    REQUIRE(in.markers[n].markers.size() == out.markers[n].markers.size());
+    CHECK(std::memcmp(in.markers[n].markers.data(), out.markers[n].markers.data(),
+                      in.markers[n].markers.size() * sizeof(Marker)) == 0);
+  }
   const FloatGrid::Ptr a[4] = {out.phi, out.u, out.v, out.w}, b[4] = {in.phi, in.u, in.v, in.w};
   for (int n = 0; n < 4; ++n) {
     CHECK(a[n]->transform() == b[n]->transform());

@@ -1,0 +1,46 @@
+// Marker particles on both sides of the surface: the particle level set method of Enright, Fedkiw, Ferziger,
+// Mitchell, "A hybrid particle level set method for improved interface capturing", 2002. Markers are carried
+// by the flow and keep what the grid loses: edges, films, volume. Where one has come out on the wrong side of
+// the surface, phi is in error and is put right by it.
+#pragma once
+
+#include "sim/mac_grid.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace fluidtex::sim {
+
+// A sphere that touched the surface when it was last measured. In units of cells: x, y, z from the centre of
+// the first cell of its block, each in [0, 8); radius 0.1 to 0.5, negative for a marker of the liquid.
+struct Marker {
+  float x, y, z, radius;
+};
+
+// The markers of one leaf of phi.
+struct MarkerBlock {
+  Coord origin{0};
+  std::vector<Marker> markers;
+};
+
+// In the order of their origins, none empty.
+using Markers = std::vector<MarkerBlock>;
+
+// Markers for a surface: of the liquid and of the air, in every cell that the band reaches, none deep in
+// solids.
+Markers seedMarkers(const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed);
+
+// The markers dt seconds later: third-order Runge-Kutta, velocity trilinear. dt max|u| / h must be below 5.
+// Markers of the air that the flow squeezes out between liquid and liquid are dropped.
+Markers advectMarkers(const Markers& markers, const Velocity& velocity, double dt);
+
+// Puts phi right at the corners of cells with escaped markers, those farther on the wrong side than their
+// radius.
+void correctPhi(FloatGrid& phi, const Markers& markers);
+
+// Measures the radii anew; drops markers that have left the band, those in solids, and those of bubbles that
+// have closed; and fills cells near the surface that have less than half of what they should. `seed` must
+// differ from call to call.
+void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed);
+
+}  // namespace fluidtex::sim
