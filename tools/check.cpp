@@ -12,9 +12,9 @@
 namespace fluidtex::tools {
 namespace {
 
-// Near the dam break's measured peaks: 0.28 GB at 8,000 points, 0.47 GB at 58,000. What a cell takes is mostly the
+// Near the dam break's measured peaks: 0.28 GB at 8,000 points, 0.57 GB at 58,000. What a cell takes is mostly the
 // velocities of a frame's substeps, a dozen at a CFL number of 1. Leads, not promises.
-constexpr double kBytesPerLiquidCell = 3000.0;
+constexpr double kBytesPerLiquidCell = 5000.0;
 constexpr double kBytesPerPoint = 1000.0;
 constexpr double kBytesProgram = 250e6;
 
