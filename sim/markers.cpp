@@ -42,7 +42,7 @@ struct Samples {
     return low + tx * (high - low);
   }
 
-  // Whether one of the eight values around is.
+  // Whether one of the eight values around is negative.
   bool anyNegative(float x, float y, float z) const {
     const float* p = value.data() +
                      ((int(std::floor(x)) + halo) * side + int(std::floor(y)) + halo) * std::ptrdiff_t(side) +

@@ -39,7 +39,7 @@ Markers advectMarkers(const Markers& markers, const Velocity& velocity, double d
 void correctPhi(FloatGrid& phi, const Markers& markers);
 
 // Measures the radii anew; drops markers that have left the band, those in solids, and those of bubbles that
-// have closed; and fills cells near the surface that have less than half of what they should. `seed` must
+// have closed; and fills cells near the surface that have no more than half of what they should. `seed` must
 // differ from call to call.
 void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed);
 

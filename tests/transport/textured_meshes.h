@@ -30,27 +30,41 @@ inline Vec3f projected(const Vec3f& x, const Vec3f& n) {
   return x - n * n.dot(x);
 }
 
+// The state that the next frame starts from, with nothing synthesised in between.
+inline TexturedSurface continued(const Carried& carried, const SurfaceMesh& mesh) {
+  return {.spacing = mesh.spacing,
+          .positions = mesh.positions,
+          .normals = mesh.normals,
+          .orientation = carried.orientation,
+          .triangles = mesh.triangles,
+          .color = carried.color,
+          .coordinate = carried.coordinate,
+          .gradient = carried.gradient,
+          .age = carried.age,
+          .trust = carried.trust,
+          .previousPosition = carried.previousPosition,
+          .velocity = {},
+          .contact = {},
+          .maps = {}};
+}
+
 // Exemplar coordinates that are one linear function of position all over; colour and age likewise.
 inline TexturedSurface texturedMesh(const SurfaceMesh& mesh, const Flow& direction) {
-  TexturedSurface surface;
-  surface.spacing = mesh.spacing;
-  surface.positions = mesh.positions;
-  surface.normals = mesh.normals;
-  surface.triangles = mesh.triangles;
+  Carried texture;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const Vec3f &x = mesh.positions[v], &n = mesh.normals[v];
     Vec3f d = projected(Vec3f(direction(Vec3d(x))), n);
     d.normalize();
-    surface.orientation.push_back(d);
-    surface.color.emplace_back(0.5f + 0.1f * x.x(), 0.5f + 0.1f * x.y(), 0.5f + 0.1f * x.z(), 1.0f);
-    surface.coordinate.emplace_back(float(kTexelsPerMeter * x.x()), float(kTexelsPerMeter * x.y()));
-    surface.gradient.push_back({projected(Vec3f(float(kTexelsPerMeter), 0, 0), n),
+    texture.orientation.push_back(d);
+    texture.color.emplace_back(0.5f + 0.1f * x.x(), 0.5f + 0.1f * x.y(), 0.5f + 0.1f * x.z(), 1.0f);
+    texture.coordinate.emplace_back(float(kTexelsPerMeter * x.x()), float(kTexelsPerMeter * x.y()));
+    texture.gradient.push_back({projected(Vec3f(float(kTexelsPerMeter), 0, 0), n),
                                 projected(Vec3f(0, float(kTexelsPerMeter), 0), n)});
-    surface.age.push_back(2.0f + x.z());
-    surface.trust.push_back(1.0f);
+    texture.age.push_back(2.0f + x.z());
+    texture.trust.push_back(1.0f);
   }
-  surface.previousPosition = surface.positions;
-  return surface;
+  texture.previousPosition = mesh.positions;
+  return continued(texture, mesh);
 }
 
 inline Flow constantDirection(const Vec3d& d) {
@@ -66,23 +80,6 @@ inline SurfaceMesh mappedMesh(SurfaceMesh mesh, const Mat3d& f) {
     n.normalize();
   }
   return mesh;
-}
-
-// The state that the next frame starts from, with nothing synthesised in between.
-inline TexturedSurface continued(const Carried& carried, const SurfaceMesh& mesh) {
-  TexturedSurface surface;
-  surface.spacing = mesh.spacing;
-  surface.positions = mesh.positions;
-  surface.normals = mesh.normals;
-  surface.triangles = mesh.triangles;
-  surface.orientation = carried.orientation;
-  surface.color = carried.color;
-  surface.coordinate = carried.coordinate;
-  surface.gradient = carried.gradient;
-  surface.age = carried.age;
-  surface.trust = carried.trust;
-  surface.previousPosition = carried.previousPosition;
-  return surface;
 }
 
 inline void requireWhole(const Carried& carried, const SurfaceMesh& mesh) {
