@@ -19,8 +19,8 @@ namespace {
 constexpr int kMargin = kLeafDim;
 
 // Every reinitialisation of the cells next to the surface costs volume (the dam break at 32 cells ends with
-// 0.80 of it when done each time, with 0.87 this way), so they are let be until their slopes have drifted
-// this far.
+// 0.80 of it when done each time, with 0.87 this way, both without markers), so they are let be until their
+// slopes have drifted this far.
 constexpr double kKeepSlope = 0.2;
 // In one step the surface moves at most a few cells; this many iterations renew the distance as far out.
 constexpr int kReinitIterations = 8;
