@@ -4,6 +4,7 @@
 #include "sim/extrapolate.h"
 #include "sim/leaf_table.h"
 #include "sim/level_set.h"
+#include "sim/move_surface.h"
 
 #include <openvdb/tools/Morphology.h>
 
@@ -17,13 +18,6 @@ namespace {
 
 // Layers of voxels outside the domain in which phi and velocity may have leaves.
 constexpr int kMargin = kLeafDim;
-
-// Every reinitialisation of the cells next to the surface costs volume (the dam break at 32 cells ends with
-// 0.80 of it when done each time, with 0.87 this way, both without markers), so they are let be until their
-// slopes have drifted this far.
-constexpr double kKeepSlope = 0.2;
-// In one step the surface moves at most a few cells; this many iterations renew the distance as far out.
-constexpr int kReinitIterations = 8;
 
 double voxelSize(const Liquid& liquid) {
   return liquid.phi->voxelSize()[0];
@@ -139,16 +133,9 @@ bool isEmpty(const Liquid& liquid) {
 
 std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, const Options& options,
                            PressureReport* report) {
-  Liquid next{
-      liquid.phi->deepCopy(), {}, advectMarkers(liquid.markers, liquid.velocity, dt), liquid.steps + 1};
-  FloatGrid& phi = *next.phi;
-  advectPhi(phi, liquid.velocity, dt);
-  correctPhi(phi, next.markers);
-  extendIntoSolids(phi, *solid.phi);
-  reinitialize(phi, *solid.phi, {.iterations = kReinitIterations, .keepSlope = kKeepSlope});
-  correctPhi(phi, next.markers);
-  maintainMarkers(next.markers, phi, *solid.phi, static_cast<std::uint64_t>(next.steps));
-  trimBand(phi, *solid.phi);
+  Liquid next{liquid.phi->deepCopy(), {}, liquid.markers, liquid.steps + 1};
+  moveSurface(*next.phi, next.markers, liquid.velocity, *solid.phi, dt,
+              static_cast<std::uint64_t>(next.steps));
 
   next.velocity = velocityFor(*next.phi, solid);
   advectVelocity(liquid.velocity, next.velocity, *liquid.phi, *next.phi, dt);

@@ -20,5 +20,6 @@ struct CommonOptions {
 
 void addRun(CLI::App& app, int& exitCode);
 void addCheck(CLI::App& app, int& exitCode);
+void addValidate(CLI::App& app, int& exitCode);
 
 }  // namespace fluidtex::tools

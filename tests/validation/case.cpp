@@ -1,0 +1,25 @@
+#include "tests/validation/case.h"
+
+#include "tests/validation/level_set_cases.h"
+
+#include <cmath>
+
+namespace fluidtex::validation {
+
+bool Row::ok() const {
+  if (!must) return true;
+  return atLeast ? value >= *must : std::abs(value) <= *must;
+}
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = [] {
+    std::vector<Case> list;
+    for (auto* part : {levelSetCases}) {
+      for (Case& c : part()) list.push_back(std::move(c));
+    }
+    return list;
+  }();
+  return all;
+}
+
+}  // namespace fluidtex::validation

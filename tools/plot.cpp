@@ -1,0 +1,71 @@
+#include "tools/plot.h"
+
+#include "tools/atomic_file.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace fluidtex::tools {
+namespace {
+
+using validation::Curve;
+using validation::Plot;
+
+// A double-quoted string of gnuplot's.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+std::string script(const Plot& plot, const std::filesystem::path& file) {
+  std::string text = fmt::format(
+      "set terminal svg size 640,{} font 'sans,12' background 'white' noenhanced\n"
+      "set output {}\nset title {}\nset xlabel {}\nset ylabel {}\nset grid lc rgb '#dddddd'\n"
+      "set key outside bottom center horizontal\n",
+      plot.sameScale ? 640 : 440, quoted(file.string()), quoted(plot.title), quoted(plot.xLabel),
+      quoted(plot.yLabel));
+  if (plot.logarithmic) text += "set logscale xy\nset format y '%.0e'\n";
+  if (plot.sameScale) text += "set size ratio -1\n";
+  for (std::size_t n = 0; n < plot.curves.size(); ++n) {
+    const Curve& curve = plot.curves[n];
+    text += fmt::format("$curve{} << end\n", n);
+    for (std::size_t i = 0; i < curve.points.size(); ++i) {
+      text += fmt::format("{:.9g} {:.9g}\n", curve.points[i][0], curve.points[i][1]);
+      // A blank line lifts the pen.
+      if (curve.style == Curve::Style::segments && i % 2 == 1) text += "\n";
+    }
+    text += "end\n";
+  }
+  text += "plot ";
+  for (std::size_t n = 0; n < plot.curves.size(); ++n) {
+    const Curve& curve = plot.curves[n];
+    const char* with = curve.style == Curve::Style::marks  ? "points pt 6 ps 0.8"
+                       : curve.style == Curve::Style::line ? "linespoints lw 1.5 pt 7 ps 0.4"
+                                                           : "lines lw 1.5";
+    text += fmt::format("{}$curve{} with {} lc {} title {}", n > 0 ? ", " : "", n, with, n + 1,
+                        quoted(curve.label));
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+void writePlot(const Plot& plot, const std::filesystem::path& file) {
+  writeAtomically(file, [&](const std::filesystem::path& temporary) {
+    FILE* gnuplot = popen("gnuplot", "w");
+    if (gnuplot == nullptr) throw std::runtime_error("gnuplot could not be started");
+    const std::string text = script(plot, temporary);
+    std::fwrite(text.data(), 1, text.size(), gnuplot);
+    if (pclose(gnuplot) != 0 || !std::filesystem::exists(temporary))
+      throw std::runtime_error("gnuplot did not draw " + file.string() +
+                               "; is the package gnuplot-nox installed?");
+  });
+}
+
+}  // namespace fluidtex::tools

@@ -1,0 +1,13 @@
+// Curves as pictures, drawn by gnuplot.
+#pragma once
+
+#include "tests/validation/case.h"
+
+#include <filesystem>
+
+namespace fluidtex::tools {
+
+// Writes the plot as an SVG file, atomically. Throws std::runtime_error when gnuplot is missing or fails.
+void writePlot(const validation::Plot& plot, const std::filesystem::path& file);
+
+}  // namespace fluidtex::tools

@@ -1,0 +1,229 @@
+// fluidtex validate [NAME...]: the reference tests, each figure beside its bar and what others measured.
+#include "tests/validation/case.h"
+#include "tools/atomic_file.h"
+#include "tools/commands.h"
+#include "tools/errors.h"
+#include "tools/plot.h"
+#include "tools/progress.h"
+
+#include <fmt/core.h>
+#include <tbb/global_control.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <set>
+
+#include <unistd.h>
+
+namespace fluidtex::tools {
+namespace {
+
+using validation::Case;
+using validation::Row;
+
+struct ValidateOptions {
+  std::vector<std::string> names;
+  std::filesystem::path json, plots;
+  int resolution = 0;
+  int threads = 0;
+  bool list = false;
+};
+
+// A case and one of its resolutions.
+struct Job {
+  const Case* test;
+  int resolution;
+};
+
+constexpr const char* kQuick = "quick";
+
+std::vector<Job> planJobs(const ValidateOptions& options) {
+  std::set<std::string> known{kQuick};
+  for (const Case& c : validation::cases()) known.insert({c.name, c.group});
+  for (const std::string& name : options.names) {
+    if (known.count(name) != 0) continue;
+    std::string all;
+    for (const std::string& word : known) all += (all.empty() ? "" : ", ") + word;
+    throw UsageError(name + ": no such test or set of tests; there are: " + all);
+  }
+  const auto asked = [&](const std::string& name) {
+    return std::find(options.names.begin(), options.names.end(), name) != options.names.end();
+  };
+  std::vector<Job> jobs;
+  for (const Case& c : validation::cases()) {
+    const bool whole = options.names.empty() || asked(c.name) || asked(c.group);
+    if (!whole && !asked(kQuick)) continue;
+    if (options.resolution > 0) {
+      if (whole || !c.quick.empty()) jobs.push_back({&c, options.resolution});
+      continue;
+    }
+    for (const int resolution : whole ? c.resolutions : c.quick) jobs.push_back({&c, resolution});
+  }
+  return jobs;
+}
+
+std::string bound(const Row& row, const std::optional<double>& value) {
+  return value ? fmt::format("{}{:.3g}", row.atLeast ? ">= " : "", *value) : "-";
+}
+
+void printHead() {
+  fmt::print("{:<18} {:>5}  {:<28} {:>11} {:>9} {:>9}  {}\n", "test", "cells", "measure", "value", "must",
+             "goal", "published");
+}
+
+void printRow(const Row& row) {
+  std::string others;
+  for (const auto& [value, source] : row.published)
+    others += fmt::format("{}{:.3g} ({})", others.empty() ? "" : "; ", value, source);
+  fmt::print("{:<18} {:>5}  {:<28} {:>11.4g} {:>9} {:>9}  {}{}\n", row.test, row.resolution, row.measure,
+             row.value, bound(row, row.must), bound(row, row.goal), row.ok() ? "" : "FAILS  ", others);
+  std::fflush(stdout);
+}
+
+nlohmann::ordered_json toJson(const Row& row) {
+  const auto orNull = [](const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+  };
+  nlohmann::ordered_json published = nlohmann::ordered_json::array();
+  for (const auto& [value, source] : row.published)
+    published.push_back({{"value", value}, {"source", source}});
+  return {{"test", row.test},         {"resolution", row.resolution},
+          {"measure", row.measure},   {"value", row.value},
+          {"must", orNull(row.must)}, {"goal", orNull(row.goal)},
+          {"published", published},   {"ok", row.ok()},
+          {"seconds", row.seconds}};
+}
+
+// The bar of the test that runs now, redrawn on a terminal only.
+class JobProgress {
+ public:
+  JobProgress(const Job& job, std::size_t number, std::size_t count)
+      : m_label(fmt::format("{} {} ({} of {})", job.test->name, job.resolution, number, count)),
+        m_start(Clock::now()) {}
+  ~JobProgress() {
+    if (m_terminal) fmt::print(stderr, "\r\033[K");
+  }
+
+  void update(double part) {
+    const auto now = Clock::now();
+    if (!m_terminal || now - m_drawn < std::chrono::milliseconds(100)) return;
+    m_drawn = now;
+    const double gone = std::chrono::duration<double>(now - m_start).count();
+    fmt::print(stderr, "\r\033[K{}: {:.0f}%, {} left", m_label, 100.0 * part,
+               part > 0.01 ? humanDuration(gone / part - gone) : "?");
+    std::fflush(stderr);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string m_label;
+  bool m_terminal = isatty(STDERR_FILENO) == 1;
+  Clock::time_point m_start, m_drawn;
+};
+
+// Error over resolution, one plot for each measure of a case that was run at several.
+void plotConvergence(const std::string& name, const std::vector<Row>& rows,
+                     const std::filesystem::path& folder) {
+  std::vector<std::string> measures;
+  for (const Row& row : rows) {
+    if (std::find(measures.begin(), measures.end(), row.measure) == measures.end())
+      measures.push_back(row.measure);
+  }
+  validation::Plot plot{
+      name + "_convergence", name + ": error over resolution", "cells", "error", true, false, {}};
+  for (const std::string& measure : measures) {
+    validation::Curve curve{measure, {}, validation::Curve::Style::line};
+    for (const Row& row : rows) {
+      if (row.measure == measure && row.value != 0.0)
+        curve.points.push_back({double(row.resolution), std::abs(row.value)});
+    }
+    if (curve.points.size() > 1) plot.curves.push_back(std::move(curve));
+  }
+  if (!plot.curves.empty()) writePlot(plot, folder / (plot.name + ".svg"));
+}
+
+void listCases() {
+  for (const Case& c : validation::cases()) {
+    std::string resolutions;
+    for (const int n : c.resolutions) resolutions += fmt::format(" {}", n);
+    fmt::print("{:<18} {:<10} {};{}\n", c.name, c.group, c.title, resolutions);
+  }
+}
+
+int validate(const ValidateOptions& options) {
+  if (options.list) {
+    listCases();
+    return kDone;
+  }
+  std::unique_ptr<tbb::global_control> limit;
+  if (options.threads > 0)
+    limit =
+        std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, options.threads);
+  const std::vector<Job> jobs = planJobs(options);
+
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  bool holds = true;
+  std::vector<Row> ofCase;
+  const auto take = [&](const Row& row) {
+    printRow(row);
+    json.push_back(toJson(row));
+    holds = holds && row.ok();
+    ofCase.push_back(row);
+  };
+  printHead();
+  for (std::size_t n = 0; n < jobs.size(); ++n) {
+    const Job& job = jobs[n];
+    const auto start = std::chrono::steady_clock::now();
+    validation::Result result;
+    {
+      JobProgress progress(job, n + 1, jobs.size());
+      result = job.test->run(job.resolution, [&](double part) { progress.update(part); });
+    }
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (Row& row : result.rows) {
+      row.seconds = seconds;
+      take(row);
+    }
+    if (!options.plots.empty()) {
+      for (const validation::Plot& plot : result.plots) writePlot(plot, options.plots / (plot.name + ".svg"));
+    }
+    if (n + 1 < jobs.size() && jobs[n + 1].test == job.test) continue;
+    if (job.test->summarize) {
+      const std::vector<Row> measured = ofCase;
+      for (const Row& row : job.test->summarize(measured)) take(row);
+    }
+    if (!options.plots.empty()) plotConvergence(job.test->name, ofCase, options.plots);
+    ofCase.clear();
+  }
+  if (!options.json.empty()) writeTextAtomically(options.json, json.dump(2) + "\n");
+  return holds ? kDone : kFailed;
+}
+
+}  // namespace
+
+void addValidate(CLI::App& app, int& exitCode) {
+  CLI::App* command =
+      app.add_subcommand("validate", "Run the reference tests and print each figure beside its bar");
+  auto options = std::make_shared<ValidateOptions>();
+  command->add_option("names", options->names,
+                      "Tests, or sets of them (level_set, fluid, quick); all when none is named");
+  command->add_option("--json", options->json, "Write the figures to this file");
+  command->add_option("--plots", options->plots, "Write the plots into this folder, as SVG");
+  command->add_option("--resolution", options->resolution, "Run at this resolution only")
+      ->check(CLI::Range(8, 4096));
+  command->add_option("--threads", options->threads, "Threads to use; one a core where not given")
+      ->check(CLI::Range(1, 4096));
+  command->add_flag("--list", options->list, "Print the tests and their resolutions");
+  command->footer(
+      "Example:\n  fluidtex validate zalesak vortex_8 --plots docs/validation --json figures.json");
+  command->callback([options, &exitCode] {
+    int result = kDone;
+    exitCode = guarded([&] { result = validate(*options); });
+    if (exitCode == kDone) exitCode = result;
+  });
+}
+
+}  // namespace fluidtex::tools
