@@ -26,15 +26,11 @@ inline constexpr float kSolidLayers = 2.99f;
 
 struct ReinitOptions {
   int iterations = 8;  // of 0.45 h each: how far from the surface the distance is made right
-  // Cells next to the surface stay as they are (the others are still made right) in every leaf where the root
-  // mean square of | |grad phi| - 1 | over them is below this. There the surface does not move at all, but
-  // what the flow did to the slope stays.
-  double keepSlope = 0.0;
 };
 
 // Turns phi into a signed distance near the surface, which itself stays where it is: cells next to it use its
-// place between the cell centres. Cells in solids more than half a cell deep are left alone (see
-// extendIntoSolids).
+// place between the cell centres, to fourth order where it is smooth. Cells in solids more than half a cell
+// deep are left alone (see extendIntoSolids).
 void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, const ReinitOptions& options = {});
 
 // Asked of cells in the open beside a solid: has the liquid there let go of the solid, or, where the cell is

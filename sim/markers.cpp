@@ -129,6 +129,19 @@ bool escaped(const Marker& m, float phi) {
   return side(m) * phi < -std::abs(m.radius);
 }
 
+// Whether the liquid here is no more than a film on the wall: no cell around is liquid, and it gets farther
+// one cell away from the wall. (A thread that stands on a wall is as near there as here.)
+bool liesOnWall(const Marker& m, const Samples& distance, const Samples& solid, float h) {
+  if (distance.anyNegative(m.x, m.y, m.z)) return false;
+  const openvdb::Vec3f slope(solid.at(m.x + 0.5f, m.y, m.z) - solid.at(m.x - 0.5f, m.y, m.z),
+                             solid.at(m.x, m.y + 0.5f, m.z) - solid.at(m.x, m.y - 0.5f, m.z),
+                             solid.at(m.x, m.y, m.z + 0.5f) - solid.at(m.x, m.y, m.z - 0.5f));
+  const float length = slope.length();
+  if (length < 0.1f * h) return true;  // in the middle of a solid
+  const openvdb::Vec3f away = openvdb::Vec3f(m.x, m.y, m.z) + slope / length;
+  return distance.at(away[0], away[1], away[2]) > distance.at(m.x, m.y, m.z) + 0.5f * h;
+}
+
 void measure(Marker& m, float phi) {
   m.radius = side(m) * std::clamp(side(m) * phi, kSmallest, kLargest);
 }
@@ -247,7 +260,7 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
   origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
   Markers next(origins.size());
   tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
-    thread_local Samples distance(1), solid(1);
+    thread_local Samples distance(2), solid(2);
     distance.load(phi.constTree(), origins[n]);
     solid.load(solidPhi.constTree(), origins[n]);
     next[n].origin = origins[n];
@@ -263,7 +276,7 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
         const float wall = solid.at(m.x, m.y, m.z);
         if (wall < -h) continue;
         // What is left of a film at a wall, with no cell of liquid: nothing would move it any more.
-        if (out && wall < h && !distance.anyNegative(m.x, m.y, m.z)) continue;
+        if (out && wall < h && liesOnWall(m, distance, solid, h)) continue;
         int& there = count[std::size_t(cellOf(m))];
         if (!out && there >= 2 * kPerCell) continue;
         ++there;

@@ -1,9 +1,12 @@
-// Based on: Sussman, Smereka and Osher 1994 (the equation  d(phi)/dtau = sign(phi0) (1 - |grad phi|));
+// Cells beside the surface get their distance from the closest point on it (sim/surface_distance.h). From
+// them it is spread by the equation  d(phi)/dtau = sign(phi0) (1 - |grad phi|)  of Sussman, Smereka and Osher
+// 1994, and so it is beside corners, films and gaps, where there is no smooth surface to be close to, with:
 // Russo and Smereka, "A remark on computing distance functions", 2000 (the surface's place kept within
 // cells); Min, "On reinitializing level set functions", 2010 (second-order differences, quadratic place,
 // local steps).
 #include "sim/leaf_table.h"
 #include "sim/level_set.h"
+#include "sim/surface_distance.h"
 
 #include <tbb/parallel_for.h>
 
@@ -18,6 +21,10 @@ constexpr int kSide = kLeafDim + 2 * kHalo;  // 12
 constexpr int kBlock = kSide * kSide * kSide;
 constexpr int kStride[3] = {kSide * kSide, kSide, 1};
 constexpr float kCourant = 0.45f;
+
+// Cells beside the surface that are wrong by less than this share of a cell stay: a surface at rest does not
+// move at all, however often it is reinitialised.
+constexpr float kRightEnough = 1e-3f;
 
 // By value and without branches, so that loops over them vectorise.
 inline float least(float a, float b) {
@@ -113,45 +120,28 @@ float nearSlope(const float* p, const NearCell& cell) {
 }
 
 struct LeafPlan {
-  std::vector<NearCell> near;
-  std::vector<std::int16_t> held;  // offsets of cells that keep their value
+  std::vector<NearCell> near;       // those whose distance comes from the iteration
+  std::vector<std::int16_t> held;   // offsets of cells that do not take part in it
+  std::vector<CellDistance> moved;  // of those, the ones that get a new value beforehand
 };
 
-// Root mean square of |grad phi| - 1 (times h) over these cells; 0 for none. In a film or a gap of one cell
-// the slopes of both sides cancel and say nothing.
-double slopeErrorOf(const std::vector<NearCell>& near, const float* block, float h) {
-  double sum = 0.0, count = 0.0;
-  for (const NearCell& cell : near) {
-    const float* p = block + blockIndex(cell.offset);
-    double square = 0.0;
-    bool ridge = false;
-    for (const int d : kStride) {
-      ridge = ridge || ((p[d] < 0.0f) != (p[0] < 0.0f) && (p[-d] < 0.0f) != (p[0] < 0.0f));
-      square += 0.25 * (p[d] - p[-d]) * (p[d] - p[-d]);
-    }
-    if (ridge) continue;
-    const double error = std::sqrt(square) / h - 1.0;
-    sum += error * error;
-    count += 1.0;
-  }
-  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
-}
-
-LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h,
-                  double keepSlope) {
+LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h) {
   float block[kBlock] = {};
   gather(phi, origin, kHalo, block, true);
-  LeafPlan plan{nearCells(block), {}};
   float scratch[kLeafSize];
   const float* solid = leafValues(solidPhi, origin, scratch);
   const float deepest = -kDeepInSolid * h;
-  std::erase_if(plan.near, [&](const NearCell& cell) { return solid[cell.offset] < deepest; });
-  for (std::int16_t i = 0; i < kLeafSize; ++i) {
-    if (solid[i] < deepest) plan.held.push_back(i);
+  std::array<bool, kLeafSize> held;
+  for (int i = 0; i < kLeafSize; ++i) held[i] = solid[i] < deepest;
+  LeafPlan plan{nearCells(block), {}, {}};
+  for (const CellDistance& cell : surfaceDistances(phi, origin, h)) {
+    if (held[cell.offset]) continue;
+    held[cell.offset] = true;
+    if (std::abs(block[blockIndex(cell.offset)] / h - cell.phi) > kRightEnough) plan.moved.push_back(cell);
   }
-  if (slopeErrorOf(plan.near, block, h) < keepSlope) {
-    for (const NearCell& cell : plan.near) plan.held.push_back(static_cast<std::int16_t>(cell.offset));
-    plan.near.clear();
+  std::erase_if(plan.near, [&](const NearCell& cell) { return held[cell.offset]; });
+  for (std::int16_t i = 0; i < kLeafSize; ++i) {
+    if (held[i]) plan.held.push_back(i);
   }
   return plan;
 }
@@ -200,7 +190,10 @@ void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, const ReinitOptions
   const auto leaves = leavesOf(phi.tree());
   std::vector<LeafPlan> plans(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    plans[n] = planLeaf(phi.constTree(), solidPhi.constTree(), leaves[n]->origin(), h, options.keepSlope);
+    plans[n] = planLeaf(phi.constTree(), solidPhi.constTree(), leaves[n]->origin(), h);
+  });
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    for (const CellDistance& cell : plans[n].moved) leaves[n]->setValueOnly(cell.offset, h * cell.phi);
   });
   FloatTree predicted(phi.constTree());
   const auto predictedLeaves = leavesOf(predicted);

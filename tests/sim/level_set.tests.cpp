@@ -83,9 +83,8 @@ struct Fixture {
     return sum;
   }
 
-  void advance(const Velocity& velocity, double dt, bool reinit) {
+  void advance(const Velocity& velocity, double dt) {
     advectPhi(*phi, velocity, dt);
-    if (reinit) reinitialize(*phi, *noSolid, {.keepSlope = 1e9});
     trimBand(*phi, *noSolid);
   }
 
@@ -127,7 +126,7 @@ TEST_CASE("level set: a translated ball keeps its volume and place") {
   Fixture f(1.0 / 64, Coord(64), ball(Vec3d(0.35, 0.4, 0.45), 0.15));
   const Velocity velocity = f.velocity([](const Vec3d&) { return Vec3d(0.3, 0.2, 0.1); });
   const double before = f.volume();
-  for (int n = 0; n < 20; ++n) f.advance(velocity, 0.05, true);
+  for (int n = 0; n < 20; ++n) f.advance(velocity, 0.05);
   INFO("volume " << f.volume() / before - 1.0);
   CHECK(std::abs(f.volume() / before - 1.0) < 2e-3);
   CHECK(f.distanceError(1.0, ball(Vec3d(0.65, 0.6, 0.55), 0.15)) < 0.1 * f.h);
@@ -141,24 +140,11 @@ TEST_CASE("level set: Zalesak's disk after one turn") {
   const Velocity velocity = f.velocity(
       [](const Vec3d& x) { return Vec3d(50.0 - x.y(), x.x() - 50.0, 0.0) * (std::numbers::pi / 314.0); });
   const double before = f.volume();
-  for (int n = 0; n < 628; ++n) f.advance(velocity, 1.0, false);
+  for (int n = 0; n < 628; ++n) f.advance(velocity, 1.0);
   const double change = f.volume() / before - 1.0, error = f.difference(zalesak) / depth / perimeter;
   INFO("volume " << change << ", interface error " << error);
   CHECK(std::abs(change) < 0.015);
   CHECK(error < 0.16);
-}
-
-TEST_CASE("level set: Zalesak's disk as the solver moves it") {
-  Fixture f(1.0, Coord(100, 100, 8), zalesak);
-  const double perimeter = 143.805, depth = 7.0;
-  const Velocity velocity = f.velocity(
-      [](const Vec3d& x) { return Vec3d(50.0 - x.y(), x.x() - 50.0, 0.0) * (std::numbers::pi / 314.0); });
-  const double before = f.volume();
-  for (int n = 0; n < 209; ++n) f.advance(velocity, 628.0 / 209, true);
-  const double change = f.volume() / before - 1.0, error = f.difference(zalesak) / depth / perimeter;
-  INFO("volume " << change << ", interface error " << error);
-  CHECK(std::abs(change) < 0.03);
-  CHECK(error < 0.4);
 }
 
 TEST_CASE("level set: reinitialisation leaves the surface and makes a distance") {
@@ -182,28 +168,20 @@ TEST_CASE("level set: reinitialisation leaves the surface and makes a distance")
   CHECK(f.distanceError(1.0, exact) < 0.05 * f.h);
 }
 
-TEST_CASE("level set: cells next to the surface are kept when asked to") {
+TEST_CASE("level set: slopes of two become slopes of one, and then nothing moves any more") {
   Fixture f(1.0 / 32, Coord(32), ball(Vec3d(0.5), 0.3));
   for (auto it = f.phi->beginValueOn(); it; ++it) it.setValue(*it * 2.0f);
-  const FloatGrid::Ptr before = f.phi->deepCopy();
-  reinitialize(*f.phi, *f.noSolid, {.iterations = 6, .keepSlope = 1e9});
-  int kept = 0, changed = 0;
+  reinitialize(*f.phi, *f.noSolid);
+  CHECK(f.distanceError(1.0, ball(Vec3d(0.5), 0.3)) < 0.003 * f.h);
+  const FloatGrid::Ptr right = f.phi->deepCopy();
+  for (int n = 0; n < 10; ++n) reinitialize(*f.phi, *f.noSolid);
+  int kept = 0;
   for (auto it = f.phi->cbeginValueOn(); it; ++it) {
-    const float was = before->tree().getValue(it.getCoord());
-    if (std::abs(was) < 0.5f * f.h) kept += *it == was ? 1 : -1000;
-    changed += *it != was ? 1 : 0;
+    if (std::abs(*it) > 0.5f * f.h) continue;
+    CHECK(*it == right->tree().getValue(it.getCoord()));
+    ++kept;
   }
   CHECK(kept > 100);
-  CHECK(changed > 100);
-  // Slopes of 2 are not kept where 1.2 is asked for, slopes of 1 are.
-  reinitialize(*f.phi, *f.noSolid, {.iterations = 6, .keepSlope = 0.2});
-  CHECK(f.distanceError(1.0, ball(Vec3d(0.5), 0.3)) < 0.05 * f.h);
-  const FloatGrid::Ptr right = f.phi->deepCopy();
-  reinitialize(*f.phi, *f.noSolid, {.iterations = 6, .keepSlope = 0.2});
-  for (auto it = f.phi->cbeginValueOn(); it; ++it) {
-    const float was = right->tree().getValue(it.getCoord());
-    if (std::abs(was) < 0.5f * f.h && *it != was) FAIL("a cell of slope 1 has moved");
-  }
 }
 
 TEST_CASE("level set: the surface goes on straight into a floor") {

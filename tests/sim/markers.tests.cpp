@@ -1,4 +1,5 @@
 #include "sim/markers.h"
+#include "sim/move_surface.h"
 
 #include "sim/level_set.h"
 #include "tests/sim/velocity_field.h"
@@ -172,14 +173,12 @@ TEST_CASE("markers: keep a thin sheet through a vortex and back, where the grid 
         const double sx = std::sin(kPi * x.x()), sy = std::sin(kPi * x.y());
         return c * Vec3d(-sx * sx * std::sin(2 * kPi * x.y()), sy * sy * std::sin(2 * kPi * x.x()), 0.0);
       });
-      if (withMarkers) markers = advectMarkers(markers, velocity, dt);
-      advectPhi(*phi, velocity, dt);
-      if (withMarkers) correctPhi(*phi, markers);
-      reinitialize(*phi, *noWalls, {.keepSlope = 0.2});
       if (withMarkers) {
-        correctPhi(*phi, markers);
-        maintainMarkers(markers, *phi, *noWalls, std::uint64_t(n));
+        moveSurface(*phi, markers, velocity, *noWalls, dt, std::uint64_t(n));
+        continue;
       }
+      advectPhi(*phi, velocity, dt);
+      reinitialize(*phi, *noWalls);
       trimBand(*phi, *noWalls);
     }
     return 1.0 - volume() / start;
