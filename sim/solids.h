@@ -25,6 +25,8 @@ struct SolidField {
   // the lower x face of cell (i,j,k). Background 0; tiles of 1 where all is open; every face that is not
   // closed is active.
   openvdb::FloatGrid::Ptr openU, openV, openW;
+  // Velocity of the solids at faces, m/s, near their surface; null where all are at rest.
+  openvdb::FloatGrid::Ptr speedU, speedV, speedW;
 };
 
 // Open share of a square face from the solid's signed distance at its corners, taken linear along the edges
