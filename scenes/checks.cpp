@@ -58,6 +58,14 @@ void checkShape(const sim::Shape& shape, const std::string& path, Reader& reader
                        written(box->min[axis]),
                    "give a max that is greater than min in x, y and z");
     }
+  } else if (const auto* cylinder = std::get_if<sim::Cylinder>(&shape.kind)) {
+    if (reader.clean(path + ".cylinder") && cylinder->from == cylinder->to)
+      reader.fault(path + ".cylinder.to", "is the same point as from", "give the middle of the other end");
+  } else if (const auto* ground = std::get_if<sim::HeightField>(&shape.kind)) {
+    if (reader.clean(path + ".height_field") && !(ground->low < ground->high))
+      reader.fault(path + ".height_field.high",
+                   written(ground->high) + " is not above low's " + written(ground->low),
+                   "give the height of white in metres, greater than that of black");
   } else if (const auto* space = std::get_if<sim::HalfSpace>(&shape.kind)) {
     if (reader.clean(path + ".half_space") && space->normal.length() == 0.0)
       reader.fault(path + ".half_space.normal", "has no length",
@@ -72,7 +80,57 @@ void checkShape(const sim::Shape& shape, const std::string& path, Reader& reader
   }
 }
 
+void checkTimes(double from, double until, const std::string& path, Reader& reader) {
+  if (!reader.clean(path + ".from") || !reader.clean(path + ".until") || from < until) return;
+  reader.fault(path + (reader.given(path + ".until") ? ".until" : ".from"),
+               "until " + written(until) + " s is not after from " + written(from) + " s",
+               "give an until that is greater than from");
+}
+
+// Keyframes and the points of a rate follow each other in time.
+template <class Point>
+void checkOrder(const std::vector<Point>& points, const std::string& path, Reader& reader) {
+  for (std::size_t i = 1; reader.clean(path) && i < points.size(); ++i) {
+    if (points[i - 1].time < points[i].time) continue;
+    reader.fault(
+        path + "." + std::to_string(i) + ".time",
+        written(points[i].time) + " s is not after the one before, at " + written(points[i - 1].time) + " s",
+        "give them in the order of time");
+  }
+}
+
+void checkMotion(const sim::Solid& solid, const std::string& path, Reader& reader) {
+  checkOrder(solid.keyframes, path + ".keyframe", reader);
+  if (reader.clean(path + ".axis") && solid.axis.length() == 0.0)
+    reader.fault(path + ".axis", "has no length", "give the direction it turns about, for example [0, 0, 1]");
+}
+
+void checkFlows(const Scene& scene, Reader& reader) {
+  const auto checkPlace = [&](const sim::Shape& shape, const std::string& path) {
+    checkShape(shape, path, reader);
+    if (reader.clean(path) && reader.clean("domain.size") && !reachesDomain(shape, scene.sim.size)) {
+      reader.fault(path, "lies wholly outside the domain",
+                   "put at least a part of it between [0, 0, 0] and " + written(scene.sim.size));
+    }
+  };
+  for (std::size_t i = 0; i < scene.sim.sources.size(); ++i) {
+    const std::string path = "source." + std::to_string(i);
+    checkPlace(scene.sim.sources[i].shape, path);
+    checkTimes(scene.sim.sources[i].from, scene.sim.sources[i].until, path, reader);
+    checkOrder(scene.sim.sources[i].rate, path + ".rate", reader);
+  }
+  for (std::size_t i = 0; i < scene.sim.drains.size(); ++i) {
+    const std::string path = "drain." + std::to_string(i);
+    checkPlace(scene.sim.drains[i].shape, path);
+    checkTimes(scene.sim.drains[i].from, scene.sim.drains[i].until, path, reader);
+  }
+}
+
 void checkBodies(const Scene& scene, Reader& reader) {
+  if (scene.sim.liquid.empty() && scene.sim.sources.empty() && reader.clean("liquid") &&
+      reader.clean("source"))
+    reader.fault("liquid", reader.given("liquid") ? "an empty list" : "missing key",
+                 "give at least one [[liquid]] or one [[source]]");
   for (std::size_t i = 0; i < scene.sim.liquid.size(); ++i) {
     const std::string path = "liquid." + std::to_string(i);
     checkShape(scene.sim.liquid[i].shape, path, reader);
@@ -87,11 +145,8 @@ void checkBodies(const Scene& scene, Reader& reader) {
     const sim::Solid& solid = scene.sim.solids[i];
     const std::string path = "solid." + std::to_string(i);
     checkShape(solid.shape, path, reader);
-    if (reader.clean(path + ".from") && reader.clean(path + ".until") && !(solid.from < solid.until)) {
-      reader.fault(path + (reader.given(path + ".until") ? ".until" : ".from"),
-                   "until " + written(solid.until) + " s is not after from " + written(solid.from) + " s",
-                   "give an until that is greater than from");
-    }
+    checkTimes(solid.from, solid.until, path, reader);
+    checkMotion(solid, path, reader);
     if (!reader.clean(path + ".name")) continue;
     const auto [first, isNew] = firstOfName.emplace(solid.name, path);
     if (!isNew)
@@ -195,6 +250,7 @@ void check(const Scene& scene, Reader& reader) {
     reader.fault("name", "\"" + scene.name + "\" is a folder", "give a name that can be a file's");
   checkDomain(scene, reader);
   checkBodies(scene, reader);
+  checkFlows(scene, reader);
   checkTexture(scene, reader);
   checkPicture(scene, reader);
 }

@@ -11,12 +11,20 @@ void choice(Visitor& visitor, const std::string& key, Enum& value, const std::ve
   value = Enum(index);
 }
 
+// Of what ends at a time, or never.
+constexpr Limits kUntil{.low = 0.0, .aboveLow = true, .infinite = true};
+
 void describeMotion(Visitor& visitor, sim::Options& sim) {
   visitor.table(
       "domain",
       [&] {
         visitor.vector("size", sim.size, kPositive, Need::required);
         visitor.integer("resolution", sim.resolution, {.low = 8, .high = 4096});
+        visitor.table("sides", [&] {
+          static const char* const kKeys[] = {"x_low", "x_high", "y_low", "y_high", "z_low", "z_high"};
+          for (std::size_t n = 0; n < sim.sides.size(); ++n)
+            choice(visitor, kKeys[n], sim.sides[n], {"wall", "open", "stream"});
+        });
       },
       Need::required);
   visitor.table("fluid", [&] {
@@ -25,21 +33,41 @@ void describeMotion(Visitor& visitor, sim::Options& sim) {
     visitor.vector("gravity", sim.gravity, kAny);
   });
   visitor.table("simulation", [&] { visitor.number("cfl", sim.cfl, {.low = 0.1, .high = 4.0}); });
-  visitor.list(
-      "liquid", sim.liquid,
-      [&](sim::LiquidBody& body) {
-        describeShape(visitor, body.shape);
-        visitor.vector("velocity", body.velocity, kAny);
-        visitor.number("from", body.from, kNotNegative);
-      },
-      Need::required);
+  visitor.list("liquid", sim.liquid, [&](sim::LiquidBody& body) {
+    describeShape(visitor, body.shape);
+    visitor.vector("velocity", body.velocity, kAny);
+    visitor.number("from", body.from, kNotNegative);
+  });
   visitor.list("solid", sim.solids, [&](sim::Solid& solid) {
     visitor.text("name", solid.name);
     describeShape(visitor, solid.shape);
     visitor.number("from", solid.from, kNotNegative);
-    visitor.number("until", solid.until, {.low = 0.0, .aboveLow = true, .infinite = true});
+    visitor.number("until", solid.until, kUntil);
     visitor.flag("visible", solid.visible);
     visitor.vector("color", solid.color, kShare);
+    visitor.vector("pivot", solid.pivot, kAny);
+    visitor.vector("axis", solid.axis, kAny);
+    visitor.list("keyframe", solid.keyframes, [&](sim::Keyframe& key) {
+      visitor.number("time", key.time, kNotNegative, Need::required);
+      visitor.vector("move", key.move, kAny);
+      visitor.number("turn", key.turn, kAny);
+    });
+  });
+  visitor.list("source", sim.sources, [&](sim::Source& source) {
+    describeShape(visitor, source.shape);
+    visitor.vector("velocity", source.velocity, kAny);
+    visitor.number("temperature", source.temperature, kPositive);
+    visitor.number("from", source.from, kNotNegative);
+    visitor.number("until", source.until, kUntil);
+    visitor.list("rate", source.rate, [&](sim::RatePoint& point) {
+      visitor.number("time", point.time, kNotNegative, Need::required);
+      visitor.number("factor", point.factor, kNotNegative, Need::required);
+    });
+  });
+  visitor.list("drain", sim.drains, [&](sim::Drain& drain) {
+    describeShape(visitor, drain.shape);
+    visitor.number("from", drain.from, kNotNegative);
+    visitor.number("until", drain.until, kUntil);
   });
 }
 

@@ -8,13 +8,13 @@
 namespace fluidtex::scenes {
 
 // Keys of which only one can stand in a table: in the order of sim::Shape's kinds, and points before spacing.
-inline const std::vector<std::string> kShapeKeys = {"box",  "sphere", "half_space",
-                                                    "mesh", "union",  "difference"};
+inline const std::vector<std::string> kShapeKeys = {"box",  "sphere",       "cylinder", "half_space",
+                                                    "mesh", "height_field", "union",    "difference"};
 inline const std::vector<std::string> kDensityKeys = {"points", "spacing"};
 
 void describe(Visitor& visitor, Scene& scene);
 
-// The shape keys of one liquid, solid or part: box, sphere, half_space, mesh, union or difference.
+// The shape keys of one liquid, solid or part: kShapeKeys.
 void describeShape(Visitor& visitor, sim::Shape& shape);
 
 // Whether any of the shape can lie inside the domain [0, size]. Meshes are taken to: their triangles are read

@@ -1,6 +1,7 @@
 #include "scenes/schema.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace fluidtex::scenes {
@@ -30,6 +31,23 @@ bool overlaps(const sim::Sphere& sphere, const Vec3d& size) {
   Vec3d nearest = sphere.center;
   for (int axis = 0; axis < 3; ++axis) nearest[axis] = std::clamp(nearest[axis], 0.0, size[axis]);
   return (sphere.center - nearest).length() < sphere.radius;
+}
+
+// Its box, somewhat too large where it lies askew.
+bool overlaps(const sim::Cylinder& cylinder, const Vec3d& size) {
+  sim::Box box{cylinder.from, cylinder.to};
+  const Vec3d along = (cylinder.to - cylinder.from).unit();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double reach = cylinder.radius * std::sqrt(std::max(0.0, 1.0 - along[axis] * along[axis]));
+    if (box.min[axis] > box.max[axis]) std::swap(box.min[axis], box.max[axis]);
+    box.min[axis] -= reach;
+    box.max[axis] += reach;
+  }
+  return overlaps(box, size);
+}
+
+bool overlaps(const sim::HeightField& ground, const Vec3d&) {
+  return std::max(ground.low, ground.high) + ground.translate.z() > 0.0;
 }
 
 bool overlaps(const sim::HalfSpace& space, const Vec3d& size) {
@@ -69,6 +87,13 @@ void describeShape(Visitor& visitor, sim::Shape& shape) {
       visitor.vector("center", sphere.center, kAny, Need::required);
       visitor.number("radius", sphere.radius, kPositive, Need::required);
     });
+  } else if (key == "cylinder") {
+    auto& cylinder = as<sim::Cylinder>(shape);
+    visitor.table(key, [&] {
+      visitor.vector("from", cylinder.from, kAny, Need::required);
+      visitor.vector("to", cylinder.to, kAny, Need::required);
+      visitor.number("radius", cylinder.radius, kPositive, Need::required);
+    });
   } else if (key == "half_space") {
     auto& space = as<sim::HalfSpace>(shape);
     visitor.table(key, [&] {
@@ -81,6 +106,15 @@ void describeShape(Visitor& visitor, sim::Shape& shape) {
       visitor.file("file", mesh.file, {".obj", ".ply", ".stl"});
       visitor.number("scale", mesh.scale, kPositive);
       visitor.vector("translate", mesh.translate, kAny);
+    });
+  } else if (key == "height_field") {
+    auto& ground = as<sim::HeightField>(shape);
+    visitor.table(key, [&] {
+      visitor.file("file", ground.file, {});
+      visitor.number("pixel", ground.pixel, kPositive, Need::required);
+      visitor.number("low", ground.low, kAny);
+      visitor.number("high", ground.high, kAny);
+      visitor.vector("translate", ground.translate, kAny);
     });
   } else if (key == "union") {
     describeParts(visitor, key, as<sim::Union>(shape).parts);

@@ -29,6 +29,16 @@ float across(const FloatAccessor& other, const Coord& c, int axis, int otherAxis
                   other.getValue(shifted(low, otherAxis, 1)));
 }
 
+// Whether a face lies beyond a side of the domain that is no wall.
+bool beyondOpening(const SolidField& solid, const Coord& face, int axis) {
+  for (int a = 0; a < 3; ++a) {
+    const int last = solid.cells[a] - (a == axis ? 0 : 1);
+    if (face[a] < 0 && solid.sides[2 * a] != Side::wall) return true;
+    if (face[a] > last && solid.sides[2 * a + 1] != Side::wall) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
@@ -36,6 +46,12 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
   FloatGrid* const grids[3] = {&u, &v, &w};
   const FloatGrid* const open[3] = {solid.openU.get(), solid.openV.get(), solid.openW.get()};
   const openvdb::MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
+
+  const bool moving = solid.speedU != nullptr;
+  const FloatGrid::Ptr atRest = FloatGrid::create(0.0f);
+  const FloatGrid* const solidSpeed[3] = {moving ? solid.speedU.get() : atRest.get(),
+                                          moving ? solid.speedV.get() : atRest.get(),
+                                          moving ? solid.speedW.get() : atRest.get()};
 
   // All new values are found from the old ones before any is written.
   struct Change {
@@ -53,11 +69,14 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
                                       FloatAccessor(w.constTree())};
       const FloatAccessor openness(open[axis]->constTree()), distance(solid.phi->constTree()),
           liquid(phi.constTree());
+      const FloatAccessor push[3] = {FloatAccessor(solidSpeed[0]->constTree()),
+                                     FloatAccessor(solidSpeed[1]->constTree()),
+                                     FloatAccessor(solidSpeed[2]->constTree())};
       const MaskAccessor known(masks[axis]->constTree()), leaving(separating.constTree());
       for (std::size_t n = range.begin(); n < range.end(); ++n) {
         for (auto it = leaves[n]->beginValueOn(); it; ++it) {
           const Coord c = it.getCoord();
-          if (openness.getValue(c) > 0.0f || known.isValueOn(c)) continue;
+          if (openness.getValue(c) > 0.0f || known.isValueOn(c) || beyondOpening(solid, c, axis)) continue;
           const Coord low = shifted(c, axis, -1);
           openvdb::Vec3f normal(0.0f), velocity(0.0f);
           for (int a = 0; a < 3; ++a) {
@@ -67,6 +86,7 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
                                              distance.getValue(shifted(low, a, 1)) -
                                              distance.getValue(shifted(low, a, -1)));
             velocity[a] = a == axis ? *it : across(speed[a], c, axis, a);
+            if (moving) velocity[a] -= a == axis ? push[a].getValue(c) : across(push[a], c, axis, a);
           }
           // Deep inside a solid the distance is cut off and there is no normal: nothing reads the velocity
           // there.

@@ -1,5 +1,6 @@
 // The seam: all that a source of motion tells the rest of the program about one animation frame.
-// Immutable and shared. Everything behind it (our solver, another simulator's files) stays unknown downstream.
+// Immutable and shared. Everything behind it (our solver, another simulator's files) stays unknown
+// downstream.
 #pragma once
 
 #include <openvdb/openvdb.h>
@@ -36,7 +37,7 @@ struct Frame {
   openvdb::FloatGrid::ConstPtr surfacePhi;
   // Negative inside solids, walls of the domain included; narrow band, metres. May be null.
   openvdb::FloatGrid::ConstPtr solidPhi;
-  std::vector<Substep> substeps;                             // from frame index-1 to index, in order; none in the first
+  std::vector<Substep> substeps;  // from frame index-1 to index, in order; none in the first
   std::map<std::string, openvdb::FloatGrid::ConstPtr> fields;  // further scalars by name, e.g. "temperature"
   FrameStats stats;
 };

@@ -99,11 +99,28 @@ void setBand(FloatTree& tree, const FloatTree* solidPhi, float h) {
 
 std::vector<Coord> wetLeaves(const FloatGrid& phi, const Coord& cells, int margin) {
   std::vector<Coord> origins;
-  const openvdb::tree::ValueAccessor<const FloatTree, false> accessor(phi.constTree());
-  for (const Coord& origin : allLeaves(cells, margin)) {
-    if (accessor.probeConstLeaf(origin) != nullptr || accessor.getValue(origin) < 0.0f)
-      origins.push_back(origin);
+  const Coord low(-margin & ~(kLeafDim - 1));
+  const Coord high = cells.offsetBy(margin - 1);
+  const auto inBox = [&](const Coord& origin) {
+    return Coord::lessThan(origin, low) ? false : !Coord::lessThan(high, origin);
+  };
+  for (const FloatLeaf* leaf : leavesOf(phi.constTree()))
+    if (inBox(leaf->origin())) origins.push_back(leaf->origin());
+  // Tiles of liquid, cut into blocks; those of a level set are inactive.
+  auto tile = phi.constTree().cbeginValueAll();
+  tile.setMaxDepth(FloatTree::ValueAllCIter::LEAF_DEPTH - 1);
+  for (; tile; ++tile) {
+    if (*tile >= 0.0f) continue;
+    openvdb::CoordBBox box;
+    tile.getBoundingBox(box);
+    box.intersect({low, high});
+    if (box.empty()) continue;
+    for (int i = box.min().x() & ~(kLeafDim - 1); i <= box.max().x(); i += kLeafDim)
+      for (int j = box.min().y() & ~(kLeafDim - 1); j <= box.max().y(); j += kLeafDim)
+        for (int k = box.min().z() & ~(kLeafDim - 1); k <= box.max().z(); k += kLeafDim)
+          origins.emplace_back(i, j, k);
   }
+  std::sort(origins.begin(), origins.end());
   return origins;
 }
 

@@ -11,13 +11,15 @@ constexpr int kReinitIterations = 8;
 }  // namespace
 
 void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const FloatGrid& solidPhi,
-                 double dt, std::uint64_t seed) {
+                 double dt, std::uint64_t seed, const RunningFlows& flows) {
   markers = advectMarkers(markers, velocity, dt);
   advectPhi(phi, velocity, dt);
   correctPhi(phi, markers);
+  applyFlows(phi, markers, flows);
   extendIntoSolids(phi, solidPhi);
   reinitialize(phi, solidPhi, {.iterations = kReinitIterations});
   correctPhi(phi, markers);
+  applyFlows(phi, markers, flows);
   maintainMarkers(markers, phi, solidPhi, seed);
   trimBand(phi, solidPhi);
 }

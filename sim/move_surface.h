@@ -1,6 +1,7 @@
 // The liquid's surface over one substep: level set and markers together.
 #pragma once
 
+#include "sim/flows.h"
 #include "sim/mac_grid.h"
 #include "sim/markers.h"
 
@@ -9,10 +10,11 @@
 namespace fluidtex::sim {
 
 // Moves phi and its markers with the velocity for dt seconds, and makes phi a distance again: advection
-// (advectPhi, advectMarkers), correction by the markers before and after the reinitialisation, and upkeep of
-// the markers. dt max|u| / h must be below kMaxTrace; the velocity must reach that far beyond the band, into
-// solids too. `seed` must differ from call to call. The sequence is that of Enright et al. 2002, section 3.
+// (advectPhi, advectMarkers), what sources and drains do, correction by the markers before and after the
+// reinitialisation, and upkeep of the markers. dt max|u| / h must be below kMaxTrace; the velocity must reach
+// that far beyond the band, into solids too. `seed` must differ from call to call. The sequence is that of
+// Enright et al. 2002, section 3.
 void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const FloatGrid& solidPhi,
-                 double dt, std::uint64_t seed);
+                 double dt, std::uint64_t seed, const RunningFlows& flows = {});
 
 }  // namespace fluidtex::sim

@@ -5,6 +5,7 @@
 #include <openvdb/math/Vec3.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -24,6 +25,12 @@ struct Sphere {
   double radius = 1.0;
 };
 
+// Round, with flat ends at `from` and `to`.
+struct Cylinder {
+  Vec3d from{0.0}, to{0.0, 0.0, 1.0};
+  double radius = 0.5;
+};
+
 // Everything behind the plane: (x - point) . normal < 0.
 struct HalfSpace {
   Vec3d point{0.0}, normal{0.0, 0.0, 1.0};
@@ -33,6 +40,17 @@ struct HalfSpace {
 struct MeshShape {
   std::filesystem::path file;
   double scale = 1.0;
+  Vec3d translate{0.0};
+};
+
+// Ground from a grey image of 8 or 16 bits: black lies at height `low`, white at `high`; one pixel is `pixel`
+// metres wide, the picture's top is at high y. translate: of its lower left corner, and of all heights.
+// Between pixel centres the heights are bicubic. All below is inside; where the picture ends at the domain's
+// side or beyond, its rim goes on.
+struct HeightField {
+  std::filesystem::path file;
+  double pixel = 1.0;
+  double low = 0.0, high = 1.0;
   Vec3d translate{0.0};
 };
 
@@ -48,7 +66,7 @@ struct Difference {
 };
 
 struct Shape {
-  std::variant<Box, Sphere, HalfSpace, MeshShape, Union, Difference> kind;
+  std::variant<Box, Sphere, Cylinder, HalfSpace, MeshShape, HeightField, Union, Difference> kind;
 };
 
 inline constexpr double kForever = std::numeric_limits<double>::infinity();
@@ -60,17 +78,54 @@ struct LiquidBody {
   double from = 0.0;
 };
 
-// A static solid that exists for from <= t < until (seconds).
+// Where a moving solid is at a time: moved by `move` (metres) and turned by `turn` degrees about its axis.
+struct Keyframe {
+  double time = 0.0;  // s
+  Vec3d move{0.0};
+  double turn = 0.0;
+};
+
+// A solid that exists for from <= t < until (seconds). With keyframes it moves evenly from one to the next;
+// before the first and after the last it is at rest.
 struct Solid {
   std::string name;
   Shape shape;
   double from = 0.0, until = kForever;
   bool visible = true;
-  Vec3d color{0.5, 0.5, 0.5};  // linear RGB, how it is drawn where visible
+  Vec3d color{0.5, 0.5, 0.5};             // linear RGB, how it is drawn where visible
+  std::vector<Keyframe> keyframes;        // in the order of time
+  Vec3d pivot{0.0}, axis{0.0, 0.0, 1.0};  // a point on the axis it turns about, and its direction
 };
 
+struct RatePoint {
+  double time = 0.0, factor = 1.0;
+};
+
+// A place that liquid comes from for from <= t < until: it is kept full, and through the faces of cells in it
+// liquid flows with `velocity` times a factor, which is linear between the points of `rate` and 1 without
+// any. With velocity 0 it is kept full only.
+struct Source {
+  Shape shape;
+  Vec3d velocity{0.0};          // m/s
+  double temperature = 293.15;  // K, of the liquid that comes
+  double from = 0.0, until = kForever;
+  std::vector<RatePoint> rate;  // in the order of time
+};
+
+// A place that takes away all liquid in it for from <= t < until.
+struct Drain {
+  Shape shape;
+  double from = 0.0, until = kForever;
+};
+
+// What the domain's face is: a wall; an edge that liquid falls off (no pressure beyond, and nothing comes
+// back); or a cut through a stream that goes on beyond, so that waves pass through.
+enum class Side { wall, open, stream };
+
 struct Options {
-  Vec3d size{1.0};      // of the domain, metres; its six faces are walls
+  Vec3d size{1.0};  // of the domain, metres
+  // Its faces: at low x, high x, low y, high y, low z, high z.
+  std::array<Side, 6> sides{};
   int resolution = 64;  // cells along the longest side
   Vec3d gravity{0.0, 0.0, -9.81};
   double density = 1000.0;   // kg/m3
@@ -79,6 +134,8 @@ struct Options {
   double frameRate = 24.0;   // frames a second
   std::vector<LiquidBody> liquid;
   std::vector<Solid> solids;
+  std::vector<Source> sources;
+  std::vector<Drain> drains;
 
   double voxelSize() const { return std::max({size.x(), size.y(), size.z()}) / resolution; }
 };

@@ -8,6 +8,7 @@
 // active set method: Hintermueller, Ito, Kunisch, 2002.
 #include "sim/pressure.h"
 
+#include "sim/level_set.h"
 #include "sim/mac_grid.h"
 #include "sim/poisson.h"
 
@@ -31,6 +32,9 @@ constexpr float kMinTheta = 0.01f;
 // Below this share of the largest pressure, suction is the solver's rounding.
 constexpr double kSuctionNoise = 1e-5;
 
+// From a cell's centre to the surface on the domain's open side, in cells.
+constexpr float kEdgeTheta = 0.5f;
+
 // A face whose solid lies within about 25 degrees of square to it takes the solid's normal velocity.
 constexpr float kSquare = 0.9f;
 
@@ -38,20 +42,33 @@ constexpr float kSquare = 0.9f;
 struct LiquidCell {
   std::array<float, kSides> open;   // area share
   std::array<float, kSides> theta;  // to the surface, in cells; 0 where the neighbour is not air
-  double outflow = 0.0;             // before projection: sum of open area times outward velocity
-  float closed = 0.0f;              // sum of closed area
-  float leaving = 0.0f;             // before projection: sum of closed area times velocity away from it
+  // Before projection: sum of open area times outward velocity, and of closed area times the solid's.
+  double outflow = 0.0;
+  float closed = 0.0f;   // sum of closed area
+  float leaving = 0.0f;  // before projection: sum of closed area times velocity away from it
+};
+
+// A face through which a liquid cell meets an open side of the domain: there the surface is.
+struct Edge {
+  int cell, side;
+  double outward;  // velocity before projection
+  bool shut;       // it would draw in what is not there
 };
 
 struct Liquid {
   std::vector<CellBlock> blocks;
   CellNumbering numbering;
   std::vector<LiquidCell> cells;
+  std::vector<Edge> edges;
 };
 
 constexpr int kSide = kLeafDim + 2;  // a leaf's values and one more layer around them
 constexpr int kStride[3] = {kSide * kSide, kSide, 1};
 using Patch = std::array<float, kSide * kSide * kSide>;
+
+Coord localOf(int offset) {
+  return Coord(offset >> 6, (offset >> 3) & 7, offset & 7);
+}
 
 int patchIndex(int local) {
   return ((local >> 6) + 1) * kStride[0] + (((local >> 3) & 7) + 1) * kStride[1] + (local & 7) + 1;
@@ -74,16 +91,29 @@ std::array<Patch, 3> openPatches(const SolidField& solid, const Coord& origin) {
           patchOf(solid.openW->constTree(), origin)};
 }
 
-// Cells of the domain with phi < 0 and an open face.
-std::vector<CellBlock> liquidBlocks(const FloatTree& phi, const SolidField& solid) {
-  const Coord n((solid.cells[0] + 7) >> 3, (solid.cells[1] + 7) >> 3, (solid.cells[2] + 7) >> 3);
-  std::vector<CellBlock> blocks(static_cast<std::size_t>(n[0]) * n[1] * n[2]);
+// A field that is 0 where there is none, or of which there may be no tree.
+Patch patchOf(const FloatGrid::Ptr& grid, const Coord& origin, float without) {
+  if (grid != nullptr) return patchOf(grid->constTree(), origin);
+  Patch patch;
+  patch.fill(without);
+  return patch;
+}
+
+// Velocities that are given around one block, kNotGiven elsewhere.
+std::array<Patch, 3> givenPatches(const SolidField& solid, const Coord& origin) {
+  return {patchOf(solid.givenU, origin, kNotGiven), patchOf(solid.givenV, origin, kNotGiven),
+          patchOf(solid.givenW, origin, kNotGiven)};
+}
+
+// Cells of the domain with phi < 0 and an open face whose velocity is not given.
+std::vector<CellBlock> liquidBlocks(const FloatGrid& phi, const SolidField& solid) {
+  const std::vector<Coord> origins = wetLeaves(phi, solid.cells, 0);
+  std::vector<CellBlock> blocks(origins.size());
   tbb::parallel_for(Range(0, static_cast<int>(blocks.size())), [&](const Range& range) {
     for (int b = range.begin(); b < range.end(); ++b) {
       CellBlock& block = blocks[b];
-      block.origin = Coord(b / (n[1] * n[2]), b / n[2] % n[1], b % n[2]) << 3;
-      const FloatLeaf* leaf = phi.probeConstLeaf(block.origin);
-      if (leaf == nullptr && phi.getValue(block.origin) >= 0.0f) continue;
+      block.origin = origins[b];
+      const FloatLeaf* leaf = phi.constTree().probeConstLeaf(block.origin);
       for (int c = 0; c < kLeafSize; ++c) {
         const Coord cell = block.origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
         const bool inside = cell[0] < solid.cells[0] && cell[1] < solid.cells[1] && cell[2] < solid.cells[2];
@@ -91,11 +121,15 @@ std::vector<CellBlock> liquidBlocks(const FloatTree& phi, const SolidField& soli
       }
       if (block.cells.none()) continue;
       const auto open = openPatches(solid, block.origin);
+      const auto given = givenPatches(solid, block.origin);
       for (int c = 0; c < kLeafSize; ++c) {
         const int at = patchIndex(c);
-        float any = 0.0f;
-        for (int a = 0; a < 3; ++a) any = std::max({any, open[a][at], open[a][at + kStride[a]]});
-        if (any <= 0.0f) block.cells.reset(c);
+        bool any = false;
+        for (int a = 0; a < 3; ++a) {
+          for (const int face : {at, at + kStride[a]})
+            any = any || (open[a][face] > 0.0f && given[a][face] == kNotGiven);
+        }
+        if (!any) block.cells.reset(c);
       }
     }
   });
@@ -103,10 +137,17 @@ std::vector<CellBlock> liquidBlocks(const FloatTree& phi, const SolidField& soli
   return blocks;
 }
 
-Liquid gatherLiquid(const FloatTree& phi, const SolidField& solid,
+// Whether the neighbour of a cell on this side lies beyond an open side of the domain.
+bool beyondEdge(const SolidField& solid, const Coord& cell, int side) {
+  const int axis = side >> 1;
+  return solid.sides[side] == Side::open && cell[axis] == (side & 1 ? solid.cells[axis] - 1 : 0);
+}
+
+Liquid gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
                     const std::array<const FloatTree*, 3>& velocity) {
+  const FloatTree& phi = phiGrid.constTree();
   Liquid liquid;
-  liquid.blocks = liquidBlocks(phi, solid);
+  liquid.blocks = liquidBlocks(phiGrid, solid);
   liquid.numbering = CellNumbering(liquid.blocks, solid.cells);
   liquid.cells.resize(liquid.numbering.size());
   tbb::parallel_for(Range(0, static_cast<int>(liquid.blocks.size())), [&](const Range& range) {
@@ -117,6 +158,10 @@ Liquid gatherLiquid(const FloatTree& phi, const SolidField& solid,
       const auto open = openPatches(solid, origin);
       const std::array<Patch, 3> speed{patchOf(*velocity[0], origin), patchOf(*velocity[1], origin),
                                        patchOf(*velocity[2], origin)};
+      const std::array<Patch, 3> solidSpeed{patchOf(solid.speedU, origin, 0.0f),
+                                            patchOf(solid.speedV, origin, 0.0f),
+                                            patchOf(solid.speedW, origin, 0.0f)};
+      const auto given = givenPatches(solid, origin);
       for (int c = 0; c < kLeafSize; ++c) {
         if (numbers[c] < 0) continue;
         LiquidCell& cell = liquid.cells[numbers[c]];
@@ -125,11 +170,22 @@ Liquid gatherLiquid(const FloatTree& phi, const SolidField& solid,
           const int axis = s >> 1, up = s & 1;
           const int face = here + up * kStride[axis];
           const int beside = up ? here + kStride[axis] : here - kStride[axis];
+          const float out = up ? 1.0f : -1.0f, closed = 1.0f - open[axis][face];
+          const bool isGiven = given[axis][face] != kNotGiven;
+          const double outward = out * (isGiven ? given[axis][face] : speed[axis][face]);
+          const double push = out * solidSpeed[axis][face];
+          cell.outflow += open[axis][face] * outward + closed * push;
+          if (isGiven) {
+            cell.open[s] = cell.theta[s] = 0.0f;
+            continue;
+          }
           cell.open[s] = open[axis][face];
-          const float outward = up ? speed[axis][face] : -speed[axis][face];
-          cell.outflow += static_cast<double>(cell.open[s]) * outward;
-          cell.closed += 1.0f - cell.open[s];
-          cell.leaving += (1.0f - cell.open[s]) * std::max(0.0f, -outward);
+          cell.closed += closed;
+          cell.leaving += closed * static_cast<float>(std::max(0.0, push - outward));
+          if (cell.open[s] > 0.0f && beyondEdge(solid, origin + localOf(c), s)) {
+            cell.theta[s] = kEdgeTheta;
+            continue;
+          }
           const float inside = distance[here], outside = distance[beside];
           cell.theta[s] = cell.open[s] > 0.0f && outside >= 0.0f
                               ? std::max(kMinTheta, inside / (inside - outside))
@@ -138,7 +194,33 @@ Liquid gatherLiquid(const FloatTree& phi, const SolidField& solid,
       }
     }
   });
+  if (std::find(solid.sides.begin(), solid.sides.end(), Side::open) != solid.sides.end()) {
+    for (int i = 0; i < liquid.numbering.size(); ++i) {
+      const Coord& place = liquid.numbering.cells()[i];
+      for (int s = 0; s < kSides; ++s) {
+        if (liquid.cells[i].open[s] <= 0.0f || !beyondEdge(solid, place, s)) continue;
+        const double along = velocity[s >> 1]->getValue(s & 1 ? neighborOf(place, s) : place);
+        liquid.edges.push_back({i, s, s & 1 ? along : -along, false});
+      }
+    }
+  }
   return liquid;
+}
+
+// Nothing comes in over an edge: where the pressure would draw it in, the face is shut. True if any was.
+bool shutEdges(Liquid& liquid, const std::vector<double>& q) {
+  bool any = false;
+  for (Edge& edge : liquid.edges) {
+    LiquidCell& cell = liquid.cells[edge.cell];
+    if (edge.shut || edge.outward + q[edge.cell] / kEdgeTheta >= 0.0) continue;
+    // A cell's only way out stays one.
+    if (std::count_if(cell.open.begin(), cell.open.end(), [](float open) { return open > 0.0f; }) < 2)
+      continue;
+    edge.shut = any = true;
+    cell.outflow -= cell.open[edge.side] * edge.outward;
+    cell.open[edge.side] = cell.theta[edge.side] = 0.0f;
+  }
+  return any;
 }
 
 // The system of the cells that are not detached; `liquidOf` gets each unknown's number as a liquid cell.
@@ -248,10 +330,13 @@ const int* blockNumbers(const CellNumbering& numbering, const Coord& origin) {
   return numbering.block(origin);
 }
 
-// Subtracts the pressure's gradient on the faces normal to `axis`.
+// Subtracts the pressure's gradient on the faces normal to `axis`, and writes what is given there.
 openvdb::MaskGrid::Ptr updateFaces(const Liquid& liquid, const SolidField& solid,
                                    const std::vector<double>& q, const std::vector<char>& detached, int axis,
                                    FloatGrid& grid) {
+  const FloatGrid* const solidSpeed =
+      std::array{solid.speedU.get(), solid.speedV.get(), solid.speedW.get()}[axis];
+  const FloatGrid* const given = std::array{solid.givenU.get(), solid.givenV.get(), solid.givenW.get()}[axis];
   auto valid = openvdb::MaskGrid::create();
   valid->setTransform(faceTransform(solid.voxelSize, axis));
   const std::vector<FloatLeaf*> leaves = faceLeaves(liquid, grid);
@@ -288,20 +373,28 @@ openvdb::MaskGrid::Ptr updateFaces(const Liquid& liquid, const SolidField& solid
         const bool solidBelow = slope > 0.0f;
         const int wet = solidBelow ? upper : lower;
         if (std::abs(slope) < kSquare * solid.voxelSize || wet < 0) continue;
+        const double push = solidSpeed == nullptr ? 0.0 : solidSpeed->constTree().getValue(place);
         double away = 0.0;
         if (detached[wet]) {
           // What the cell loses through its open faces comes off its walls, so that there is no divergence
           // there either; from each in proportion to the speed at which the liquid was about to leave it.
           const auto& [open, theta, outflow, closed, leaving] = liquid.cells[wet];
-          const float ready = std::max(0.0f, solidBelow ? leaf.getValue(c) : -leaf.getValue(c));
-          const double share = leaving > 0.0f ? ready / leaving : 1.0f / closed;
+          const double relative = leaf.getValue(c) - push;
+          const double ready = std::max(0.0, solidBelow ? relative : -relative);
+          const double share = leaving > 0.0f ? ready / leaving : 1.0 / closed;
           away = std::max(0.0, projectedOutflow(liquid, q, wet)) * share;
         }
-        leaf.setValueOn(c, static_cast<float>(solidBelow ? away : -away));
+        leaf.setValueOn(c, static_cast<float>(push + (solidBelow ? away : -away)));
         masks[n]->setValueOn(c);
       }
     }
   });
+  if (given != nullptr) {
+    for (auto it = given->cbeginValueOn(); it; ++it) {
+      grid.tree().setValueOn(it.getCoord(), *it);
+      valid->tree().setValueOn(it.getCoord());
+    }
+  }
   return valid;
 }
 
@@ -310,8 +403,7 @@ openvdb::MaskGrid::Ptr updateFaces(const Liquid& liquid, const SolidField& solid
 Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi, const SolidField& solid,
                    double dt, double density, const PressureOptions& options) {
   assert(dt > 0.0 && density > 0.0);
-  const Liquid liquid =
-      gatherLiquid(phi.constTree(), solid, {&u.constTree(), &v.constTree(), &w.constTree()});
+  Liquid liquid = gatherLiquid(phi, solid, {&u.constTree(), &v.constTree(), &w.constTree()});
   const int n = liquid.numbering.size();
   const double pascal = density * solid.voxelSize / dt;  // of one unit of q
 
@@ -348,7 +440,10 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
     }
     if (pass >= options.maxSeparationPasses || !solved.converged) break;
     std::vector<char> next = detached;
-    if (!updateDetached(liquid, q, enclosed, options.suction / pascal, kSuctionNoise * largest, next)) break;
+    const bool shut = shutEdges(liquid, q);
+    if (!updateDetached(liquid, q, enclosed, options.suction / pascal, kSuctionNoise * largest, next) &&
+        !shut)
+      break;
     detached = std::move(next);
   }
 

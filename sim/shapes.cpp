@@ -1,5 +1,7 @@
-// Closed-form distances of the simple shapes; meshes through OpenVDB's level set conversion.
+// Closed-form distances of the simple shapes; meshes and ground through OpenVDB's level set conversion.
 #include "sim/shapes.h"
+
+#include "sim/height_field.h"
 
 #include <openvdb/tools/Interpolation.h>
 #include <openvdb/tools/MeshToVolume.h>
@@ -11,8 +13,10 @@ namespace fluidtex::sim {
 
 namespace {
 
-// Voxels of a mesh's level set on each side; distances beyond are cut off there.
-constexpr float kMeshBand = 8.0f;
+// Voxels of a mesh's level set on each side; distances beyond are cut off there. More than from a block's
+// middle to its corners and the band of a solid's distance beyond, so that blocks far from the mesh are seen
+// to be.
+constexpr float kMeshBand = 10.0f;
 
 double boxDistance(const Box& box, const Vec3d& x) {
   double inside = -kForever, outside = 0.0;
@@ -22,6 +26,17 @@ double boxDistance(const Box& box, const Vec3d& x) {
     if (d > 0.0) outside += d * d;
   }
   return outside > 0.0 ? std::sqrt(outside) : inside;
+}
+
+double cylinderDistance(const Cylinder& cylinder, const Vec3d& x) {
+  const Vec3d along = cylinder.to - cylinder.from;
+  const double length = along.length();
+  if (!(length > 0.0)) throw std::runtime_error("a cylinder needs two ends that are not the same point");
+  const Vec3d from = x - cylinder.from;
+  const double height = from.dot(along) / length;
+  const double side = (from - (height / length) * along).length() - cylinder.radius;
+  const double end = std::max(-height, height - length);
+  return side > 0.0 && end > 0.0 ? std::hypot(side, end) : std::max(side, end);
 }
 
 Vec3d unitNormal(const HalfSpace& plane) {
@@ -42,25 +57,29 @@ struct ShapeDistance::Node {
   struct Less {
     std::vector<Node> parts;
   };
-  std::variant<Box, Sphere, Plane, openvdb::FloatGrid::ConstPtr, Any, Less> kind;
+  std::variant<Box, Sphere, Cylinder, Plane, openvdb::FloatGrid::ConstPtr, Any, Less> kind;
 
-  static Node of(const Shape& shape, double voxelSize);
+  static Node of(const Shape& shape, double voxelSize, const Vec3d& domainSize);
   double distance(const Vec3d& x) const;
 };
 
-ShapeDistance::Node ShapeDistance::Node::of(const Shape& shape, double voxelSize) {
+ShapeDistance::Node ShapeDistance::Node::of(const Shape& shape, double voxelSize, const Vec3d& domainSize) {
   const auto nodesOf = [&](const std::vector<Shape>& parts) {
     std::vector<Node> nodes;
-    for (const Shape& part : parts) nodes.push_back(of(part, voxelSize));
+    for (const Shape& part : parts) nodes.push_back(of(part, voxelSize, domainSize));
     return nodes;
   };
   if (const auto* box = std::get_if<Box>(&shape.kind)) return {*box};
   if (const auto* sphere = std::get_if<Sphere>(&shape.kind)) return {*sphere};
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape.kind)) return {*cylinder};
   if (const auto* plane = std::get_if<HalfSpace>(&shape.kind))
     return {Plane{plane->point, unitNormal(*plane)}};
   if (const auto* all = std::get_if<Union>(&shape.kind)) return {Any{nodesOf(all->parts)}};
   if (const auto* less = std::get_if<Difference>(&shape.kind)) return {Less{nodesOf(less->parts)}};
-  const TriangleMesh mesh = readMesh(std::get<MeshShape>(shape.kind));
+  const double beyond = 2.0 * kMeshBand * voxelSize;
+  const auto* ground = std::get_if<HeightField>(&shape.kind);
+  const TriangleMesh mesh = ground != nullptr ? groundMesh(*ground, domainSize, voxelSize, beyond, -beyond)
+                                              : readMesh(std::get<MeshShape>(shape.kind));
   const auto transform = openvdb::math::Transform::createLinearTransform(voxelSize);
   openvdb::FloatGrid::ConstPtr grid = openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(
       *transform, mesh.positions, mesh.triangles, kMeshBand);
@@ -72,6 +91,7 @@ double ShapeDistance::Node::distance(const Vec3d& x) const {
     const Vec3d& x;
     double operator()(const Box& box) const { return boxDistance(box, x); }
     double operator()(const Sphere& sphere) const { return (x - sphere.center).length() - sphere.radius; }
+    double operator()(const Cylinder& cylinder) const { return cylinderDistance(cylinder, x); }
     double operator()(const Plane& plane) const { return (x - plane.point).dot(plane.normal); }
     double operator()(const openvdb::FloatGrid::ConstPtr& grid) const {
       return openvdb::tools::BoxSampler::sample(grid->constTree(), grid->worldToIndex(x));
@@ -91,8 +111,8 @@ double ShapeDistance::Node::distance(const Vec3d& x) const {
   return std::visit(Visitor{x}, kind);
 }
 
-ShapeDistance::ShapeDistance(const Shape& shape, double voxelSize)
-    : m_root(std::make_shared<Node>(Node::of(shape, voxelSize))) {}
+ShapeDistance::ShapeDistance(const Shape& shape, double voxelSize, const Vec3d& domainSize)
+    : m_root(std::make_shared<Node>(Node::of(shape, voxelSize, domainSize))) {}
 
 double ShapeDistance::operator()(const Vec3d& x) const {
   return m_root->distance(x);

@@ -10,19 +10,21 @@
 namespace fluidtex::sim {
 
 struct TriangleMesh {
-  std::vector<openvdb::Vec3f> positions;     // #V, metres
-  std::vector<openvdb::Vec3I> triangles;     // #T, counter-clockwise from outside
+  std::vector<openvdb::Vec3f> positions;  // #V, metres
+  std::vector<openvdb::Vec3I> triangles;  // #T, counter-clockwise from outside
 };
 
-// Reads OBJ, PLY or STL, polygons split into triangles. Throws std::runtime_error that names the file and what is wrong
-// (missing, unreadable, no faces, not closed).
+// Reads OBJ, PLY or STL, polygons split into triangles. Throws std::runtime_error that names the file and
+// what is wrong (missing, unreadable, no faces, not closed).
 TriangleMesh readMesh(const MeshShape& shape);
 
-// Signed distance to the shape in metres, negative inside, exact for single shapes and a lower bound in magnitude
-// for unions and differences near their creases. Evaluated at world positions; meshes are turned into a level set once.
+// Signed distance to the shape in metres, negative inside, exact for single shapes and a lower bound in
+// magnitude for unions and differences near their creases. Evaluated at world positions; meshes are turned
+// into a level set once.
 class ShapeDistance {
  public:
-  ShapeDistance(const Shape& shape, double voxelSize);
+  // domainSize: height fields go on beyond a domain of this size where they reach its sides.
+  ShapeDistance(const Shape& shape, double voxelSize, const Vec3d& domainSize = Vec3d(0.0));
   double operator()(const Vec3d& x) const;
 
  private:

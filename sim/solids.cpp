@@ -1,16 +1,14 @@
-// Open areas by marching squares on nodal distances: Ng, Min, Gibou, "An efficient fluid-solid coupling
-// algorithm for single-phase flows", 2009, section 3; Min and Gibou, "Geometric integration over irregular
-// domains", 2007.
 #include "sim/solids.h"
 
 #include "sim/mac_grid.h"
+#include "sim/solid_field.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <sstream>
 
 namespace fluidtex::sim {
 
@@ -18,194 +16,11 @@ namespace {
 
 using Range = tbb::blocked_range<int>;
 
-constexpr int kBand = 3;    // voxels of solid.phi on each side
-constexpr int kMargin = 8;  // cells outside the domain where solid.phi is right
-constexpr int kNodes = kLeafDim + 1;
-
-// Open shares below this count as closed: they would let next to nothing through and spoil the matrix.
-constexpr double kClosed = 1e-3;
-
-// Distances below this share of a cell are 0, so that a wall in the plane of a face closes it in spite of
-// rounding.
-constexpr double kOnWall = 1e-6;
-
-// Area of the part of the unit square where the distance is positive; corners in order, no saddle.
-double polygonArea(const std::array<double, 4>& d) {
-  static constexpr double kX[4] = {0, 1, 1, 0}, kY[4] = {0, 0, 1, 1};
-  double x[8], y[8];
-  int n = 0;
-  for (int a = 0; a < 4; ++a) {
-    const int b = (a + 1) & 3;
-    if (d[a] > 0.0) {
-      x[n] = kX[a];
-      y[n++] = kY[a];
-    }
-    if ((d[a] > 0.0) != (d[b] > 0.0)) {
-      const double t = d[a] / (d[a] - d[b]);
-      x[n] = kX[a] + t * (kX[b] - kX[a]);
-      y[n++] = kY[a] + t * (kY[b] - kY[a]);
-    }
-  }
-  double twice = 0.0;
-  for (int i = 0; i < n; ++i) {
-    const int j = (i + 1) % n;
-    twice += x[i] * y[j] - x[j] * y[i];
-  }
-  return 0.5 * twice;
-}
-
-// Corner triangle of a saddle: corner a alone has its sign.
-double cornerArea(double corner, double next, double previous) {
-  return 0.5 * corner / (corner - next) * corner / (corner - previous);
-}
-
-double snapped(double fraction) {
-  if (fraction < kClosed) return 0.0;
-  return fraction > 1.0 - kOnWall ? 1.0 : fraction;
-}
-
-enum class Fill { closed, open, cut };
-
-struct Block {
-  Coord origin;
-  Fill fill = Fill::closed;
-  std::array<std::array<float, kLeafSize>, 3> faces;
-};
-
-// Open shares of the lower faces of the block's cells, from distances at its 9^3 nodes.
-template <typename Distance>
-void computeFaces(const Distance& distance, const Coord& cells, double h, Block& block) {
-  std::vector<double> node(kNodes * kNodes * kNodes);
-  for (int i = 0, n = 0; i < kNodes; ++i) {
-    for (int j = 0; j < kNodes; ++j) {
-      for (int k = 0; k < kNodes; ++k, ++n) {
-        const Coord at = block.origin.offsetBy(i, j, k);
-        const double d = distance(Vec3d(at[0] * h, at[1] * h, at[2] * h));
-        node[n] = std::abs(d) < kOnWall * h ? 0.0 : d;
-      }
-    }
-  }
-  constexpr int kStep[3] = {kNodes * kNodes, kNodes, 1};
-  for (int c = 0; c < kLeafSize; ++c) {
-    const Coord local(c >> 6, (c >> 3) & 7, c & 7);
-    const double* d = node.data() + local[0] * kStep[0] + local[1] * kStep[1] + local[2] * kStep[2];
-    for (int axis = 0; axis < 3; ++axis) {
-      const int s = kStep[(axis + 1) % 3], t = kStep[(axis + 2) % 3];
-      const Coord at = block.origin + local;
-      const int beside = (axis + 1) % 3, along = (axis + 2) % 3;
-      const bool inside = at[axis] <= cells[axis] && at[beside] < cells[beside] && at[along] < cells[along];
-      block.faces[axis][c] = inside ? static_cast<float>(openAreaFraction(d[0], d[s], d[s + t], d[t])) : 0.0f;
-    }
-  }
-}
-
-template <typename Distance>
-FloatGrid::Ptr cellDistances(const Distance& distance, const Coord& cells, double h) {
-  const float band = static_cast<float>(kBand * h);
-  FloatGrid::Ptr grid = makePhi(h, band);
-  grid->setName("solidPhi");
-  const Coord n((cells[0] + 2 * kMargin + 7) >> 3, (cells[1] + 2 * kMargin + 7) >> 3,
-                (cells[2] + 2 * kMargin + 7) >> 3);
-  const int count = n[0] * n[1] * n[2];
-  // Farther than this from the block's middle, no cell of the block is in the band.
-  const double radius = (0.5 * std::sqrt(3.0) * (kLeafDim - 1) + kBand) * h;
-  std::vector<std::unique_ptr<FloatLeaf>> leaves(count);
-  std::vector<char> solid(count, 0);
-  const auto originOf = [&](int b) {
-    return (Coord(b / (n[1] * n[2]), b / n[2] % n[1], b % n[2]) << 3).offsetBy(-kMargin);
-  };
-  tbb::parallel_for(Range(0, count), [&](const Range& range) {
-    for (int b = range.begin(); b < range.end(); ++b) {
-      const Coord origin = originOf(b);
-      const double middle = distance(Vec3d((origin[0] + 4) * h, (origin[1] + 4) * h, (origin[2] + 4) * h));
-      if (std::abs(middle) > radius) {
-        solid[b] = middle < 0.0;
-        continue;
-      }
-      leaves[b] = std::make_unique<FloatLeaf>(origin, band, false);
-      for (int c = 0; c < kLeafSize; ++c) {
-        const Coord at = leaves[b]->offsetToGlobalCoord(c);
-        const double d = distance(Vec3d((at[0] + 0.5) * h, (at[1] + 0.5) * h, (at[2] + 0.5) * h));
-        leaves[b]->setValueOnly(c, std::clamp(static_cast<float>(d), -band, band));
-        if (std::abs(d) < band) leaves[b]->setActiveState(c, true);
-      }
-    }
-  });
-  for (int b = 0; b < count; ++b) {
-    if (leaves[b] != nullptr) {
-      grid->tree().addLeaf(leaves[b].release());
-    } else if (solid[b]) {
-      grid->tree().addTile(1, originOf(b), -band, false);
-    }
-  }
-  return grid;
-}
-
-template <typename Distance>
-SolidField makeField(const Distance& distance, const Coord& cells, double h) {
-  SolidField field;
-  field.voxelSize = h;
-  field.cells = cells;
-  field.phi = cellDistances(distance, cells, h);
-
-  const Coord n((cells[0] + 8) >> 3, (cells[1] + 8) >> 3, (cells[2] + 8) >> 3);  // room for the last faces
-  const int count = n[0] * n[1] * n[2];
-  std::vector<std::unique_ptr<Block>> blocks(count);
-  const double radius = 0.5 * std::sqrt(3.0) * kLeafDim * h;
-  tbb::parallel_for(Range(0, count), [&](const Range& range) {
-    for (int b = range.begin(); b < range.end(); ++b) {
-      const Coord origin = Coord(b / (n[1] * n[2]), b / n[2] % n[1], b % n[2]) << 3;
-      const double middle = distance(Vec3d((origin[0] + 4) * h, (origin[1] + 4) * h, (origin[2] + 4) * h));
-      if (middle < -radius) continue;
-      blocks[b] = std::make_unique<Block>();
-      blocks[b]->origin = origin;
-      blocks[b]->fill = middle > radius ? Fill::open : Fill::cut;
-      if (blocks[b]->fill == Fill::cut) computeFaces(distance, cells, h, *blocks[b]);
-    }
-  });
-  FloatGrid::Ptr* const grids[3] = {&field.openU, &field.openV, &field.openW};
-  static constexpr const char* kNames[3] = {"openU", "openV", "openW"};
-  for (int axis = 0; axis < 3; ++axis) {
-    FloatGrid::Ptr grid = FloatGrid::create(0.0f);
-    grid->setTransform(faceTransform(h, axis));
-    grid->setName(kNames[axis]);
-    for (const auto& block : blocks) {
-      if (block == nullptr) continue;
-      if (block->fill == Fill::open) {
-        grid->tree().addTile(1, block->origin, 1.0f, true);
-        continue;
-      }
-      FloatLeaf* leaf = grid->tree().touchLeaf(block->origin);
-      for (int c = 0; c < kLeafSize; ++c) {
-        if (block->faces[axis][c] > 0.0f) leaf->setValueOn(c, block->faces[axis][c]);
-      }
-    }
-    grid->tree().prune();
-    *grids[axis] = grid;
-  }
-  return field;
-}
-
 }  // namespace
 
-double openAreaFraction(double d00, double d10, double d11, double d01) {
-  const std::array<double, 4> d{d00, d10, d11, d01};
-  const int positive = (d00 > 0.0) + (d10 > 0.0) + (d11 > 0.0) + (d01 > 0.0);
-  if (positive == 0) return 0.0;
-  if (std::min({d00, d10, d11, d01}) >= 0.0) return 1.0;
-  const bool saddle = positive == 2 && (d00 > 0.0) == (d11 > 0.0);
-  if (!saddle) return snapped(polygonArea(d));
-  // The middle decides whether the two equal corners are joined.
-  const bool joined = d00 + d10 + d11 + d01 > 0.0;
-  double corners = 0.0;
-  for (int a = 0; a < 4; ++a) {
-    if ((d[a] > 0.0) != joined) corners += cornerArea(d[a], d[(a + 1) & 3], d[(a + 3) & 3]);
-  }
-  return snapped(joined ? 1.0 - corners : corners);
-}
-
 Solids::Solids(const Options& options) : m_options(options) {
-  for (const Solid& solid : m_options.solids) m_shapes.emplace_back(solid.shape, m_options.voxelSize());
+  for (const Solid& solid : m_options.solids)
+    m_shapes.emplace_back(solid.shape, m_options.voxelSize(), m_options.size);
 }
 
 std::vector<std::size_t> Solids::active(double t) const {
@@ -218,40 +33,147 @@ std::vector<std::size_t> Solids::active(double t) const {
 
 double Solids::nextChange(double t) const {
   double next = kForever;
+  const auto consider = [&](double change) {
+    if (change > t) next = std::min(next, change);
+  };
   for (const Solid& solid : m_options.solids) {
     if (solid.from >= solid.until) continue;
-    for (const double change : {solid.from, solid.until}) {
-      if (change > t) next = std::min(next, change);
-    }
+    consider(solid.from);
+    consider(solid.until);
+    for (const Keyframe& key : solid.keyframes) consider(key.time);
   }
   return next;
 }
 
-double Solids::distanceTo(const std::vector<std::size_t>& active, const Vec3d& x) const {
-  double distance = kForever;
-  // Outside, the distance to the domain's box; it is solid there.
-  double outside = 0.0;
-  for (int a = 0; a < 3; ++a) {
-    distance = std::min({distance, x[a], m_options.size[a] - x[a]});
-    const double beyond = std::max({0.0, -x[a], x[a] - m_options.size[a]});
-    outside += beyond * beyond;
+std::vector<std::string> Solids::warnings() const {
+  std::vector<std::string> warnings;
+  const double h = m_options.voxelSize();
+  const Coord cells = cellCount(m_options.size, h);
+  for (std::size_t i = 0; i < m_options.solids.size(); ++i) {
+    // The deepest of the cells' corners, found block by block. A wall of two cells has one a cell deep,
+    // wherever it stands.
+    const Coord n((cells[0] + 8) >> 3, (cells[1] + 8) >> 3, (cells[2] + 8) >> 3);
+    const int count = n[0] * n[1] * n[2];
+    const double radius = 0.5 * std::sqrt(3.0) * kLeafDim * h;
+    const Placed rest{i, poseAt(m_options.solids[i], m_options.solids[i].from)};
+    std::vector<double> least(count, kForever);
+    tbb::parallel_for(Range(0, count), [&](const Range& range) {
+      for (int b = range.begin(); b < range.end(); ++b) {
+        const Coord origin = Coord(b / (n[1] * n[2]), b / n[2] % n[1], b % n[2]) << 3;
+        const double middle =
+            distanceTo(rest, Vec3d((origin[0] + 4) * h, (origin[1] + 4) * h, (origin[2] + 4) * h));
+        least[b] = middle;
+        if (std::abs(middle) > radius) continue;
+        for (int c = 0; c < kLeafSize; ++c) {
+          const Coord at = origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
+          least[b] = std::min(least[b], distanceTo(rest, Vec3d(at[0] * h, at[1] * h, at[2] * h)));
+        }
+      }
+    });
+    const double deepest = -*std::min_element(least.begin(), least.end());
+    if (deepest >= 0.99 * h) continue;
+    std::ostringstream text;
+    const std::string& name = m_options.solids[i].name;
+    text << "solid " << (name.empty() ? std::to_string(i) : "\"" + name + "\"");
+    if (deepest <= 0.0) {
+      text << " is nowhere in the domain, or so thin that no cell of " << h << " m can tell";
+    } else {
+      text << " is nowhere thicker than about " << 2.0 * deepest << " m, less than two cells of " << h
+           << " m";
+    }
+    text << ": liquid may pass through it; make it thicker, or give a higher domain.resolution";
+    warnings.push_back(text.str());
   }
-  if (outside > 0.0) distance = -std::sqrt(outside);
-  for (const std::size_t i : active) distance = std::min(distance, m_shapes[i](x));
+  return warnings;
+}
+
+std::vector<Solids::Placed> Solids::placed(double t, const std::vector<std::size_t>& set) const {
+  std::vector<Placed> solids;
+  for (const std::size_t i : set) solids.push_back({i, poseAt(m_options.solids[i], t)});
+  return solids;
+}
+
+double Solids::distanceTo(const Placed& solid, const Vec3d& x) const {
+  return m_shapes[solid.index](solid.pose.toBody(x));
+}
+
+double Solids::sideDistance(const Vec3d& x, bool all) const {
+  const double h = m_options.voxelSize();
+  const Coord cells = cellCount(m_options.size, h);
+  double distance = kForever, outside = 0.0;
+  for (int side = 0; side < 6; ++side) {
+    const bool wall = m_options.sides[side] == Side::wall;
+    if (!wall && !all) continue;
+    const int a = side / 2;
+    // A side that is no wall lies in the plane of faces.
+    const double high = wall ? m_options.size[a] : cells[a] * h;
+    const double d = side % 2 == 0 ? x[a] : high - x[a];
+    distance = std::min(distance, d);
+    if (d < 0.0) outside += d * d;
+  }
+  // Outside, the distance to the domain's box; it is solid there.
+  return outside > 0.0 ? -std::sqrt(outside) : distance;
+}
+
+double Solids::distanceTo(const std::vector<Placed>& solids, const Vec3d& x, bool all) const {
+  double distance = sideDistance(x, all);
+  for (const Placed& solid : solids) distance = std::min(distance, distanceTo(solid, x));
   return distance;
 }
 
 double Solids::distance(const Vec3d& x, double t) const {
-  return distanceTo(active(t), x);
+  return distanceTo(placed(t, active(t)), x, true);
 }
 
-std::shared_ptr<const SolidField> Solids::at(double t) {
-  const auto set = active(t);
-  if (m_cached == nullptr || set != m_cachedSet) {
+// At the faces of every leaf near a solid that moves: its velocity where it is the nearest one, else 0.
+void Solids::addSpeeds(SolidField& field, const std::vector<Placed>& solids) const {
+  const double h = field.voxelSize;
+  const double radius = (0.5 * std::sqrt(3.0) * kLeafDim + kSolidBand + 1.0) * h;
+  const auto near = [&](const Coord& origin) {
+    const Vec3d middle((origin[0] + 4) * h, (origin[1] + 4) * h, (origin[2] + 4) * h);
+    return std::any_of(solids.begin(), solids.end(), [&](const Placed& solid) {
+      return solid.pose.moving() && std::abs(distanceTo(solid, middle)) < radius;
+    });
+  };
+  std::vector<Coord> origins;
+  for (auto leaf = field.phi->constTree().cbeginLeaf(); leaf; ++leaf)
+    if (near(leaf->origin())) origins.push_back(leaf->origin());
+  FloatGrid::Ptr* const grids[3] = {&field.speedU, &field.speedV, &field.speedW};
+  for (int axis = 0; axis < 3; ++axis) {
+    FloatGrid::Ptr grid = FloatGrid::create(0.0f);
+    grid->setTransform(faceTransform(h, axis));
+    std::vector<FloatLeaf*> leaves;
+    for (const Coord& origin : origins) leaves.push_back(grid->tree().touchLeaf(origin));
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      for (int c = 0; c < kLeafSize; ++c) {
+        const Vec3d x = grid->indexToWorld(leaves[n]->offsetToGlobalCoord(c));
+        double nearest = sideDistance(x, true);
+        double speed = 0.0;
+        for (const Placed& solid : solids) {
+          const double d = distanceTo(solid, x);
+          if (d >= nearest) continue;
+          nearest = d;
+          speed = solid.pose.velocityAt(x)[axis];
+        }
+        leaves[n]->setValueOn(c, static_cast<float>(speed));
+      }
+    });
+    *grids[axis] = grid;
+  }
+}
+
+std::shared_ptr<const SolidField> Solids::at(double t, const std::vector<std::size_t>& set) {
+  const auto solids = placed(t, set);
+  if (m_cached == nullptr || solids != m_cachedSet) {
     const double h = m_options.voxelSize();
-    const auto distance = [&](const Vec3d& x) { return distanceTo(set, x); };
-    m_cached = std::make_shared<SolidField>(makeField(distance, cellCount(m_options.size, h), h));
-    m_cachedSet = set;
+    const auto distance = [&](const Vec3d& x) { return distanceTo(solids, x, true); };
+    const auto openDistance = [&](const Vec3d& x) { return distanceTo(solids, x, false); };
+    SolidField field = makeSolidField(distance, openDistance, cellCount(m_options.size, h), h);
+    field.sides = m_options.sides;
+    if (std::any_of(solids.begin(), solids.end(), [](const Placed& solid) { return solid.pose.moving(); }))
+      addSpeeds(field, solids);
+    m_cached = std::make_shared<SolidField>(std::move(field));
+    m_cachedSet = solids;
   }
   return m_cached;
 }

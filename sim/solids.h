@@ -1,22 +1,32 @@
-// Static solids and the walls of the domain: who is there at a time, how far away, and how much of each face
-// is open.
+// Solids and the walls of the domain: who is there at a time, how far away, how much of each face is open,
+// and how they move.
 #pragma once
 
 #include "sim/options.h"
+#include "sim/pose.h"
 #include "sim/shapes.h"
 
 #include <openvdb/openvdb.h>
 
+#include <array>
+#include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace fluidtex::sim {
+
+// Value of a face whose velocity is not given.
+inline constexpr float kNotGiven = std::numeric_limits<float>::max();
 
 // What the solver needs to know about a set of solids. Cell (i,j,k) of the domain has 0 <= i < cells.x() and
 // so on, its centre at ((i+1/2) h, (j+1/2) h, (k+1/2) h). Everything outside the domain is solid.
 struct SolidField {
   double voxelSize = 0.0;   // h, metres
   openvdb::Coord cells{0};  // of the domain along each axis; a last layer may be cut by the domain's wall
+  // The domain's sides. Beyond one that is open or a stream's cut lies solid as behind a wall, but its own
+  // faces are open where no solid is in the way.
+  std::array<Side, 6> sides{};
   // Signed distance at cell centres in metres, negative inside solids and outside the domain. Active within 3
   // voxels of a boundary, elsewhere the inactive values +-3 h. Right up to 8 cells outside the domain;
   // beyond, background.
@@ -25,6 +35,11 @@ struct SolidField {
   // the lower x face of cell (i,j,k). Background 0; tiles of 1 where all is open; every face that is not
   // closed is active.
   openvdb::FloatGrid::Ptr openU, openV, openW;
+  // Velocity of the solids at faces, m/s, near their surface; null where all are at rest.
+  openvdb::FloatGrid::Ptr speedU, speedV, speedW;
+  // Velocity of faces where it is given, m/s, active there, else kNotGiven: the pressure has no say there.
+  // Null where there are none.
+  openvdb::FloatGrid::Ptr givenU, givenV, givenW;
 };
 
 // Open share of a square face from the solid's signed distance at its corners, taken linear along the edges
@@ -40,22 +55,38 @@ class Solids {
   // Indices into Options::solids of those that exist at time t (from <= t < until).
   std::vector<std::size_t> active(double t) const;
 
-  // The first time after t at which the set changes; kForever where it never does again.
+  // The first time after t at which the set changes, or a solid's motion; kForever where it never does again.
   double nextChange(double t) const;
+
+  // One sentence for each solid that no cell's face can feel: liquid would pass through it.
+  std::vector<std::string> warnings() const;
 
   // Signed distance at world position x to the active solids and the domain's walls, metres, negative inside.
   double distance(const Vec3d& x, double t) const;
 
-  // Distances and open faces at time t; kept, and made anew only when the set has changed since the last
-  // call.
-  std::shared_ptr<const SolidField> at(double t);
+  // Distances, open faces and speeds at time t; kept, and made anew only when the set has changed or a solid
+  // has moved since the last call.
+  std::shared_ptr<const SolidField> at(double t) { return at(t, active(t)); }
+  // The same of a given set of solids, at their places of time t.
+  std::shared_ptr<const SolidField> at(double t, const std::vector<std::size_t>& set);
 
  private:
-  double distanceTo(const std::vector<std::size_t>& active, const Vec3d& x) const;
+  // A solid that is there, and where.
+  struct Placed {
+    std::size_t index;
+    Pose pose;
+    bool operator==(const Placed&) const = default;
+  };
+  std::vector<Placed> placed(double t, const std::vector<std::size_t>& set) const;
+  double distanceTo(const Placed& solid, const Vec3d& x) const;
+  // To the sides of the domain; `all`: those that are no walls too.
+  double sideDistance(const Vec3d& x, bool all) const;
+  double distanceTo(const std::vector<Placed>& solids, const Vec3d& x, bool all) const;
+  void addSpeeds(SolidField& field, const std::vector<Placed>& solids) const;
 
   Options m_options;
   std::vector<ShapeDistance> m_shapes;  // one for each of Options::solids
-  std::vector<std::size_t> m_cachedSet;
+  std::vector<Placed> m_cachedSet;
   std::shared_ptr<const SolidField> m_cached;
 };
 
@@ -65,9 +96,9 @@ struct FaceMasks {
 };
 
 // After extrapolation: takes the normal component out of the velocity at closed faces (those not in `valid`),
-// so that liquid slides along solids and does not enter them. Beside cells active in `separating` (liquid
-// that leaves a wall) and where no liquid touches, only motion into the solid is taken out. Touches active
-// faces only.
+// so that liquid slides along solids and does not enter them; all relative to the solid's own speed. Beside
+// cells active in `separating` (liquid that leaves a wall) and where no liquid touches, only motion into the
+// solid is taken out. Touches active faces only.
 void constrainToSolids(openvdb::FloatGrid& u, openvdb::FloatGrid& v, openvdb::FloatGrid& w,
                        const openvdb::FloatGrid& phi, const SolidField& solid, const FaceMasks& valid,
                        const openvdb::MaskGrid& separating);

@@ -1,6 +1,7 @@
 #include "sim/solver.h"
 
 #include "sim/advect_velocity.h"
+#include "sim/flows.h"
 #include "sim/level_set.h"
 #include "sim/mac_grid.h"
 #include "sim/shapes.h"
@@ -48,14 +49,20 @@ double frameTime(const Options& options, int frame) {
   return (frame - 1) / options.frameRate;
 }
 
-// The longest step the CFL number allows. The second term stands for what gravity adds within one cell, so
-// that liquid at rest does not take a step of any length [Bridson, Fluid Simulation for Computer Graphics,
-// sec. 3.3].
-double longestStep(const Options& options, double fastest) {
+// The longest step the CFL number allows; `solids` is their speed, and they move by at most one cell. The
+// second term stands for what gravity adds within one cell, so that liquid at rest does not take a step of
+// any length [Bridson, Fluid Simulation for Computer Graphics, sec. 3.3].
+double longestStep(const Options& options, double fastest, double solids) {
   const double h = options.voxelSize();
   const double speed = fastest + std::sqrt(options.gravity.length() * h);
   const double frame = 1.0 / options.frameRate;
-  return speed > 0.0 ? std::min(frame, std::min(options.cfl, kMaxTrace - 1.0) * h / speed) : frame;
+  const double longest =
+      speed > 0.0 ? std::min(frame, std::min(options.cfl, kMaxTrace - 1.0) * h / speed) : frame;
+  return solids > 0.0 ? std::min(longest, h / solids) : longest;
+}
+
+double speedOf(const SolidField& solid) {
+  return solid.speedU == nullptr ? 0.0 : maxAbs({{solid.speedU, solid.speedV, solid.speedW}});
 }
 
 // Substeps shorter than this share of a frame lead nowhere.
@@ -89,7 +96,7 @@ Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_
   const double h = options.voxelSize();
   m_state.poured.assign(options.liquid.size(), false);
   store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0}, h);
-  m_solid = m_solids->at(0.0);
+  prepare();
 }
 
 Solver::Solver(const Options& options, State state)
@@ -102,7 +109,15 @@ Solver::Solver(const Options& options, State state)
   }
   setTransforms(m_state, asked);
   m_state.poured.resize(options.liquid.size(), false);
+  prepare();
+}
+
+void Solver::prepare() {
   m_solid = m_solids->at(m_state.time);
+  m_active = m_solids->active(m_state.time);
+  m_flows = std::make_shared<Flows>(m_options);
+  m_warnings = m_solids->warnings();
+  for (std::string& warning : m_flows->warnings(*m_solids)) m_warnings.push_back(std::move(warning));
 }
 
 // Pours what is due and takes over solids that come or go at the present time.
@@ -111,15 +126,20 @@ void Solver::applyEvents() {
   const auto solid = m_solids->at(now);
   bool changed = m_state.frame == 0;
   Liquid liquid{m_state.phi->deepCopy(), {{m_state.u, m_state.v, m_state.w}}, {}, m_state.steps};
-  if (solid != m_solid) {
+  if (const auto active = m_solids->active(now); active != m_active) {
     changeSolids(liquid, *m_solid, *solid);
-    m_solid = solid;
+    m_active = active;
     changed = true;
   }
+  m_solid = solid;
+  // What a source puts in while it runs is taken care of by the steps; where there is nothing yet, none are
+  // made.
+  const RunningFlows flows = m_flows->at(now);
+  changed = changed || (isEmpty(liquid) && !flows.sources.empty());
   for (std::size_t n = 0; n < m_options.liquid.size(); ++n) {
     const LiquidBody& body = m_options.liquid[n];
     if (m_state.poured[n] || body.from > now) continue;
-    const ShapeDistance distance(body.shape, m_options.voxelSize());
+    const ShapeDistance distance(body.shape, m_options.voxelSize(), m_options.size);
     pour(
         liquid, [&](const Vec3d& x) { return distance(x); }, body.velocity, *solid);
     m_state.poured[n] = true;
@@ -127,7 +147,7 @@ void Solver::applyEvents() {
   }
   if (!changed) return;
   PressureReport report;
-  if (!settle(liquid, *solid, m_options, &report)) fail(now, 1.0 / m_options.frameRate, report);
+  if (!settle(liquid, *solid, m_options, &report, flows)) fail(now, 1.0 / m_options.frameRate, report);
   store(m_state, std::move(liquid), m_options.voxelSize());
 }
 
@@ -136,18 +156,23 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     Liquid liquid = liquidOf(m_state);
     if (isEmpty(liquid)) {
       m_state.time = time;
+      m_solid = m_solids->at(time, m_active);
       return;
     }
     const double remaining = time - m_state.time;
-    const double speed = maxAbs(liquid.velocity), longest = longestStep(m_options, speed);
+    const double speed = maxAbs(liquid.velocity), longest = longestStep(m_options, speed, speedOf(*m_solid));
     if (longest < kShortest / m_options.frameRate) failFast(m_state.time, speed);
     double dt = remaining / std::ceil(remaining / longest * (1.0 - kSameTime));
     bool last = dt > (1.0 - kSameTime) * remaining;
+    std::shared_ptr<const SolidField> solid;
 
     PressureReport pressure;
     std::optional<Liquid> next;
     for (int halving = 0;; ++halving) {
-      next = step(liquid, *m_solid, dt, m_options, &pressure);
+      const double then = last ? time : m_state.time + dt;
+      // Solids that come or go at that time do so after the step.
+      solid = m_solids->at(then, m_active);
+      next = step(liquid, *solid, dt, m_options, &pressure, m_flows->at(then));
       if (next) break;
       if (halving == kMaxHalvings) fail(m_state.time, dt, pressure);
       dt *= 0.5;
@@ -161,6 +186,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     stats.pressureResidual = std::max(stats.pressureResidual, pressure.residual);
     store(m_state, std::move(*next), m_options.voxelSize());
     m_state.time = last ? time : m_state.time + dt;
+    m_solid = solid;
     if (report) report(m_state.time);
   }
 }
@@ -176,8 +202,9 @@ Frame Solver::next(const std::function<void(double)>& progress) {
   if (m_state.frame == 0) {
     applyEvents();
   } else {
+    if (isEmpty(liquidOf(m_state))) applyEvents();
     while (m_state.time < frame.time) {
-      double event = m_solids->nextChange(m_state.time);
+      double event = std::min(m_solids->nextChange(m_state.time), m_flows->nextChange(m_state.time));
       for (std::size_t n = 0; n < m_options.liquid.size(); ++n) {
         if (!m_state.poured[n]) event = std::min(event, m_options.liquid[n].from);
       }

@@ -9,10 +9,12 @@
 #include <functional>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace fluidtex::sim {
 
+class Flows;
 class Solids;
 struct SolidField;
 
@@ -46,7 +48,11 @@ class Solver {
 
   const State& state() const { return m_state; }
 
+  // What will not be as the scene may mean it, one sentence each.
+  const std::vector<std::string>& warnings() const { return m_warnings; }
+
  private:
+  void prepare();
   void applyEvents();
   void advanceTo(double time, Frame& frame, const std::function<void(double)>& report);
 
@@ -54,6 +60,9 @@ class Solver {
   State m_state;
   std::shared_ptr<Solids> m_solids;
   std::shared_ptr<const SolidField> m_solid;  // at m_state.time
+  std::vector<std::size_t> m_active;          // solids in m_solid
+  std::shared_ptr<const Flows> m_flows;
+  std::vector<std::string> m_warnings;
 };
 
 // The state as one .vdb file, uncompressed so that every value returns bit for bit.

@@ -66,7 +66,9 @@ bool touchesLiquid(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord&
 // this cell. It has no pressure of its own: it goes where the velocity leads away from the solid, `kick`
 // being what gravity adds to it in a step, as it does under a ceiling; and where no liquid feeds it, but on
 // floors, since nothing would move it any more.
-bool leavesSolid(const Liquid& liquid, const FloatGrid& solidPhi, const Coord& cell, const Vec3d& kick) {
+bool leavesSolid(const Liquid& liquid, const SolidField& solid, const Coord& cell, const Vec3d& kick) {
+  const FloatGrid& solidPhi = *solid.phi;
+  const FloatGrid* const push[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};
   const float deep = -kDeepInSolid * static_cast<float>(solidPhi.voxelSize()[0]);
   bool onFloor = false;
   for (int side = 0; side < 6; ++side) {
@@ -75,7 +77,8 @@ bool leavesSolid(const Liquid& liquid, const FloatGrid& solidPhi, const Coord& c
     beyond[axis] -= out;
     if (out < 0) face[axis] += 1;
     if (solidPhi.constTree().getValue(beyond) >= deep) continue;
-    const double speed = liquid.velocity.component[axis]->constTree().getValue(face);
+    double speed = liquid.velocity.component[axis]->constTree().getValue(face);
+    if (push[axis] != nullptr) speed -= push[axis]->constTree().getValue(face);
     if (out * (speed + kick[axis]) > 0.0) return true;
     onFloor = onFloor || out * kick[axis] < -0.5 * kick.length();
   }
@@ -97,7 +100,7 @@ void openGaps(Liquid& liquid, const SolidField& solid, const openvdb::MaskGrid& 
   }
   extendIntoSolids(phi, *solid.phi, [&](const Coord& ijk) {
     return phi.constTree().getValue(ijk) < 0.0f ? separating.constTree().isValueOn(ijk)
-                                                : leavesSolid(liquid, *solid.phi, ijk, kick);
+                                                : leavesSolid(liquid, solid, ijk, kick);
   });
   trimBand(phi, *solid.phi);
 }
@@ -132,15 +135,16 @@ bool isEmpty(const Liquid& liquid) {
 }
 
 std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, const Options& options,
-                           PressureReport* report) {
+                           PressureReport* report, const RunningFlows& flows) {
   Liquid next{liquid.phi->deepCopy(), {}, liquid.markers, liquid.steps + 1};
   moveSurface(*next.phi, next.markers, liquid.velocity, *solid.phi, dt,
-              static_cast<std::uint64_t>(next.steps));
+              static_cast<std::uint64_t>(next.steps), flows);
 
   next.velocity = velocityFor(*next.phi, solid);
   advectVelocity(liquid.velocity, next.velocity, *liquid.phi, *next.phi, dt);
   addGravity(next.velocity, options.gravity * dt);
-  if (!project(next, solid, dt, options, report)) return std::nullopt;
+  const SolidField around = withFlows(solid, flows, *next.phi, liquid.velocity, options.gravity, dt);
+  if (!project(next, around, dt, options, report)) return std::nullopt;
   return next;
 }
 
@@ -180,8 +184,10 @@ void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& af
   cutSolids(*liquid.phi, *before.phi, left);
 }
 
-bool settle(Liquid& liquid, const SolidField& solid, const Options& options, PressureReport* report) {
+bool settle(Liquid& liquid, const SolidField& solid, const Options& options, PressureReport* report,
+            const RunningFlows& flows) {
   FloatGrid& phi = *liquid.phi;
+  applyFlows(phi, liquid.markers, flows);
   for (const Coord& origin : wetLeaves(phi, solid.cells, kMargin)) phi.tree().touchLeaf(origin);
   for (auto leaf = solid.phi->constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
   // A body that ends at a wall has its surface there; extending and reinitialising in turn makes it go on
@@ -210,7 +216,8 @@ bool settle(Liquid& liquid, const SolidField& solid, const Options& options, Pre
     });
   }
   if (isEmpty(liquid)) return true;
-  return project(liquid, solid, 1.0 / options.frameRate, options, report);
+  const SolidField around = withFlows(solid, flows, phi, before, options.gravity, 0.0);
+  return project(liquid, around, 1.0 / options.frameRate, options, report);
 }
 
 }  // namespace fluidtex::sim

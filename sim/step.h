@@ -2,6 +2,7 @@
 // solids.
 #pragma once
 
+#include "sim/flows.h"
 #include "sim/mac_grid.h"
 #include "sim/markers.h"
 #include "sim/pressure.h"
@@ -27,10 +28,11 @@ int bandWidth(double cfl);
 // Whether there is any.
 bool isEmpty(const Liquid& liquid);
 
-// The liquid dt seconds later. Nothing when the pressure solve does not converge or a velocity is not finite:
-// try a smaller dt. `report`, where given, is filled either way.
+// The liquid dt seconds later; `solid` and `flows` are those of that time. Nothing when the pressure solve
+// does not converge or a velocity is not finite: try a smaller dt. `report`, where given, is filled either
+// way.
 std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, const Options& options,
-                           PressureReport* report = nullptr);
+                           PressureReport* report = nullptr, const RunningFlows& flows = {});
 
 // Adds liquid where distance(x) < 0, of that velocity. The velocity of the whole is projected by settle().
 void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, const Vec3d& velocity,
@@ -39,9 +41,9 @@ void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, c
 // Empties the places that solids leave when `before` turns into `after`.
 void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& after);
 
-// Makes phi a distance and the velocity free of divergence after pouring or a change of solids. False when
-// the pressure solve does not converge.
+// Makes phi a distance and the velocity free of divergence after pouring or a change of solids or of flows.
+// False when the pressure solve does not converge.
 [[nodiscard]] bool settle(Liquid& liquid, const SolidField& solid, const Options& options,
-                          PressureReport* report = nullptr);
+                          PressureReport* report = nullptr, const RunningFlows& flows = {});
 
 }  // namespace fluidtex::sim

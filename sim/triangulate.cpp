@@ -1,5 +1,6 @@
 // Triangles of shapes for drawing. Boxes and half-spaces are exact (a convex solid cut by planes), spheres
 // are divided icosahedra; what is left is meshed from its distance on a grid.
+#include "sim/height_field.h"
 #include "sim/mac_grid.h"
 #include "sim/shapes.h"
 
@@ -141,7 +142,7 @@ TriangleMesh icosphere(const Sphere& sphere, double voxelSize) {
 
 // The surface of a shape within the domain, from its distance at the corners of voxels.
 TriangleMesh meshDistance(const Shape& shape, const Vec3d& size, double h) {
-  const ShapeDistance distance(shape, h);
+  const ShapeDistance distance(shape, h, size);
   const ShapeDistance domain(Shape{Box{Vec3d(0.0), size}}, h);
   const float band = static_cast<float>(3.0 * h);
   auto grid = openvdb::FloatGrid::create(band);
@@ -194,6 +195,38 @@ TriangleMesh meshDistance(const Shape& shape, const Vec3d& size, double h) {
   return mesh;
 }
 
+// The ground in the domain only, its rim closed down to the floor.
+TriangleMesh drawnGround(const HeightField& ground, const Vec3d& size, double h) {
+  // As fine as the picture, but no more than the cells can tell.
+  const double spacing = std::clamp(ground.pixel, 0.25 * h, h);
+  TriangleMesh mesh = groundMesh(ground, size, spacing, 0.0, 0.0);
+  for (openvdb::Vec3f& x : mesh.positions) x.z() = std::clamp(x.z(), 0.0f, float(size.z()));
+  return mesh;
+}
+
+TriangleMesh tube(const Cylinder& cylinder, double h) {
+  const Vec3d along = (cylinder.to - cylinder.from).unit();
+  const Vec3d e = std::abs(along.x()) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
+  const Vec3d s = along.cross(e).unit(), t = along.cross(s);
+  const int n = std::clamp(static_cast<int>(2.0 * std::numbers::pi * cylinder.radius / h), 32, 512);
+  using Index = openvdb::Index32;
+  TriangleMesh mesh;
+  mesh.positions = {openvdb::Vec3f(cylinder.from), openvdb::Vec3f(cylinder.to)};
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / n;
+    const Vec3d out = cylinder.radius * (std::cos(angle) * s + std::sin(angle) * t);
+    mesh.positions.emplace_back(cylinder.from + out);
+    mesh.positions.emplace_back(cylinder.to + out);
+  }
+  for (int i = 0; i < n; ++i) {
+    const Index low = Index(2 + 2 * i), next = Index(2 + 2 * ((i + 1) % n));
+    mesh.triangles.insert(
+        mesh.triangles.end(),
+        {{0, next, low}, {1, low + 1, next + 1}, {low, next, next + 1}, {low, next + 1, low + 1}});
+  }
+  return mesh;
+}
+
 bool contains(const Vec3d& size, const Vec3d& low, const Vec3d& high) {
   for (int a = 0; a < 3; ++a) {
     if (low[a] < 0.0 || high[a] > size[a]) return false;
@@ -221,6 +254,14 @@ TriangleMesh triangulate(const Shape& shape, const Vec3d& domainSize, double vox
     const Vec3d reach(sphere->radius);
     if (contains(domainSize, sphere->center - reach, sphere->center + reach))
       return icosphere(*sphere, voxelSize);
+  }
+  if (const auto* ground = std::get_if<HeightField>(&shape.kind))
+    return drawnGround(*ground, domainSize, voxelSize);
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape.kind)) {
+    const Vec3d reach(cylinder->radius);
+    if (contains(domainSize, cylinder->from - reach, cylinder->from + reach) &&
+        contains(domainSize, cylinder->to - reach, cylinder->to + reach))
+      return tube(*cylinder, voxelSize);
   }
   if (const auto* file = std::get_if<MeshShape>(&shape.kind)) {
     TriangleMesh mesh = readMesh(*file);

@@ -1,6 +1,7 @@
 #include "tools/errors.h"
 
 #include "scenes/scene.h"
+#include "sim/read_heights.h"
 #include "sim/read_mesh.h"
 #include "texture/exemplar.h"
 
@@ -31,6 +32,8 @@ int guarded(const std::function<void()>& body) {
   } catch (const texture::ExemplarError& error) {
     return fault(error.what(), kInputWrong);
   } catch (const sim::MeshError& error) {
+    return fault(error.what(), kInputWrong);
+  } catch (const sim::HeightError& error) {
     return fault(error.what(), kInputWrong);
   } catch (const UsageError& error) {
     return fault(error.what(), kInputWrong);

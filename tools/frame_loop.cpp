@@ -2,6 +2,7 @@
 
 #include "render/frame_name.h"
 #include "render/render.h"
+#include "sim/pose.h"
 #include "sim/shapes.h"
 #include "sim/solver.h"
 #include "texture/orient.h"
@@ -79,6 +80,10 @@ class FrameLoop {
     if (!m_options.resume || !continueFromState()) {
       m_solver = std::make_unique<sim::Solver>(m_scene.sim);
       clearEarlierRun(m_options.out, m_scene.name);
+    }
+    for (const std::string& warning : m_solver->warnings()) {
+      spdlog::warn("{}", warning);
+      if (!m_options.quiet) fmt::print(stderr, "warning: {}\n", warning);
     }
     const int first = m_solver->state().frame + 1;
     spdlog::info("{}: frames {} to {}, {} threads", m_scene.name, first, m_last, m_options.threads);
@@ -193,18 +198,21 @@ class FrameLoop {
                     [&](const fs::path& file) { writePly(m_surface, file); });
   }
 
-  // Made anew only where a solid has come or gone.
+  // Made anew only where a solid has come, gone or moved.
   const std::vector<render::Solid>& visibleSolids(double time) {
-    std::vector<std::size_t> visible;
+    std::vector<std::pair<std::size_t, sim::Pose>> visible;
     for (std::size_t i = 0; i < m_scene.sim.solids.size(); ++i) {
       const sim::Solid& solid = m_scene.sim.solids[i];
-      if (solid.visible && solid.from <= time && time < solid.until) visible.push_back(i);
+      if (solid.visible && solid.from <= time && time < solid.until)
+        visible.emplace_back(i, sim::poseAt(solid, time));
     }
     if (visible == m_visible) return m_solids;
     m_solids.clear();
-    for (const std::size_t i : visible) {
+    for (const auto& [i, pose] : visible) {
       const sim::Solid& solid = m_scene.sim.solids[i];
       sim::TriangleMesh mesh = sim::triangulate(solid.shape, m_scene.sim.size, m_scene.sim.voxelSize());
+      if (!solid.keyframes.empty())
+        for (openvdb::Vec3f& x : mesh.positions) x = openvdb::Vec3f(pose.toWorld(sim::Vec3d(x)));
       m_solids.push_back({std::move(mesh.positions), std::move(mesh.triangles), solid.color});
     }
     m_visible = std::move(visible);
@@ -269,7 +277,7 @@ class FrameLoop {
   texture::Synthesizer m_synthesizer;
   std::unique_ptr<sim::Solver> m_solver;
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
-  std::vector<std::size_t> m_visible;  // numbers of the solids in m_solids
+  std::vector<std::pair<std::size_t, sim::Pose>> m_visible;  // numbers and places of the solids in m_solids
   std::vector<render::Solid> m_solids;
   Report m_report;
   Progress* m_progress = nullptr;

@@ -28,9 +28,9 @@ class Counter {
  public:
   explicit Counter(const sim::Options& options)
       : m_options(options), m_h(options.voxelSize()), m_cells(sim::cellCount(options.size, m_h)) {
-    for (const sim::LiquidBody& body : options.liquid) m_liquid.emplace_back(body.shape, m_h);
+    for (const sim::LiquidBody& body : options.liquid) m_liquid.emplace_back(body.shape, m_h, options.size);
     for (const sim::Solid& solid : options.solids)
-      if (solid.from <= 0.0) m_solids.emplace_back(solid.shape, m_h);
+      if (solid.from <= 0.0) m_solids.emplace_back(solid.shape, m_h, options.size);
   }
 
   const Coord& cells() const { return m_cells; }

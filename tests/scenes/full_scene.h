@@ -24,7 +24,7 @@ inline void collectKeys(const Json& value, const std::string& path, std::set<std
       collectKeys(inner, path.empty() ? key : path + "." + key, keys);
   } else if (value.is_array() && !value.empty() && value[0].is_object()) {
     for (const Json& inner : value) collectKeys(inner, path, keys);
-  } else {
+  } else if (!value.is_array() || !value.empty()) {
     keys.insert(path);
   }
 }
@@ -38,6 +38,13 @@ seed = 99
 [domain]
 size = [3, 2, 1.5]
 resolution = 48
+[domain.sides]
+x_low = "stream"
+x_high = "open"
+y_low = "open"
+y_high = "stream"
+z_low = "open"
+z_high = "stream"
 [fluid]
 density = 900
 viscosity = 0.5
@@ -60,6 +67,30 @@ color = [1, 0.25, 0]
 [[solid]]
 sphere = { center = [1, 1, 1], radius = 0.5 }
 until = inf
+pivot = [1, 2, 3]
+axis = [1, 0, 0]
+[[solid.keyframe]]
+time = 0.5
+[[solid.keyframe]]
+time = 1.5
+move = [0, 0, 1]
+turn = 720
+[[source]]
+cylinder = { from = [0, 0, 1], to = [1, 0, 1], radius = 0.25 }
+velocity = [1, 0, 0]
+temperature = 1400
+from = 0.5
+until = 8
+[[source.rate]]
+time = 0
+factor = 0.5
+[[source.rate]]
+time = 2
+factor = 1.5
+[[drain]]
+height_field = { file = "e.png", pixel = 0.5, low = -1, high = 2, translate = [0, 1, 2] }
+from = 1
+until = 2
 [texture]
 exemplar = "e.png"
 toroidal = true

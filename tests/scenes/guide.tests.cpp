@@ -70,9 +70,14 @@ TEST_CASE("scene: the guide tells every shape and what is inside it", "[scenes]"
   for (const GuideRow& row : guideRows())
     if (row.section == "shape") shapes[row.key] = row.cells[1];
   const std::map<std::string, std::vector<std::string>> inside = {
-      {"box", {"min", "max"}}, {"sphere", {"center", "radius"}},
-      {"union", {}},           {"half_space", {"point", "normal"}},
-      {"difference", {}},      {"mesh", {"file", "scale", "translate"}}};
+      {"box", {"min", "max"}},
+      {"sphere", {"center", "radius"}},
+      {"union", {}},
+      {"half_space", {"point", "normal"}},
+      {"difference", {}},
+      {"mesh", {"file", "scale", "translate"}},
+      {"cylinder", {"from", "to", "radius"}},
+      {"height_field", {"file", "pixel", "low", "high", "translate"}}};
   CHECK(shapes.size() == kShapeKeys.size());
   for (const std::string& shape : kShapeKeys) {
     INFO(shape);
@@ -83,7 +88,11 @@ TEST_CASE("scene: the guide tells every shape and what is inside it", "[scenes]"
 }
 
 TEST_CASE("scene: the guide's defaults are the ones that are used", "[scenes]") {
-  const Json resolved = Json::parse(sceneOf(kGoodScene + "[[solid]]\nmesh = { file = 'm.obj' }\n").resolved);
+  const std::string box = "box = { min = [0, 0, 0], max = [1, 1, 1] }\n";
+  const Json resolved = Json::parse(sceneOf(kGoodScene + "[[solid]]\nmesh = { file = 'm.obj' }\n" +
+                                            "keyframe = [ { time = 1 } ]\n[[source]]\n" + box +
+                                            "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + box)
+                                        .resolved);
   int compared = 0;
   for (const GuideRow& row : guideRows()) {
     if (row.cells.size() != 4 || !row.cells[2].starts_with("`")) continue;

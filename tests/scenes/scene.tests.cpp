@@ -90,6 +90,36 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK_FALSE(sim.solids[0].visible);
   CHECK(sim.solids[0].color == sim::Vec3d(1, 0.25, 0));
   CHECK(sim.solids[1].until == sim::kForever);
+  CHECK(sim.solids[1].pivot == sim::Vec3d(1, 2, 3));
+  CHECK(sim.solids[1].axis == sim::Vec3d(1, 0, 0));
+  REQUIRE(sim.solids[1].keyframes.size() == 2);
+  CHECK(sim.solids[1].keyframes[0].time == 0.5);
+  CHECK(sim.solids[1].keyframes[1].move == sim::Vec3d(0, 0, 1));
+  CHECK(sim.solids[1].keyframes[1].turn == 720.0);
+  using sim::Side;
+  CHECK(sim.sides ==
+        std::array<Side, 6>{Side::stream, Side::open, Side::open, Side::stream, Side::open, Side::stream});
+  REQUIRE(sim.sources.size() == 1);
+  const auto& cylinder = std::get<sim::Cylinder>(sim.sources[0].shape.kind);
+  CHECK(cylinder.from == sim::Vec3d(0, 0, 1));
+  CHECK(cylinder.to == sim::Vec3d(1, 0, 1));
+  CHECK(cylinder.radius == 0.25);
+  CHECK(sim.sources[0].velocity == sim::Vec3d(1, 0, 0));
+  CHECK(sim.sources[0].temperature == 1400.0);
+  CHECK(sim.sources[0].from == 0.5);
+  CHECK(sim.sources[0].until == 8.0);
+  REQUIRE(sim.sources[0].rate.size() == 2);
+  CHECK(sim.sources[0].rate[1].time == 2.0);
+  CHECK(sim.sources[0].rate[1].factor == 1.5);
+  REQUIRE(sim.drains.size() == 1);
+  const auto& ground = std::get<sim::HeightField>(sim.drains[0].shape.kind);
+  CHECK(ground.file == folder.path() / "e.png");
+  CHECK(ground.pixel == 0.5);
+  CHECK(ground.low == -1.0);
+  CHECK(ground.high == 2.0);
+  CHECK(ground.translate == sim::Vec3d(0, 1, 2));
+  CHECK(sim.drains[0].from == 1.0);
+  CHECK(sim.drains[0].until == 2.0);
   const texture::Options& texture = scene.texture;
   CHECK(texture.exemplar.file == folder.path() / "e.png");
   CHECK(texture.exemplar.toroidal);
@@ -136,19 +166,24 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
 }
 
 TEST_CASE("scene: the resolved scene has every key, given or not", "[scenes]") {
-  const std::string oneSolid = "[[solid]]\nmesh = { file = 'm.obj' }\n";
+  const std::string ball = "sphere = { center = [1, 1, 1], radius = 0.5 }\n";
+  const std::string oneEach =
+      "[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 } ]\n[[source]]\n" + ball +
+      "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + ball;
   std::set<std::string> whole, defaults;
   collectKeys(Json::parse(sceneOf(kFullScene).resolved), "", whole);
-  collectKeys(Json::parse(sceneOf(kGoodScene + oneSolid).resolved), "", defaults);
+  collectKeys(Json::parse(sceneOf(kGoodScene + oneEach).resolved), "", defaults);
   CHECK(whole.size() > 60);
   for (const std::string& key : whole) {
     INFO(key);
-    const bool shape = key.find("union") != std::string::npos || key.find("sphere") != std::string::npos;
+    const bool shape = key.find("union") != std::string::npos || key.find("sphere") != std::string::npos ||
+                       key.find("cylinder") != std::string::npos ||
+                       key.find("height_field") != std::string::npos;
     CHECK((shape || defaults.contains(key)));
   }
   for (const std::string& key : defaults) {
     INFO(key);
-    CHECK(whole.contains(key));
+    CHECK((whole.contains(key) || key.find("sphere") != std::string::npos));
   }
 }
 

@@ -43,7 +43,7 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
       {"name = ''\n" + kGoodScene,
        "s.toml:1:1: error: name: an empty string; give a name or leave the key out"},
   });
-  const std::string shapes = "box, sphere, half_space, mesh, union ";
+  const std::string shapes = "box, sphere, cylinder, half_space, mesh, height_field, union ";
   checkCases({
       {"[[liquid]]\nfrom = 1",
        "s.toml:6:1: error: liquid.1: no shape; give one of " + shapes + "or difference"},
@@ -73,6 +73,27 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
       {"[[solid]]\nmesh = { file = 'm.obj' }\nfrom = 1\nuntil = 1",
        "s.toml:9:1: error: solid.0.until: until 1 s is not after from 1 s; give an until that is greater "
        "than from"},
+      {"[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 }, { time = 1 } ]",
+       "s.toml:8:30: error: solid.0.keyframe.1.time: 1 s is not after the one before, at 1 s; give them in "
+       "the order of time"},
+      {"[[solid]]\nmesh = { file = 'm.obj' }\naxis = [0, 0, 0]",
+       "s.toml:8:1: error: solid.0.axis: has no length; give the direction it turns about, for example [0, "
+       "0, 1]"},
+      {"[[solid]]\ncylinder = { from = [1, 1, 1], to = [1, 1, 1], radius = 1 }",
+       "s.toml:7:32: error: solid.0.cylinder.to: is the same point as from; give the middle of the other "
+       "end"},
+      {"[[solid]]\nheight_field = { file = 'e.png', pixel = 1, low = 2, high = 2 }",
+       "s.toml:7:54: error: solid.0.height_field.high: 2 is not above low's 2; give the height of white in "
+       "metres, greater than that of black"},
+      {"[[source]]\nsphere = { center = [3, 3, 3], radius = 1 }",
+       "s.toml:6:1: error: source.0: lies wholly outside the domain; put at least a part of it between [0, "
+       "0, 0] and [2, 1, 1]"},
+      {"[[source]]\nsphere = { center = [1, 1, 1], radius = 1 }\nfrom = 2\nuntil = 1",
+       "s.toml:9:1: error: source.0.until: until 1 s is not after from 2 s; give an until that is greater "
+       "than from"},
+      {"[[drain]]\ncylinder = { from = [3, 0, 0], to = [3, 1, 0], radius = 0.5 }",
+       "s.toml:6:1: error: drain.0: lies wholly outside the domain; put at least a part of it between [0, 0, "
+       "0] and [2, 1, 1]"},
       {"[[solid]]\nname = 'a'\nmesh = { file = 'm.obj' }\n[[solid]]\nname = 'a'\nmesh = { file = 'm.obj' }",
        "s.toml:10:1: error: solid.1.name: \"a\" is the name of solid.0 too; give each solid a name of its "
        "own"},
@@ -121,15 +142,16 @@ TEST_CASE("scene faults: what must be given and is not", "[scenes]") {
   const std::string size = "domain.size: missing key; write for example size = [1, 1, 1]";
   const std::string exemplar =
       "texture.exemplar: missing key; write for example exemplar = \"exemplars/green_scales.png\"";
-  const std::string liquid = "liquid: missing key; give at least one [[liquid]]";
-  CHECK(faultsOf("") == std::vector<std::string>{"s.toml:1:1: error: " + size, "s.toml:1:1: error: " + liquid,
-                                                 "s.toml:1:1: error: " + exemplar});
+  const std::string liquid = "liquid: missing key; give at least one [[liquid]] or one [[source]]";
+  CHECK(faultsOf("") == std::vector<std::string>{"s.toml:1:1: error: " + size,
+                                                 "s.toml:1:1: error: " + exemplar,
+                                                 "s.toml:1:1: error: " + liquid});
   CHECK(faultsOf("liquid = [ { sphere = { center = [0, 0, 0], radius = 1 } } ]\n[domain]\nresolution = "
                  "32\n[texture]\n") ==
         std::vector<std::string>{"s.toml:2:2: error: " + size, "s.toml:4:2: error: " + exemplar});
   checkWholeFiles({
       {"texture.exemplar = 'e.png'\ndomain.size = [1, 1, 1]\nliquid = []",
-       "s.toml:3:1: error: liquid: an empty list; head each member with [[liquid]]"},
+       "s.toml:3:1: error: liquid: an empty list; give at least one [[liquid]] or one [[source]]"},
   });
   checkCases({
       {"[[solid]]\nbox = { min = [0, 0, 0] }",

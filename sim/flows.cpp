@@ -1,0 +1,321 @@
+#include "sim/flows.h"
+
+#include "sim/leaf_table.h"
+#include "sim/level_set.h"
+#include "sim/shapes.h"
+#include "sim/step.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace fluidtex::sim {
+namespace {
+
+// A source's surface whose normal has a larger share than this along the velocity is its front.
+constexpr double kFront = 0.1;
+
+// The value of a curve, level before its first point and after its last one.
+double rateAt(const std::vector<RatePoint>& rate, double t) {
+  if (rate.empty()) return 1.0;
+  if (t <= rate.front().time) return rate.front().factor;
+  for (std::size_t n = 1; n < rate.size(); ++n) {
+    if (t > rate[n].time) continue;
+    const double share = (t - rate[n - 1].time) / (rate[n].time - rate[n - 1].time);
+    return rate[n - 1].factor + share * (rate[n].factor - rate[n - 1].factor);
+  }
+  return rate.back().factor;
+}
+
+// All faces of the domain's cells whose middle lies in the source.
+std::array<FloatGrid::Ptr, 3> facesOf(const FloatGrid& phi, const Vec3d& velocity, const Coord& cells) {
+  std::array<FloatGrid::Ptr, 3> faces;
+  for (int axis = 0; axis < 3; ++axis) {
+    FloatGrid::Ptr grid = FloatGrid::create(0.0f);
+    grid->setTransform(faceTransform(phi.voxelSize()[0], axis));
+    for (const Coord& origin : wetLeaves(phi, cells, 0)) {
+      float scratch[kLeafSize];
+      const float* values = leafValues(phi.constTree(), origin, scratch);
+      for (int c = 0; c < kLeafSize; ++c) {
+        const Coord cell = origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
+        if (values[c] >= 0.0f || cell[0] >= cells[0] || cell[1] >= cells[1] || cell[2] >= cells[2]) continue;
+        Coord next = cell;
+        next[axis] += 1;
+        grid->tree().setValueOn(cell, static_cast<float>(velocity[axis]));
+        grid->tree().setValueOn(next, static_cast<float>(velocity[axis]));
+      }
+    }
+    faces[axis] = grid;
+  }
+  return faces;
+}
+
+// Leaves of phi wherever the shape has a leaf or is inside.
+std::vector<FloatLeaf*> leavesAt(FloatGrid& phi, const FloatGrid& shape) {
+  std::vector<FloatLeaf*> leaves;
+  const Coord reach = shape.evalActiveVoxelBoundingBox().max();
+  for (const Coord& origin : wetLeaves(shape, reach + Coord(1), kLeafDim))
+    leaves.push_back(phi.tree().touchLeaf(origin));
+  return leaves;
+}
+
+// Whether air lies a cell outside the source's surface there, on another side than the one it flows out of.
+// place: a cell; distance: the source's there.
+bool bareSide(const FloatGrid& phi, const FloatGrid& shape, const Coord& place, float distance,
+              const Vec3d& velocity) {
+  const double h = phi.voxelSize()[0];
+  Vec3d normal;
+  for (int a = 0; a < 3; ++a) {
+    Coord below = place, above = place;
+    below[a] -= 1;
+    above[a] += 1;
+    normal[a] = shape.constTree().getValue(above) - shape.constTree().getValue(below);
+  }
+  if (!normal.normalize() || normal.dot(velocity) > kFront * velocity.length()) return false;
+  const Vec3d outside = place.asVec3d() + (1.0 - distance / h) * normal;
+  return phi.constTree().getValue(Coord::round(outside)) > 0.0f;
+}
+
+// phi = min(phi, source). Where the sides of a source that flows lie bare they are the surface: liquid that
+// has crept over them is taken away, or what little rises there would draw the next after it.
+void fill(FloatGrid& phi, const SourceGrids& source) {
+  const std::vector<FloatLeaf*> leaves = leavesAt(phi, *source.phi);
+  const float background = phi.background(), band = 2.0f * static_cast<float>(phi.voxelSize()[0]);
+  std::vector<std::array<float, kLeafSize>> filled(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    float scratch[kLeafSize];
+    const float* liquid = leafValues(source.phi->constTree(), leaves[n]->origin(), scratch);
+    const float* was = leaves[n]->buffer().data();
+    for (int i = 0; i < kLeafSize; ++i) {
+      const bool bare =
+          source.speed != Vec3d(0.0) && std::abs(liquid[i]) < band &&
+          bareSide(phi, *source.phi, leaves[n]->offsetToGlobalCoord(i), liquid[i], source.speed);
+      filled[n][i] = std::clamp(bare ? liquid[i] : std::min(was[i], liquid[i]), -background, background);
+    }
+  });
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    std::copy_n(filled[n].data(), kLeafSize, leaves[n]->buffer().data());
+  });
+}
+
+// phi = max(phi, -drain).
+void empty(FloatGrid& phi, const FloatGrid& drain) {
+  const std::vector<FloatLeaf*> leaves = leavesAt(phi, drain);
+  const float background = phi.background();
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    float scratch[kLeafSize];
+    const float* shape = leafValues(drain.constTree(), leaves[n]->origin(), scratch);
+    float* values = leaves[n]->buffer().data();
+    for (int i = 0; i < kLeafSize; ++i)
+      values[i] = std::clamp(std::max(values[i], -shape[i]), -background, background);
+  });
+}
+
+// Drops the markers of one side that lie in the shape.
+void dropMarkers(Markers& markers, const FloatGrid& shape, bool ofLiquid) {
+  tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
+    const openvdb::tree::ValueAccessor<const FloatTree> distance(shape.constTree());
+    const Coord& origin = markers[n].origin;
+    std::erase_if(markers[n].markers, [&](const Marker& m) {
+      if ((m.radius < 0.0f) != ofLiquid) return false;
+      const Coord cell =
+          origin.offsetBy(static_cast<int>(std::lround(m.x)), static_cast<int>(std::lround(m.y)),
+                          static_cast<int>(std::lround(m.z)));
+      return distance.getValue(cell) < 0.0f;
+    });
+  });
+  std::erase_if(markers, [](const MarkerBlock& block) { return block.markers.empty(); });
+}
+
+struct GivenFaces {
+  std::array<FloatGrid::Ptr, 3> grid;
+
+  void set(int axis, const Coord& face, float speed) { grid[axis]->tree().setValueOn(face, speed); }
+};
+
+// Depth of the liquid in the column of cells through `cell` along `down`, metres.
+double depthOf(const FloatGrid& phi, const SolidField& solid, Coord cell, int down) {
+  const auto liquid = phi.getConstUnsafeAccessor();
+  const auto wall = solid.phi->getConstUnsafeAccessor();
+  double depth = 0.0;
+  for (cell[down] = 0; cell[down] < solid.cells[down]; ++cell[down]) {
+    const double p = std::max(liquid.getValue(cell), -wall.getValue(cell));
+    depth += std::clamp(0.5 * solid.voxelSize - p, 0.0, solid.voxelSize);
+  }
+  return depth;
+}
+
+// Through one side of the domain: what arrives there by the end of the step.
+void giveStream(GivenFaces& given, int side, const SolidField& solid, const FloatGrid& phi,
+                const Velocity& before, const Vec3d& gravity, double dt) {
+  const int axis = side / 2, out = side % 2 == 0 ? -1 : 1;
+  const FloatGrid* const open[3] = {solid.openU.get(), solid.openV.get(), solid.openW.get()};
+  const auto share = open[axis]->getConstUnsafeAccessor();
+  const auto liquid = phi.getConstUnsafeAccessor();
+  const auto speed = before.component[axis]->getConstUnsafeAccessor();
+  int down = 0;
+  for (int a = 1; a < 3; ++a)
+    if (std::abs(gravity[a]) > std::abs(gravity[down])) down = a;
+  const int across = 3 - axis - down;
+  const double h = solid.voxelSize;
+  // Waves on shallow water run along the surface only: not where the side is the floor or the ceiling.
+  const bool waves = axis != down;
+  const int beside = waves ? across : (axis + 1) % 3, along = waves ? down : (axis + 2) % 3;
+  for (int i = 0; i < solid.cells[beside]; ++i) {
+    double wave = -1.0;
+    for (int j = 0; j < solid.cells[along]; ++j) {
+      Coord cell;
+      cell[axis] = out > 0 ? solid.cells[axis] - 1 : 0;
+      cell[beside] = i;
+      cell[along] = j;
+      Coord face = cell;
+      if (out > 0) face[axis] += 1;
+      if (liquid.getValue(cell) >= 0.0f || share.getValue(face) <= 0.0f) continue;
+      if (wave < 0.0)
+        wave = waves ? std::sqrt(std::abs(gravity[down]) * depthOf(phi, solid, cell, down)) : 0.0;
+      const double here = out * speed.getValue(face);
+      const double back = std::clamp((here + wave) * dt / h, 0.0, kLeafDim - 1.0);
+      // The faces on the way inwards, as far as they are open.
+      const auto valueAt = [&](int steps) {
+        Coord at = face, last = face;
+        for (int n = 0; n < steps; ++n) {
+          at[axis] -= out;
+          if (share.getValue(at) <= 0.0f || !speed.isValueOn(at)) break;
+          last = at;
+        }
+        return static_cast<double>(speed.getValue(last));
+      };
+      const int whole = static_cast<int>(back);
+      const double near = valueAt(whole), far = valueAt(whole + 1);
+      given.set(axis, face, static_cast<float>(near + (back - whole) * (far - near)));
+    }
+  }
+}
+
+}  // namespace
+
+Flows::Flows(const Options& options)
+    : m_sources(options.sources),
+      m_drains(options.drains),
+      m_h(options.voxelSize()),
+      m_cells(cellCount(options.size, m_h)),
+      m_size(options.size),
+      m_band(bandWidth(options.cfl) * m_h) {
+  const auto gridOf = [&](const ShapeDistance& distance) {
+    FloatGrid::Ptr phi = makePhi(m_h, m_band);
+    unite(
+        *phi, [&](const Vec3d& x) { return distance(x); }, m_cells, kLeafDim);
+    return phi;
+  };
+  for (const Source& source : m_sources) {
+    const ShapeDistance distance(source.shape, m_h, m_size);
+    SourceGrids grids{gridOf(distance), source.velocity, {}};
+    if (source.velocity != Vec3d(0.0)) grids.velocity = facesOf(*grids.phi, source.velocity, m_cells);
+    m_sourceGrids.push_back(std::move(grids));
+  }
+  for (const Drain& drain : m_drains) m_drainGrids.push_back(gridOf(ShapeDistance(drain.shape, m_h, m_size)));
+}
+
+RunningFlows Flows::at(double t) const {
+  RunningFlows running;
+  for (std::size_t n = 0; n < m_sources.size(); ++n) {
+    const double factor = rateAt(m_sources[n].rate, t);
+    if (m_sources[n].from <= t && t < m_sources[n].until && factor > 0.0)
+      running.sources.push_back({&m_sourceGrids[n], factor});
+  }
+  for (std::size_t n = 0; n < m_drains.size(); ++n)
+    if (m_drains[n].from <= t && t < m_drains[n].until) running.drains.push_back(m_drainGrids[n].get());
+  return running;
+}
+
+double Flows::nextChange(double t) const {
+  double next = kForever;
+  const auto consider = [&](double time) {
+    if (time > t) next = std::min(next, time);
+  };
+  for (const Source& source : m_sources) {
+    consider(source.from);
+    consider(source.until);
+    for (const RatePoint& point : source.rate) consider(point.time);
+  }
+  for (const Drain& drain : m_drains) {
+    consider(drain.from);
+    consider(drain.until);
+  }
+  return next;
+}
+
+std::vector<std::string> Flows::warnings(const Solids& solids) const {
+  std::vector<std::string> warnings;
+  enum class Found { nothing, inSolid, open };
+  const auto look = [&](const FloatGrid& shape, double t) {
+    Found found = Found::nothing;
+    for (const Coord& origin : wetLeaves(shape, m_cells, 0)) {
+      float scratch[kLeafSize];
+      const float* values = leafValues(shape.constTree(), origin, scratch);
+      for (int c = 0; c < kLeafSize; ++c) {
+        if (values[c] >= 0.0f) continue;
+        const Coord cell = origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
+        if (solids.distance(shape.indexToWorld(cell), t) > 0.0) return Found::open;
+        found = Found::inSolid;
+      }
+    }
+    return found;
+  };
+  const auto tell = [&](const std::string& name, const std::string& does, const FloatGrid& shape, double t) {
+    const Found found = look(shape, t);
+    if (found == Found::open) return;
+    std::ostringstream text;
+    if (found == Found::inSolid)
+      text << name << " lies wholly inside solids or walls: " << does << "; put a part of it into the open";
+    else
+      text << name << " holds no cell's middle: " << does << "; make it larger than a cell, " << m_h
+           << " m, or give a higher domain.resolution";
+    warnings.push_back(text.str());
+  };
+  for (std::size_t n = 0; n < m_sources.size(); ++n)
+    tell("source " + std::to_string(n), "nothing comes from it", *m_sourceGrids[n].phi, m_sources[n].from);
+  for (std::size_t n = 0; n < m_drains.size(); ++n)
+    tell("drain " + std::to_string(n), "it takes nothing away", *m_drainGrids[n], m_drains[n].from);
+  return warnings;
+}
+
+void applyFlows(FloatGrid& phi, Markers& markers, const RunningFlows& flows) {
+  for (const auto& [source, factor] : flows.sources) {
+    fill(phi, *source);
+    dropMarkers(markers, *source->phi, false);
+  }
+  for (const FloatGrid* drain : flows.drains) {
+    empty(phi, *drain);
+    dropMarkers(markers, *drain, true);
+  }
+}
+
+SolidField withFlows(const SolidField& solid, const RunningFlows& flows, const FloatGrid& phi,
+                     const Velocity& before, const Vec3d& gravity, double dt) {
+  SolidField field = solid;
+  const bool streams = std::find(solid.sides.begin(), solid.sides.end(), Side::stream) != solid.sides.end();
+  const bool moving = std::any_of(flows.sources.begin(), flows.sources.end(),
+                                  [](const auto& running) { return running.source->velocity[0] != nullptr; });
+  if (!streams && !moving) return field;
+  GivenFaces given;
+  for (int axis = 0; axis < 3; ++axis) {
+    given.grid[axis] = FloatGrid::create(kNotGiven);
+    given.grid[axis]->setTransform(faceTransform(solid.voxelSize, axis));
+  }
+  for (int side = 0; side < 6; ++side)
+    if (solid.sides[side] == Side::stream) giveStream(given, side, solid, phi, before, gravity, dt);
+  for (const auto& [source, factor] : flows.sources) {
+    for (int axis = 0; axis < 3 && source->velocity[axis] != nullptr; ++axis)
+      for (auto it = source->velocity[axis]->cbeginValueOn(); it; ++it)
+        given.set(axis, it.getCoord(), static_cast<float>(factor * *it));
+  }
+  field.givenU = given.grid[0];
+  field.givenV = given.grid[1];
+  field.givenW = given.grid[2];
+  return field;
+}
+
+}  // namespace fluidtex::sim

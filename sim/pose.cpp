@@ -1,0 +1,51 @@
+#include "sim/pose.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace fluidtex::sim {
+namespace {
+
+// Rodrigues' formula; the axis has length 1.
+Vec3d turned(const Vec3d& x, const Vec3d& axis, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return c * x + s * axis.cross(x) + (1.0 - c) * axis.dot(x) * axis;
+}
+
+}  // namespace
+
+Vec3d Pose::toWorld(const Vec3d& x) const {
+  return (angle == 0.0 ? x : pivot + turned(x - pivot, axis, angle)) + move;
+}
+
+Vec3d Pose::toBody(const Vec3d& x) const {
+  const Vec3d back = x - move;
+  return angle == 0.0 ? back : pivot + turned(back - pivot, axis, -angle);
+}
+
+Vec3d Pose::velocityAt(const Vec3d& x) const {
+  return speed + spin * axis.cross(x - pivot - move);
+}
+
+Pose poseAt(const Solid& solid, double t) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  Pose pose;
+  pose.pivot = solid.pivot;
+  pose.axis = solid.axis.unit();
+  const auto& keys = solid.keyframes;
+  if (keys.empty()) return pose;
+  std::size_t next = 0;
+  while (next < keys.size() && keys[next].time <= t) ++next;
+  const Keyframe& last = keys[next > 0 ? next - 1 : 0];
+  pose.move = last.move;
+  pose.angle = last.turn * kDegree;
+  if (next == 0 || next == keys.size()) return pose;
+  const double length = keys[next].time - last.time;
+  pose.speed = (keys[next].move - last.move) / length;
+  pose.spin = (keys[next].turn - last.turn) * kDegree / length;
+  pose.move += (t - last.time) * pose.speed;
+  pose.angle += (t - last.time) * pose.spin;
+  return pose;
+}
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,30 @@
+// Where a solid is at a time, and how it moves there.
+#pragma once
+
+#include "sim/options.h"
+
+namespace fluidtex::sim {
+
+// Turned by `angle` (radians) about the axis through `pivot`, then moved by `move` (metres); goes on at
+// `speed` (m/s) and `spin` (radians/s).
+struct Pose {
+  Vec3d pivot{0.0}, axis{0.0, 0.0, 1.0}, move{0.0};
+  double angle = 0.0;
+  Vec3d speed{0.0};
+  double spin = 0.0;
+
+  bool operator==(const Pose&) const = default;
+  bool moving() const { return spin != 0.0 || speed != Vec3d(0.0); }
+
+  // From where the shape was made to the world, and back.
+  Vec3d toWorld(const Vec3d& x) const;
+  Vec3d toBody(const Vec3d& x) const;
+
+  // m/s, of the solid's matter at world position x.
+  Vec3d velocityAt(const Vec3d& x) const;
+};
+
+// The pose at time t; at a keyframe it goes on as after it.
+Pose poseAt(const Solid& solid, double t);
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,24 @@
+// Heights from an image file.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+namespace fluidtex::sim {
+
+// Thrown by readHeights(), and by all that reads a height field through it; names the file and what is wrong.
+struct HeightError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Shares of white, 0 to 1, rows from the picture's top.
+struct HeightImage {
+  int width = 0, height = 0;
+  std::vector<float> values;  // height x width
+};
+
+// The first channel as it is stored, 8 or 16 bits (or floats, which are taken as they are).
+HeightImage readHeights(const std::filesystem::path& file);
+
+}  // namespace fluidtex::sim
