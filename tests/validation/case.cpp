@@ -3,6 +3,8 @@
 #include "tests/validation/dam_break_cases.h"
 #include "tests/validation/level_set_cases.h"
 #include "tests/validation/reinit_cases.h"
+#include "tests/validation/rest_cases.h"
+#include "tests/validation/wave_cases.h"
 
 #include <cmath>
 
@@ -16,7 +18,7 @@ bool Row::ok() const {
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> list;
-    for (auto* part : {levelSetCases, reinitCases, damBreakCases}) {
+    for (auto* part : {levelSetCases, reinitCases, waveCases, restCases, damBreakCases}) {
       for (Case& c : part()) list.push_back(std::move(c));
     }
     return list;

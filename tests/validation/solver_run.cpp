@@ -1,0 +1,50 @@
+#include "tests/validation/solver_run.h"
+
+#include "sim/mac_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::validation {
+
+using sim::Coord;
+using sim::Vec3d;
+
+sim::Solver startedWith(const sim::Options& options, const std::function<Vec3d(const Vec3d&)>& velocity) {
+  sim::Solver first(options);
+  first.next();
+  sim::State state = first.state();
+  for (const auto& [grid, axis] : {std::pair(&state.u, 0), std::pair(&state.v, 1), std::pair(&state.w, 2)}) {
+    *grid = (*grid)->deepCopy();
+    for (auto it = (*grid)->beginValueOn(); it; ++it)
+      it.setValue(static_cast<float>(velocity((*grid)->indexToWorld(it.getCoord()))[axis]));
+  }
+  return sim::Solver(options, std::move(state));
+}
+
+double farthestFrom(const sim::State& state, const std::function<Vec3d(const Vec3d&)>& field) {
+  const auto phi = state.phi->getConstUnsafeAccessor();
+  double most = 0.0;
+  for (const auto& [grid, axis] : {std::pair(&state.u, 0), std::pair(&state.v, 1), std::pair(&state.w, 2)}) {
+    for (auto it = (*grid)->cbeginValueOn(); it; ++it) {
+      Coord below = it.getCoord();
+      below[axis] -= 1;
+      if (phi.getValue(it.getCoord()) >= 0.0f || phi.getValue(below) >= 0.0f) continue;
+      const double exact = field((*grid)->indexToWorld(it.getCoord()))[axis];
+      most = std::max(most, std::abs(*it - exact));
+    }
+  }
+  return most;
+}
+
+double surfaceHeight(const sim::State& state, int i, int j, int cells) {
+  const auto phi = state.phi->getConstUnsafeAccessor();
+  for (int k = cells - 1; k >= 0; --k) {
+    const double here = phi.getValue(Coord(i, j, k)), above = phi.getValue(Coord(i, j, k + 1));
+    if (here < 0.0)
+      return (k + 0.5 + (above >= 0.0 ? here / (here - above) : 0.5)) * state.phi->voxelSize()[0];
+  }
+  return 0.0;
+}
+
+}  // namespace fluidtex::validation

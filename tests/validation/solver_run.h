@@ -1,0 +1,23 @@
+// What several of the fluid tests need: a solver that starts from a given velocity, and figures of its state.
+#pragma once
+
+#include "sim/solver.h"
+
+#include <functional>
+
+namespace fluidtex::validation {
+
+// A solver whose first frame has been made, with this velocity (m/s, at world positions) given to every
+// active face then. Nothing is projected: the field should be free of divergence on the faces.
+sim::Solver startedWith(const sim::Options& options,
+                        const std::function<sim::Vec3d(const sim::Vec3d&)>& velocity);
+
+// Largest difference of a velocity component from the field, over the faces that have liquid on both sides,
+// m/s.
+double farthestFrom(const sim::State& state, const std::function<sim::Vec3d(const sim::Vec3d&)>& field);
+
+// Height of the surface above the floor in the column of cells (i, j), by linear interpolation of phi; 0
+// without liquid.
+double surfaceHeight(const sim::State& state, int i, int j, int cells);
+
+}  // namespace fluidtex::validation
