@@ -23,7 +23,7 @@ constexpr int kMaxHalvings = 6;
 constexpr double kSameTime = 1e-6;
 
 Liquid liquidOf(const State& state) {
-  return {state.phi, {{state.u, state.v, state.w}}, state.markers, state.steps};
+  return {state.phi, {{state.u, state.v, state.w}}, state.markers, state.steps, state.ahead};
 }
 
 // Copying a grid, or writing and reading it, can change the last bits of its transform, and with them all
@@ -39,6 +39,7 @@ void store(State& state, Liquid liquid, double h) {
   state.phi = liquid.phi;
   state.markers = std::move(liquid.markers);
   state.steps = liquid.steps;
+  state.ahead = liquid.ahead;
   state.u = liquid.velocity.component[0];
   state.v = liquid.velocity.component[1];
   state.w = liquid.velocity.component[2];
@@ -59,6 +60,11 @@ double longestStep(const Options& options, double fastest, double solids) {
   const double longest =
       speed > 0.0 ? std::min(frame, std::min(options.cfl, kMaxTrace - 1.0) * h / speed) : frame;
   return solids > 0.0 ? std::min(longest, h / solids) : longest;
+}
+
+// The longest even part of `time` that is no longer than `longest`.
+double evenPart(double time, double longest) {
+  return time / std::ceil(time / longest * (1.0 - kSameTime));
 }
 
 double speedOf(const SolidField& solid) {
@@ -95,7 +101,7 @@ constexpr double kShortest = 1e-5;
 Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_shared<Solids>(options)) {
   const double h = options.voxelSize();
   m_state.poured.assign(options.liquid.size(), false);
-  store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0}, h);
+  store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0, 0.0}, h);
   prepare();
 }
 
@@ -125,7 +131,8 @@ void Solver::applyEvents() {
   const double now = m_state.time;
   const auto solid = m_solids->at(now);
   bool changed = m_state.frame == 0;
-  Liquid liquid{m_state.phi->deepCopy(), {{m_state.u, m_state.v, m_state.w}}, {}, m_state.steps};
+  Liquid liquid{
+      m_state.phi->deepCopy(), {{m_state.u, m_state.v, m_state.w}}, {}, m_state.steps, m_state.ahead};
   if (const auto active = m_solids->active(now); active != m_active) {
     changeSolids(liquid, *m_solid, *solid);
     m_active = active;
@@ -146,8 +153,11 @@ void Solver::applyEvents() {
     changed = true;
   }
   if (!changed) return;
+  // Up to the middle of the first step.
+  const double first = longestStep(m_options, maxAbs(liquid.velocity), speedOf(*solid));
+  const double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
   PressureReport report;
-  if (!settle(liquid, *solid, m_options, &report, flows)) fail(now, 1.0 / m_options.frameRate, report);
+  if (!settle(liquid, *solid, kick, m_options, &report, flows)) fail(now, 1.0 / m_options.frameRate, report);
   store(m_state, std::move(liquid), m_options.voxelSize());
 }
 
@@ -162,7 +172,11 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     const double remaining = time - m_state.time;
     const double speed = maxAbs(liquid.velocity), longest = longestStep(m_options, speed, speedOf(*m_solid));
     if (longest < kShortest / m_options.frameRate) failFast(m_state.time, speed);
-    double dt = remaining / std::ceil(remaining / longest * (1.0 - kSameTime));
+    // The velocity is that of the middle of a step of this length.
+    const double planned = 2.0 * liquid.ahead;
+    const bool asPlanned =
+        planned > 0.0 && planned <= longest * (1.0 + kSameTime) && planned <= remaining * (1.0 + kSameTime);
+    double dt = asPlanned ? planned : evenPart(remaining, longest);
     bool last = dt > (1.0 - kSameTime) * remaining;
     std::shared_ptr<const SolidField> solid;
 
@@ -172,7 +186,10 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       const double then = last ? time : m_state.time + dt;
       // Solids that come or go at that time do so after the step.
       solid = m_solids->at(then, m_active);
-      next = step(liquid, *solid, dt, m_options, &pressure, m_flows->at(then));
+      const double after = last ? 1.0 / m_options.frameRate : remaining - dt;
+      const double nextLongest =
+          longestStep(m_options, speed + m_options.gravity.length() * dt, speedOf(*solid));
+      next = step(liquid, *solid, dt, evenPart(after, nextLongest), m_options, &pressure, m_flows->at(then));
       if (next) break;
       if (halving == kMaxHalvings) fail(m_state.time, dt, pressure);
       dt *= 0.5;

@@ -134,15 +134,16 @@ bool isEmpty(const Liquid& liquid) {
   return liquid.phi->empty();
 }
 
-std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, const Options& options,
-                           PressureReport* report, const RunningFlows& flows) {
-  Liquid next{liquid.phi->deepCopy(), {}, liquid.markers, liquid.steps + 1};
+std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, double nextDt,
+                           const Options& options, PressureReport* report, const RunningFlows& flows) {
+  const double kick = std::max(0.0, dt - liquid.ahead + 0.5 * nextDt);
+  Liquid next{liquid.phi->deepCopy(), {}, liquid.markers, liquid.steps + 1, liquid.ahead - dt + kick};
   moveSurface(*next.phi, next.markers, liquid.velocity, *solid.phi, dt,
               static_cast<std::uint64_t>(next.steps), flows);
 
   next.velocity = velocityFor(*next.phi, solid);
   advectVelocity(liquid.velocity, next.velocity, *liquid.phi, *next.phi, dt);
-  addGravity(next.velocity, options.gravity * dt);
+  addGravity(next.velocity, options.gravity * kick);
   const SolidField around = withFlows(solid, flows, *next.phi, liquid.velocity, options.gravity, dt);
   if (!project(next, around, dt, options, report)) return std::nullopt;
   return next;
@@ -184,8 +185,8 @@ void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& af
   cutSolids(*liquid.phi, *before.phi, left);
 }
 
-bool settle(Liquid& liquid, const SolidField& solid, const Options& options, PressureReport* report,
-            const RunningFlows& flows) {
+bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options,
+            PressureReport* report, const RunningFlows& flows) {
   FloatGrid& phi = *liquid.phi;
   applyFlows(phi, liquid.markers, flows);
   for (const Coord& origin : wetLeaves(phi, solid.cells, kMargin)) phi.tree().touchLeaf(origin);
@@ -216,6 +217,8 @@ bool settle(Liquid& liquid, const SolidField& solid, const Options& options, Pre
     });
   }
   if (isEmpty(liquid)) return true;
+  addGravity(liquid.velocity, options.gravity * kick);
+  liquid.ahead += kick;
   const SolidField around = withFlows(solid, flows, phi, before, options.gravity, 0.0);
   return project(liquid, around, 1.0 / options.frameRate, options, report);
 }

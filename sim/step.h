@@ -20,6 +20,7 @@ struct Liquid {
   Velocity velocity;
   Markers markers;
   std::int64_t steps = 0;  // taken so far: the seed of the markers to come
+  double ahead = 0.0;      // s: the velocity is that of so much later than phi
 };
 
 // Half the width of phi's band in voxels, for steps of at most `cfl` cells.
@@ -28,11 +29,13 @@ int bandWidth(double cfl);
 // Whether there is any.
 bool isEmpty(const Liquid& liquid);
 
-// The liquid dt seconds later; `solid` and `flows` are those of that time. Nothing when the pressure solve
-// does not converge or a velocity is not finite: try a smaller dt. `report`, where given, is filled either
-// way.
-std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, const Options& options,
-                           PressureReport* report = nullptr, const RunningFlows& flows = {});
+// The liquid dt seconds later; `solid` and `flows` are those of that time. The velocity moves phi, so it
+// should be that of the middle of the step (leapfrog, second order in time): gravity takes the new one to the
+// middle of the step after, of nextDt seconds. Nothing when the pressure solve does not converge or a
+// velocity is not finite: try a smaller dt. `report`, where given, is filled either way.
+std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, double nextDt,
+                           const Options& options, PressureReport* report = nullptr,
+                           const RunningFlows& flows = {});
 
 // Adds liquid where distance(x) < 0, of that velocity. The velocity of the whole is projected by settle().
 void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, const Vec3d& velocity,
@@ -42,8 +45,8 @@ void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, c
 void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& after);
 
 // Makes phi a distance and the velocity free of divergence after pouring or a change of solids or of flows.
-// False when the pressure solve does not converge.
-[[nodiscard]] bool settle(Liquid& liquid, const SolidField& solid, const Options& options,
+// Gravity acts for `kick` seconds. False when the pressure solve does not converge.
+[[nodiscard]] bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options,
                           PressureReport* report = nullptr, const RunningFlows& flows = {});
 
 }  // namespace fluidtex::sim

@@ -150,7 +150,14 @@ Result martinMoyce(int resolution, const Progress& progress) {
 }  // namespace
 
 std::vector<Case> damBreakCases() {
-  return {{"dam_break",
+  return {{"martin_moyce",
+           "fluid",
+           "Front of a collapsing column, cells to its base",
+           {20, 40},
+           {},
+           martinMoyce,
+           {}},
+          {"dam_break",
            "fluid",
            "Volume of a closed dam break over 240 frames",
            {64, 128},

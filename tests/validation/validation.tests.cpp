@@ -29,3 +29,7 @@ void runQuick(const std::string& group) {
 TEST_CASE("validation: the quick level-set tests hold their bars") {
   runQuick("level_set");
 }
+
+TEST_CASE("validation: the quick fluid tests hold their bars") {
+  runQuick("fluid");
+}
