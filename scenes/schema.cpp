@@ -32,7 +32,10 @@ void describeMotion(Visitor& visitor, sim::Options& sim) {
     visitor.number("viscosity", sim.viscosity, kNotNegative);
     visitor.vector("gravity", sim.gravity, kAny);
   });
-  visitor.table("simulation", [&] { visitor.number("cfl", sim.cfl, {.low = 0.1, .high = 4.0}); });
+  visitor.table("simulation", [&] {
+    visitor.number("cfl", sim.cfl, {.low = 0.1, .high = 4.0});
+    visitor.flag("keep_volume", sim.keepVolume);
+  });
   visitor.list("liquid", sim.liquid, [&](sim::LiquidBody& body) {
     describeShape(visitor, body.shape);
     visitor.vector("velocity", body.velocity, kAny);

@@ -132,6 +132,9 @@ struct Options {
   double viscosity = 0.001;  // Pa s
   double cfl = 3.0;          // a substep moves nothing further than this many cells
   double frameRate = 24.0;   // frames a second
+  // Liquid that the grid has lost or gained is made up for, everywhere alike (Options without sources, drains
+  // and open sides only).
+  bool keepVolume = false;
   std::vector<LiquidBody> liquid;
   std::vector<Solid> solids;
   std::vector<Source> sources;

@@ -105,9 +105,18 @@ void openGaps(Liquid& liquid, const SolidField& solid, const openvdb::MaskGrid& 
   trimBand(phi, *solid.phi);
 }
 
+// How fast the liquid has to grow (1/s) to make up for what it has lost. The dam break loses up to 0.2 of its
+// volume a second; more than the bar would be seen to swell.
+double expansionOf(const Liquid& liquid, const SolidField& solid) {
+  constexpr double kTime = 0.1, kMost = 0.5;
+  const double volume = liquidVolume(*liquid.phi, solid);
+  return volume > 0.0 ? std::clamp((liquid.due / volume - 1.0) / kTime, -kMost, kMost) : 0.0;
+}
+
 bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& options,
              PressureReport* report) {
   PressureOptions pressure;
+  if (options.keepVolume && liquid.due > 0.0) pressure.expansion = expansionOf(liquid, solid);
   pressure.suction = 0.1 * options.density * options.gravity.length() * voxelSize(liquid);
   auto& [u, v, w] = liquid.velocity.component;
   const Projection projection = project(*u, *v, *w, *liquid.phi, solid, dt, options.density, pressure);
@@ -137,7 +146,8 @@ bool isEmpty(const Liquid& liquid) {
 std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, double nextDt,
                            const Options& options, PressureReport* report, const RunningFlows& flows) {
   const double kick = std::max(0.0, dt - liquid.ahead + 0.5 * nextDt);
-  Liquid next{liquid.phi->deepCopy(), {}, liquid.markers, liquid.steps + 1, liquid.ahead - dt + kick};
+  Liquid next{liquid.phi->deepCopy(),   {},        liquid.markers, liquid.steps + 1,
+              liquid.ahead - dt + kick, liquid.due};
   moveSurface(*next.phi, next.markers, liquid.velocity, *solid.phi, dt,
               static_cast<std::uint64_t>(next.steps), flows);
 

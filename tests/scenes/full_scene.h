@@ -51,6 +51,7 @@ viscosity = 0.5
 gravity = [1, 0, -3]
 [simulation]
 cfl = 1.5
+keep_volume = false
 [[liquid]]
 box = { min = [0, 0.5, 0], max = [1, 1, 0.5] }
 velocity = [1, 2, 3]
