@@ -125,7 +125,8 @@ struct LeafPlan {
   std::vector<CellDistance> moved;  // of those, the ones that get a new value beforehand
 };
 
-LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h) {
+LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h,
+                  bool smooth) {
   float block[kBlock] = {};
   gather(phi, origin, kHalo, block, true);
   float scratch[kLeafSize];
@@ -134,7 +135,7 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
   std::array<bool, kLeafSize> held;
   for (int i = 0; i < kLeafSize; ++i) held[i] = solid[i] < deepest;
   LeafPlan plan{nearCells(block), {}, {}};
-  for (const CellDistance& cell : surfaceDistances(phi, origin, h)) {
+  for (const CellDistance& cell : smooth ? surfaceDistances(phi, origin, h) : std::vector<CellDistance>{}) {
     if (held[cell.offset]) continue;
     held[cell.offset] = true;
     if (std::abs(block[blockIndex(cell.offset)] / h - cell.phi) > kRightEnough) plan.moved.push_back(cell);
@@ -190,7 +191,7 @@ void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, const ReinitOptions
   const auto leaves = leavesOf(phi.tree());
   std::vector<LeafPlan> plans(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    plans[n] = planLeaf(phi.constTree(), solidPhi.constTree(), leaves[n]->origin(), h);
+    plans[n] = planLeaf(phi.constTree(), solidPhi.constTree(), leaves[n]->origin(), h, options.smooth);
   });
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     for (const CellDistance& cell : plans[n].moved) leaves[n]->setValueOnly(cell.offset, h * cell.phi);
