@@ -153,6 +153,20 @@ void dropBeyond(Markers& markers, const SolidField& solid) {
   std::erase_if(markers, [](const MarkerBlock& block) { return block.markers.empty(); });
 }
 
+bool anyInside(const FloatGrid& phi) {
+  const auto leaves = leavesOf(phi.constTree());
+  const auto inside = [](float value) { return value < 0.0f; };
+  if (std::any_of(leaves.begin(), leaves.end(), [&](const FloatLeaf* leaf) {
+        return std::any_of(leaf->buffer().data(), leaf->buffer().data() + kLeafSize, inside);
+      }))
+    return true;
+  auto tile = phi.constTree().cbeginValueAll();
+  tile.setMaxDepth(FloatTree::ValueAllCIter::LEAF_DEPTH - 1);
+  for (; tile; ++tile)
+    if (inside(*tile)) return true;
+  return false;
+}
+
 }  // namespace
 
 int bandWidth(double cfl) {
@@ -160,17 +174,7 @@ int bandWidth(double cfl) {
 }
 
 bool isEmpty(const Liquid& liquid) {
-  const auto leaves = leavesOf(liquid.phi->constTree());
-  const auto inside = [](float value) { return value < 0.0f; };
-  if (std::any_of(leaves.begin(), leaves.end(), [&](const FloatLeaf* leaf) {
-        return std::any_of(leaf->buffer().data(), leaf->buffer().data() + kLeafSize, inside);
-      }))
-    return false;
-  auto tile = liquid.phi->constTree().cbeginValueAll();
-  tile.setMaxDepth(FloatTree::ValueAllCIter::LEAF_DEPTH - 1);
-  for (; tile; ++tile)
-    if (inside(*tile)) return false;
-  return true;
+  return liquid.phi->empty();
 }
 
 std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, double nextDt,
@@ -187,7 +191,7 @@ std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double
   addGravity(next.velocity, options.gravity * kick);
   const SolidField around = withFlows(solid, flows, *next.phi, liquid.velocity, options.gravity, dt);
   if (!project(next, around, dt, options, report)) return std::nullopt;
-  if (isEmpty(next)) {
+  if (!anyInside(*next.phi)) {
     // What is left of the band has no surface that could renew it.
     next.phi->clear();
     next.markers.clear();
