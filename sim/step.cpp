@@ -77,6 +77,8 @@ bool leavesSolid(const Liquid& liquid, const SolidField& solid, const Coord& cel
     beyond[axis] -= out;
     if (out < 0) face[axis] += 1;
     if (solidPhi.constTree().getValue(beyond) >= deep) continue;
+    const bool outside = beyond[axis] < 0 || beyond[axis] >= solid.cells[axis];
+    if (outside && solid.sides[side] != Side::wall) return true;  // what is beyond is of no account
     double speed = liquid.velocity.component[axis]->constTree().getValue(face);
     if (push[axis] != nullptr) speed -= push[axis]->constTree().getValue(face);
     if (out * (speed + kick[axis]) > 0.0) return true;
@@ -133,6 +135,38 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& 
   return std::isfinite(maxAbs(liquid.velocity));
 }
 
+// Markers beyond a side of the domain that is no wall are gone, and hold no film there.
+void dropBeyond(Markers& markers, const SolidField& solid) {
+  for (int side = 0; side < 6; ++side) {
+    if (solid.sides[side] == Side::wall) continue;
+    const int axis = side / 2;
+    for (MarkerBlock& block : markers) {
+      const int first = block.origin[axis];
+      if (first >= 0 && first + kLeafDim < solid.cells[axis]) continue;
+      // Marker positions are measured from the centre of the block's first cell.
+      std::erase_if(block.markers, [&](const Marker& m) {
+        const double at = first + 0.5 + std::array{m.x, m.y, m.z}[axis];
+        return side % 2 == 0 ? at < 0.0 : at > solid.cells[axis];
+      });
+    }
+  }
+  std::erase_if(markers, [](const MarkerBlock& block) { return block.markers.empty(); });
+}
+
+bool anyInside(const FloatGrid& phi) {
+  const auto leaves = leavesOf(phi.constTree());
+  const auto inside = [](float value) { return value < 0.0f; };
+  if (std::any_of(leaves.begin(), leaves.end(), [&](const FloatLeaf* leaf) {
+        return std::any_of(leaf->buffer().data(), leaf->buffer().data() + kLeafSize, inside);
+      }))
+    return true;
+  auto tile = phi.constTree().cbeginValueAll();
+  tile.setMaxDepth(FloatTree::ValueAllCIter::LEAF_DEPTH - 1);
+  for (; tile; ++tile)
+    if (inside(*tile)) return true;
+  return false;
+}
+
 }  // namespace
 
 int bandWidth(double cfl) {
@@ -150,12 +184,18 @@ std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double
               liquid.ahead - dt + kick, liquid.due};
   moveSurface(*next.phi, next.markers, liquid.velocity, *solid.phi, dt,
               static_cast<std::uint64_t>(next.steps), flows);
+  dropBeyond(next.markers, solid);
 
   next.velocity = velocityFor(*next.phi, solid);
   advectVelocity(liquid.velocity, next.velocity, *liquid.phi, *next.phi, dt);
   addGravity(next.velocity, options.gravity * kick);
   const SolidField around = withFlows(solid, flows, *next.phi, liquid.velocity, options.gravity, dt);
   if (!project(next, around, dt, options, report)) return std::nullopt;
+  if (!anyInside(*next.phi)) {
+    // What is left of the band has no surface that could renew it.
+    next.phi->clear();
+    next.markers.clear();
+  }
   return next;
 }
 
