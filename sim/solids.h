@@ -40,6 +40,13 @@ struct SolidField {
   // Velocity of faces where it is given, m/s, active there, else kNotGiven: the pressure has no say there.
   // Null where there are none.
   openvdb::FloatGrid::Ptr givenU, givenV, givenW;
+  // What viscous liquid meets at the solids' surfaces (see sim/walls.h). Slip length in metres at cell centres
+  // within 3 voxels of a surface: 0 where liquid sticks, infinite where it slips freely; null where it does
+  // so everywhere.
+  openvdb::FloatGrid::Ptr slipLength;
+  // Velocity of the surfaces along themselves, on top of that of the solids: u, v, w at faces, m/s; null where
+  // none slides.
+  std::array<openvdb::FloatGrid::Ptr, 3> slide;
 };
 
 // Open share of a square face from the solid's signed distance at its corners, taken linear along the edges
