@@ -13,6 +13,11 @@ void choice(Visitor& visitor, const std::string& key, Enum& value, const std::ve
 
 // Of what ends at a time, or never.
 constexpr Limits kUntil{.low = 0.0, .aboveLow = true, .infinite = true};
+void describeWall(Visitor& visitor, sim::Wall& wall) {
+  choice(visitor, "wall", wall.kind, {"slip", "no_slip", "friction"});
+  visitor.number("slip_length", wall.slipLength, kPositive);
+  visitor.vector("wall_velocity", wall.velocity, kAny);
+}
 
 void describeMotion(Visitor& visitor, sim::Options& sim) {
   visitor.table(
@@ -33,6 +38,10 @@ void describeMotion(Visitor& visitor, sim::Options& sim) {
     visitor.vector("gravity", sim.gravity, kAny);
   });
   visitor.table("simulation", [&] { visitor.number("cfl", sim.cfl, {.low = 0.1, .high = 4.0}); });
+  visitor.list("wall", sim.walls, [&](sim::DomainWall& wall) {
+    choice(visitor, "face", wall.face, kDomainFaces);
+    describeWall(visitor, wall.wall);
+  });
   visitor.list("liquid", sim.liquid, [&](sim::LiquidBody& body) {
     describeShape(visitor, body.shape);
     visitor.vector("velocity", body.velocity, kAny);
@@ -43,6 +52,7 @@ void describeMotion(Visitor& visitor, sim::Options& sim) {
     describeShape(visitor, solid.shape);
     visitor.number("from", solid.from, kNotNegative);
     visitor.number("until", solid.until, kUntil);
+    describeWall(visitor, solid.wall);
     visitor.flag("visible", solid.visible);
     visitor.vector("color", solid.color, kShare);
     visitor.vector("pivot", solid.pivot, kAny);

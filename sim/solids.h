@@ -71,7 +71,7 @@ class Solids {
   // Signed distance at world position x to the active solids and the domain's walls, metres, negative inside.
   double distance(const Vec3d& x, double t) const;
 
-  // Distances, open faces and speeds at time t; kept, and made anew only when the set has changed or a solid
+  // Distances, open faces and speeds and walls at time t; kept, and made anew only when the set has changed or a solid
   // has moved since the last call.
   std::shared_ptr<const SolidField> at(double t) { return at(t, active(t)); }
   // The same of a given set of solids, at their places of time t.
@@ -89,9 +89,11 @@ class Solids {
   // To the sides of the domain; `all`: those that are no walls too.
   double sideDistance(const Vec3d& x, bool all) const;
   double distanceTo(const std::vector<Placed>& solids, const Vec3d& x, bool all) const;
+  const Wall& nearestWall(const std::vector<Placed>& solids, const Vec3d& x) const;
   void addSpeeds(SolidField& field, const std::vector<Placed>& solids) const;
 
   Options m_options;
+  std::array<Wall, 6> m_walls;  // of the domain
   std::vector<ShapeDistance> m_shapes;  // one for each of Options::solids
   std::vector<Placed> m_cachedSet;
   std::shared_ptr<const SolidField> m_cached;

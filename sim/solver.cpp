@@ -83,14 +83,19 @@ constexpr double kShortest = 1e-5;
   throw SolverError(message.str());
 }
 
-[[noreturn]] void fail(double time, double dt, const PressureReport& report) {
+[[noreturn]] void fail(double time, double dt, const StepReport& report) {
   std::ostringstream message;
   message << "the simulation cannot go on at time " << time << " s: ";
-  if (report.converged) {
-    message << "a velocity is not finite";
+  const auto blame = [&](const char* solve, double residual, int iterations) {
+    message << "the " << solve << " solve did not converge (relative residual " << residual << " after "
+            << iterations << " iterations)";
+  };
+  if (!report.viscosity.converged) {
+    blame("viscosity", report.viscosity.residual, report.viscosity.iterations);
+  } else if (!report.pressure.converged) {
+    blame("pressure", report.pressure.residual, report.pressure.iterations);
   } else {
-    message << "the pressure solve did not converge (relative residual " << report.residual << " after "
-            << report.iterations << " iterations)";
+    message << "a velocity is not finite";
   }
   message << ", even with a step of " << dt << " s; a smaller cfl or a finer resolution may help";
   throw SolverError(message.str());
@@ -156,7 +161,7 @@ void Solver::applyEvents() {
   // Up to the middle of the first step.
   const double first = longestStep(m_options, maxAbs(liquid.velocity), speedOf(*solid));
   const double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
-  PressureReport report;
+  StepReport report;
   if (!settle(liquid, *solid, kick, m_options, &report, flows)) fail(now, 1.0 / m_options.frameRate, report);
   store(m_state, std::move(liquid), m_options.voxelSize());
 }
@@ -180,7 +185,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     bool last = dt > (1.0 - kSameTime) * remaining;
     std::shared_ptr<const SolidField> solid;
 
-    PressureReport pressure;
+    StepReport solves;
     std::optional<Liquid> next;
     for (int halving = 0;; ++halving) {
       const double then = last ? time : m_state.time + dt;
@@ -189,9 +194,9 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       const double after = last ? 1.0 / m_options.frameRate : remaining - dt;
       const double nextLongest =
           longestStep(m_options, speed + m_options.gravity.length() * dt, speedOf(*solid));
-      next = step(liquid, *solid, dt, evenPart(after, nextLongest), m_options, &pressure, m_flows->at(then));
+      next = step(liquid, *solid, dt, evenPart(after, nextLongest), m_options, &solves, m_flows->at(then));
       if (next) break;
-      if (halving == kMaxHalvings) fail(m_state.time, dt, pressure);
+      if (halving == kMaxHalvings) fail(m_state.time, dt, solves);
       dt *= 0.5;
       last = false;
     }
@@ -199,8 +204,9 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     frame.substeps.push_back({dt, u, v, w});
     FrameStats& stats = frame.stats;
     stats.dtMin = stats.dtMin > 0.0 ? std::min(stats.dtMin, dt) : dt;
-    stats.pressureIterations += pressure.iterations;
-    stats.pressureResidual = std::max(stats.pressureResidual, pressure.residual);
+    stats.pressureIterations += solves.pressure.iterations;
+    stats.pressureResidual = std::max(stats.pressureResidual, solves.pressure.residual);
+    stats.viscosityIterations += solves.viscosity.iterations;
     store(m_state, std::move(*next), m_options.voxelSize());
     m_state.time = last ? time : m_state.time + dt;
     m_solid = solid;

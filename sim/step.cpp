@@ -5,6 +5,7 @@
 #include "sim/leaf_table.h"
 #include "sim/level_set.h"
 #include "sim/move_surface.h"
+#include "sim/walls.h"
 
 #include <openvdb/tools/Morphology.h>
 
@@ -105,13 +106,14 @@ void openGaps(Liquid& liquid, const SolidField& solid, const openvdb::MaskGrid& 
   trimBand(phi, *solid.phi);
 }
 
-bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& options,
-             PressureReport* report) {
+// viscous: whether friction is felt, so that liquid can stick to walls.
+bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& options, bool viscous,
+             StepReport* report) {
   PressureOptions pressure;
   pressure.suction = 0.1 * options.density * options.gravity.length() * voxelSize(liquid);
   auto& [u, v, w] = liquid.velocity.component;
   const Projection projection = project(*u, *v, *w, *liquid.phi, solid, dt, options.density, pressure);
-  if (report != nullptr) *report = projection.report;
+  if (report != nullptr) report->pressure = projection.report;
   if (!projection.report.converged) return false;
   // The projection may have added faces to one component: all three have one topology again.
   u->topologyUnion(*v);
@@ -120,6 +122,7 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& 
   w->topologyUnion(*u);
   extrapolate(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
   constrainToSolids(*u, *v, *w, *liquid.phi, solid, projection.valid, *projection.separating);
+  if (viscous) stickToWalls(liquid.velocity, solid, projection.valid);
   openGaps(liquid, solid, *projection.separating, options.gravity * dt);
   return std::isfinite(maxAbs(liquid.velocity));
 }
@@ -135,7 +138,7 @@ bool isEmpty(const Liquid& liquid) {
 }
 
 std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, double nextDt,
-                           const Options& options, PressureReport* report, const RunningFlows& flows) {
+                           const Options& options, StepReport* report, const RunningFlows& flows) {
   const double kick = std::max(0.0, dt - liquid.ahead + 0.5 * nextDt);
   Liquid next{liquid.phi->deepCopy(), {}, liquid.markers, liquid.steps + 1, liquid.ahead - dt + kick};
   moveSurface(*next.phi, next.markers, liquid.velocity, *solid.phi, dt,
@@ -145,7 +148,11 @@ std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double
   advectVelocity(liquid.velocity, next.velocity, *liquid.phi, *next.phi, dt);
   addGravity(next.velocity, options.gravity * kick);
   const SolidField around = withFlows(solid, flows, *next.phi, liquid.velocity, options.gravity, dt);
-  if (!project(next, around, dt, options, report)) return std::nullopt;
+  const ViscosityReport viscosity =
+      applyViscosity(next.velocity, *next.phi, around, kick, options.density, {.constant = options.viscosity});
+  if (report != nullptr) *report = {.pressure = {.converged = true}, .viscosity = viscosity};
+  if (!viscosity.converged) return std::nullopt;
+  if (!project(next, around, dt, options, !viscosity.skipped, report)) return std::nullopt;
   return next;
 }
 
@@ -186,7 +193,7 @@ void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& af
 }
 
 bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options,
-            PressureReport* report, const RunningFlows& flows) {
+            StepReport* report, const RunningFlows& flows) {
   FloatGrid& phi = *liquid.phi;
   applyFlows(phi, liquid.markers, flows);
   for (const Coord& origin : wetLeaves(phi, solid.cells, kMargin)) phi.tree().touchLeaf(origin);
@@ -220,7 +227,14 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   addGravity(liquid.velocity, options.gravity * kick);
   liquid.ahead += kick;
   const SolidField around = withFlows(solid, flows, phi, before, options.gravity, 0.0);
-  return project(liquid, around, 1.0 / options.frameRate, options, report);
+  // Friction acts as long as gravity does.
+  const ViscosityReport viscosity = applyViscosity(liquid.velocity, phi, around, kick, options.density,
+                                                   {.constant = options.viscosity});
+  if (report != nullptr) report->viscosity = viscosity;
+  if (!viscosity.converged) return false;
+  const double dt = 1.0 / options.frameRate;
+  const bool viscous = !isNegligible(options.viscosity, dt, options.density, voxelSize(liquid));
+  return project(liquid, around, dt, options, viscous, report);
 }
 
 }  // namespace fluidtex::sim

@@ -64,6 +64,10 @@ double largestViscosity(const ViscosityField& viscosity) {
 
 }  // namespace
 
+bool isNegligible(double viscosity, double dt, double density, double h, const ViscosityOptions& options) {
+  return viscosity * dt < options.negligible * density * h * h;
+}
+
 ViscosityReport solveViscous(const ViscousSystem& system, std::vector<double>& x,
                              const ViscosityOptions& options) {
   const std::int32_t n = system.unknowns;
@@ -131,7 +135,7 @@ ViscosityReport applyViscosity(Velocity& velocity, const FloatGrid& phi, const S
                                const ViscosityOptions& options) {
   const double h = solid.voxelSize;
   ViscosityReport report;
-  report.skipped = largestViscosity(viscosity) * dt < options.negligible * density * h * h;
+  report.skipped = isNegligible(largestViscosity(viscosity), dt, density, h, options);
   if (report.skipped) return report;
   std::vector<double> x;
   const ViscousSystem system = viscousSystem(velocity, phi, solid, dt, density, viscosity, x);

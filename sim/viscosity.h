@@ -17,6 +17,9 @@ struct ViscosityOptions {
   double negligible = 1e-4;
 };
 
+// Whether a viscosity (Pa s) is one that ViscosityOptions::negligible speaks of.
+bool isNegligible(double viscosity, double dt, double density, double h, const ViscosityOptions& options = {});
+
 struct ViscosityReport {
   bool converged = true;
   bool skipped = false;    // it was negligible; nothing was touched

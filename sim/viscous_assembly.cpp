@@ -69,6 +69,8 @@ constexpr float kNearLiquid = 2.0f;
 constexpr float kSquare = 0.9f;
 // Distances to walls count as at least this share of a cell.
 constexpr float kMinReach = 0.05f;
+// Faces this close to a wall, in cells, lie on it.
+constexpr float kOnWall = 1e-4f;
 // Faces and strains with less volume than this share of a cell: the former count as this much, so that each
 // unknown is held by something; the latter are left out.
 constexpr double kMinMass = 0.01, kMinVolume = 1e-4;
@@ -89,7 +91,20 @@ struct Walls {
     return solid.slipLength->constTree().getValue(deeper) / h;
   }
 
+  // Whether a face in the open has a velocity of its own (a source, a stream's end).
+  bool given(const Coord& face, int axis) const {
+    const FloatGrid::Ptr fixed[3] = {solid.givenU, solid.givenV, solid.givenW};
+    return fixed[axis] && fixed[axis]->constTree().isValueOn(face);
+  }
+
+  bool open(const Coord& face, int axis) const {
+    const FloatGrid::Ptr share[3] = {solid.openU, solid.openV, solid.openW};
+    return share[axis]->constTree().getValue(face) > 0.5f;
+  }
+
   double speed(const Coord& face, int axis) const {
+    const FloatGrid::Ptr fixed[3] = {solid.givenU, solid.givenV, solid.givenW};
+    if (given(face, axis)) return fixed[axis]->constTree().getValue(face);
     const FloatGrid::Ptr moving[3] = {solid.speedU, solid.speedV, solid.speedW};
     double value = moving[axis] ? moving[axis]->constTree().getValue(face) : 0.0f;
     if (solid.slide[axis]) value += solid.slide[axis]->constTree().getValue(face);
@@ -104,7 +119,7 @@ struct FaceFields {
 
 FaceFields classify(const LeafTable& table, const FloatGrid& phi, const SolidField& solid) {
   FaceFields fields;
-  const float h = static_cast<float>(solid.voxelSize), onWall = 1e-4f * h;
+  const float h = static_cast<float>(solid.voxelSize), onWall = kOnWall * h;
   const Walls walls{solid, h};
   for (int c = 0; c < 3; ++c) {
     fields.state[c].assign(table.voxels(), kNone);
@@ -119,9 +134,14 @@ FaceFields classify(const LeafTable& table, const FloatGrid& phi, const SolidFie
         const std::size_t v = n * kLeafSize + i;
         const float nearest = std::min(liquid.cell(at), liquid.cell(below));
         if (nearest > kNearLiquid * h) continue;
-        if (wall.face(at, c) <= onWall) {
-          const Coord face = origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7);
-          const bool square = std::abs(wall.cell(at) - wall.cell(below)) >= kSquare * h;
+        const Coord face = origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7);
+        if (walls.given(face, c)) {
+          fields.state[c][v] = kGiven;
+          continue;
+        }
+        const bool square = std::abs(wall.cell(at) - wall.cell(below)) >= kSquare * h;
+        // A face in the plane of a wall that lets liquid through is the end of the domain.
+        if (wall.face(at, c) <= onWall && !(square && walls.open(face, c))) {
           if (square || std::isfinite(walls.slip(face, c))) fields.state[c][v] = kGiven;
           continue;
         }
@@ -232,6 +252,7 @@ class Sampler {
     if (firstGiven == secondGiven) return 1.0f;
     const int givenAt = firstGiven ? firstAt : secondAt, unknownAt = firstGiven ? secondAt : firstAt;
     const float h = static_cast<float>(m_solid.voxelSize);
+    if (wall.face(givenAt, axis) > kOnWall * h) return 1.0f;  // given in the open
     float slip = 0.0f;
     if (std::abs(wall.cell(givenAt) - wall.cell(givenAt - kStride[axis])) < kSquare * h)
       slip = Walls{m_solid, h}.slip(m_system.coord[firstGiven ? first : second], axis);

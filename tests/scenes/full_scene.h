@@ -51,6 +51,13 @@ viscosity = 0.5
 gravity = [1, 0, -3]
 [simulation]
 cfl = 1.5
+[[wall]]
+wall = "no_slip"
+wall_velocity = [0, 1, 2]
+[[wall]]
+face = "x_high"
+wall = "friction"
+slip_length = 0.5
 [[liquid]]
 box = { min = [0, 0.5, 0], max = [1, 1, 0.5] }
 velocity = [1, 2, 3]
@@ -62,6 +69,9 @@ name = "gate"
 mesh = { file = "m.obj" }
 from = 0.5
 until = 0.75
+wall = "friction"
+slip_length = 0.25
+wall_velocity = [1, 0, 0]
 visible = false
 color = [1, 0.25, 0]
 [[solid]]

@@ -68,6 +68,10 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(sim.viscosity == 0.5);
   CHECK(sim.gravity == sim::Vec3d(1, 0, -3));
   CHECK(sim.cfl == 1.5);
+  CHECK(sim.wallOf(0).kind == sim::WallKind::noSlip);
+  CHECK(sim.wallOf(0).velocity == sim::Vec3d(0, 1, 2));
+  CHECK(sim.wallOf(1).kind == sim::WallKind::friction);
+  CHECK(sim.wallOf(1).slipLength == 0.5);
   REQUIRE(sim.liquid.size() == 2);
   CHECK(std::get<sim::Box>(sim.liquid[0].shape.kind).min == sim::Vec3d(0, 0.5, 0));
   CHECK(std::get<sim::Box>(sim.liquid[0].shape.kind).max == sim::Vec3d(1, 1, 0.5));
@@ -87,6 +91,9 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(sim.solids[0].name == "gate");
   CHECK(sim.solids[0].from == 0.5);
   CHECK(sim.solids[0].until == 0.75);
+  CHECK(sim.solids[0].wall.kind == sim::WallKind::friction);
+  CHECK(sim.solids[0].wall.slipLength == 0.25);
+  CHECK(sim.solids[0].wall.velocity == sim::Vec3d(1, 0, 0));
   CHECK_FALSE(sim.solids[0].visible);
   CHECK(sim.solids[0].color == sim::Vec3d(1, 0.25, 0));
   CHECK(sim.solids[1].until == sim::kForever);
@@ -169,7 +176,7 @@ TEST_CASE("scene: the resolved scene has every key, given or not", "[scenes]") {
   const std::string ball = "sphere = { center = [1, 1, 1], radius = 0.5 }\n";
   const std::string oneEach =
       "[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 } ]\n[[source]]\n" + ball +
-      "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + ball;
+      "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + ball + "[[wall]]\n";
   std::set<std::string> whole, defaults;
   collectKeys(Json::parse(sceneOf(kFullScene).resolved), "", whole);
   collectKeys(Json::parse(sceneOf(kGoodScene + oneEach).resolved), "", defaults);
