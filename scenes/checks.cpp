@@ -124,6 +124,8 @@ void checkFlows(const Scene& scene, Reader& reader) {
     checkPlace(scene.sim.drains[i].shape, path);
     checkTimes(scene.sim.drains[i].from, scene.sim.drains[i].until, path, reader);
   }
+}
+
 void checkWall(const sim::Wall& wall, const std::string& path, Reader& reader) {
   if (!reader.clean(path + ".wall")) return;
   if (wall.kind != sim::WallKind::friction && reader.given(path + ".slip_length"))

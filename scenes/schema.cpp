@@ -37,6 +37,22 @@ void describeMotion(Visitor& visitor, sim::Options& sim) {
     visitor.number("viscosity", sim.viscosity, kNotNegative);
     visitor.vector("gravity", sim.gravity, kAny);
   });
+  visitor.table("heat", [&] {
+    sim::HeatOptions& heat = sim.heat;
+    visitor.flag("simulate", heat.simulated);
+    visitor.number("capacity", heat.capacity, kPositive);
+    visitor.number("conductivity", heat.conductivity, kNotNegative);
+    visitor.number("emissivity", heat.emissivity, kShare);
+    visitor.number("ambient", heat.ambient, kNotNegative);
+    visitor.number("wall_transfer", heat.wallTransfer, kNotNegative);
+    visitor.number("wall_temperature", heat.wallTemperature, kNotNegative);
+    choice(visitor, "law", heat.law.kind, {"constant", "exponential", "arrhenius"});
+    visitor.number("reference", heat.law.reference, kPositive);
+    visitor.number("slope", heat.law.slope, kNotNegative);
+    visitor.number("activation_energy", heat.law.activationEnergy, kNotNegative);
+    visitor.number("solidus", heat.law.solidus, kNotNegative);
+    visitor.number("solid_viscosity", heat.law.solidViscosity, kPositive);
+  });
   visitor.table("simulation", [&] { visitor.number("cfl", sim.cfl, {.low = 0.1, .high = 4.0}); });
   visitor.list("wall", sim.walls, [&](sim::DomainWall& wall) {
     choice(visitor, "face", wall.face, kDomainFaces);
@@ -46,6 +62,7 @@ void describeMotion(Visitor& visitor, sim::Options& sim) {
     describeShape(visitor, body.shape);
     visitor.vector("velocity", body.velocity, kAny);
     visitor.number("from", body.from, kNotNegative);
+    visitor.number("temperature", body.temperature, kPositive);
   });
   visitor.list("solid", sim.solids, [&](sim::Solid& solid) {
     visitor.text("name", solid.name);

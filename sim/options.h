@@ -76,6 +76,7 @@ struct LiquidBody {
   Shape shape;
   Vec3d velocity{0.0};  // m/s
   double from = 0.0;
+  double temperature = 293.15;  // K
 };
 
 enum class WallKind { slip, noSlip, friction };
@@ -96,6 +97,28 @@ enum class DomainFace { all, xLow, xHigh, yLow, yHigh, zLow, zHigh };
 struct DomainWall {
   DomainFace face = DomainFace::all;
   Wall wall;
+};
+
+// How viscosity depends on temperature (K). Options::viscosity is that at `reference`.
+struct ViscosityLaw {
+  enum class Kind { constant, exponential, arrhenius };
+  Kind kind = Kind::constant;
+  double reference = 1400.0;           // K
+  double slope = 0.04;                 // 1/K, exponential: viscosity exp(-slope (T - reference))
+  double activationEnergy = 200000.0;  // J/mol, Arrhenius: viscosity exp(E / R (1/T - 1/reference))
+  double solidus = 0.0;                // K, solid below
+  double solidViscosity = 1e6;         // Pa s, of the solid; the law never exceeds it
+};
+
+struct HeatOptions {
+  bool simulated = false;
+  double capacity = 1200.0;         // J/(kg K)
+  double conductivity = 1.5;        // W/(m K)
+  double emissivity = 0.0;          // 0 to 1, of the surface
+  double ambient = 293.15;          // K, around it
+  double wallTransfer = 0.0;        // W/(m2 K), to walls
+  double wallTemperature = 293.15;  // K
+  ViscosityLaw law;
 };
 
 // Where a moving solid is at a time: moved by `move` (metres) and turned by `turn` degrees about its axis.
@@ -151,6 +174,7 @@ struct Options {
   Vec3d gravity{0.0, 0.0, -9.81};
   double density = 1000.0;   // kg/m3
   double viscosity = 0.001;  // Pa s
+  HeatOptions heat;
   std::vector<DomainWall> walls;  // what differs from a wall that slips; of several for one face, the last
   double cfl = 3.0;          // a substep moves nothing further than this many cells
   double frameRate = 24.0;   // frames a second

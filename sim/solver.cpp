@@ -1,6 +1,7 @@
 #include "sim/solver.h"
 
 #include "sim/advect_velocity.h"
+#include "sim/heat.h"
 #include "sim/flows.h"
 #include "sim/level_set.h"
 #include "sim/mac_grid.h"
@@ -23,7 +24,8 @@ constexpr int kMaxHalvings = 6;
 constexpr double kSameTime = 1e-6;
 
 Liquid liquidOf(const State& state) {
-  return {state.phi, {{state.u, state.v, state.w}}, state.markers, state.steps, state.ahead};
+  return {state.phi, {{state.u, state.v, state.w}}, state.markers, state.steps,
+          state.ahead, state.temperature};
 }
 
 // Copying a grid, or writing and reading it, can change the last bits of its transform, and with them all
@@ -33,6 +35,7 @@ void setTransforms(State& state, double h) {
   state.u->setTransform(faceTransform(h, 0));
   state.v->setTransform(faceTransform(h, 1));
   state.w->setTransform(faceTransform(h, 2));
+  if (state.temperature) state.temperature->setTransform(cellTransform(h));
 }
 
 void store(State& state, Liquid liquid, double h) {
@@ -40,6 +43,7 @@ void store(State& state, Liquid liquid, double h) {
   state.markers = std::move(liquid.markers);
   state.steps = liquid.steps;
   state.ahead = liquid.ahead;
+  state.temperature = liquid.temperature;
   state.u = liquid.velocity.component[0];
   state.v = liquid.velocity.component[1];
   state.w = liquid.velocity.component[2];
@@ -90,7 +94,9 @@ constexpr double kShortest = 1e-5;
     message << "the " << solve << " solve did not converge (relative residual " << residual << " after "
             << iterations << " iterations)";
   };
-  if (!report.viscosity.converged) {
+  if (!report.heatConverged) {
+    message << "the solve for the temperature did not converge";
+  } else if (!report.viscosity.converged) {
     blame("viscosity", report.viscosity.residual, report.viscosity.iterations);
   } else if (!report.pressure.converged) {
     blame("pressure", report.pressure.residual, report.pressure.iterations);
@@ -107,6 +113,7 @@ Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_
   const double h = options.voxelSize();
   m_state.poured.assign(options.liquid.size(), false);
   store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0, 0.0}, h);
+  if (options.heat.simulated) m_state.temperature = makeTemperature(h, options.heat.ambient);
   prepare();
 }
 
@@ -119,6 +126,9 @@ Solver::Solver(const Options& options, State state)
     throw SolverError(message.str());
   }
   setTransforms(m_state, asked);
+  if (options.heat.simulated && !m_state.temperature)
+    throw SolverError("the state was made without heat, the scene asks for it");
+  if (!options.heat.simulated) m_state.temperature = nullptr;
   m_state.poured.resize(options.liquid.size(), false);
   prepare();
 }
@@ -137,7 +147,8 @@ void Solver::applyEvents() {
   const auto solid = m_solids->at(now);
   bool changed = m_state.frame == 0;
   Liquid liquid{
-      m_state.phi->deepCopy(), {{m_state.u, m_state.v, m_state.w}}, {}, m_state.steps, m_state.ahead};
+      m_state.phi->deepCopy(), {{m_state.u, m_state.v, m_state.w}}, {}, m_state.steps, m_state.ahead,
+      m_state.temperature};
   if (const auto active = m_solids->active(now); active != m_active) {
     changeSolids(liquid, *m_solid, *solid);
     m_active = active;
@@ -153,7 +164,7 @@ void Solver::applyEvents() {
     if (m_state.poured[n] || body.from > now) continue;
     const ShapeDistance distance(body.shape, m_options.voxelSize(), m_options.size);
     pour(
-        liquid, [&](const Vec3d& x) { return distance(x); }, body.velocity, *solid);
+        liquid, [&](const Vec3d& x) { return distance(x); }, body.velocity, body.temperature, *solid);
     m_state.poured[n] = true;
     changed = true;
   }
@@ -245,6 +256,7 @@ Frame Solver::next(const std::function<void(double)>& progress) {
   m_state.frame = frame.index;
   frame.surfacePhi = visibleSurface(*m_state.phi, *m_solid, kSurfaceBand);
   frame.solidPhi = m_solid->phi;
+  if (m_state.temperature) frame.fields["temperature"] = m_state.temperature;
   frame.stats.cells = liquidCells(*m_state.phi, *m_solid);
   frame.stats.volume = liquidVolume(*m_state.phi, *m_solid);
   if (progress) progress(1.0);

@@ -2,6 +2,7 @@
 
 #include "sim/advect_velocity.h"
 #include "sim/extrapolate.h"
+#include "sim/heat.h"
 #include "sim/leaf_table.h"
 #include "sim/level_set.h"
 #include "sim/move_surface.h"
@@ -19,6 +20,9 @@ namespace {
 
 // Layers of voxels outside the domain in which phi and velocity may have leaves.
 constexpr int kMargin = kLeafDim;
+
+// Cells beyond the liquid that get its temperature: what is newly wet in a step lies within.
+constexpr int kTemperatureLayers = 6;
 
 double voxelSize(const Liquid& liquid) {
   return liquid.phi->voxelSize()[0];
@@ -106,6 +110,32 @@ void openGaps(Liquid& liquid, const SolidField& solid, const openvdb::MaskGrid& 
   trimBand(phi, *solid.phi);
 }
 
+// Liquid that comes out of sources has their temperature.
+void setSourceTemperature(FloatGrid& temperature, const RunningFlows& flows) {
+  for (const auto& [source, factor] : flows.sources) {
+    for (FloatLeaf* leaf : leavesOf(temperature.tree())) {
+      float scratch[kLeafSize];
+      const float* phi = leafValues(source->phi->constTree(), leaf->origin(), scratch);
+      for (int i = 0; i < kLeafSize; ++i) {
+        if (phi[i] < 0.0f) leaf->setValueOnly(i, static_cast<float>(source->temperature));
+      }
+    }
+  }
+}
+
+// Carries the temperature over into `next`, whose surface and leaves are known, and conducts it. False where
+// that fails.
+bool moveHeat(const Liquid& liquid, Liquid& next, const SolidField& solid, const RunningFlows& flows, double dt,
+              const Options& options) {
+  next.temperature = advectTemperature(*liquid.temperature, liquid.velocity,
+                                       next.velocity.component[0]->constTree(), *next.phi, dt);
+  setSourceTemperature(*next.temperature, flows);
+  const bool done =
+      conductHeat(*next.temperature, *next.phi, solid, dt, options.density, options.heat);
+  extendTemperature(*next.temperature, *next.phi, *solid.phi, kTemperatureLayers);
+  return done;
+}
+
 // viscous: whether friction is felt, so that liquid can stick to walls.
 bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& options, bool viscous,
              StepReport* report) {
@@ -148,19 +178,33 @@ std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double
   advectVelocity(liquid.velocity, next.velocity, *liquid.phi, *next.phi, dt);
   addGravity(next.velocity, options.gravity * kick);
   const SolidField around = withFlows(solid, flows, *next.phi, liquid.velocity, options.gravity, dt);
-  const ViscosityReport viscosity =
-      applyViscosity(next.velocity, *next.phi, around, kick, options.density, {.constant = options.viscosity});
-  if (report != nullptr) *report = {.pressure = {.converged = true}, .viscosity = viscosity};
-  if (!viscosity.converged) return std::nullopt;
-  if (!project(next, around, dt, options, !viscosity.skipped, report)) return std::nullopt;
+  StepReport solves;
+  solves.pressure.converged = true;
+  FloatGrid::Ptr viscosity;
+  if (liquid.temperature) {
+    solves.heatConverged = moveHeat(liquid, next, around, flows, dt, options);
+    viscosity = viscosityOf(*next.temperature, options.heat.law, options.viscosity);
+  }
+  if (solves.heatConverged) {
+    solves.viscosity = applyViscosity(next.velocity, *next.phi, around, kick, options.density,
+                                      {.constant = options.viscosity, .variable = viscosity.get()});
+  }
+  if (report != nullptr) *report = solves;
+  if (!solves.heatConverged || !solves.viscosity.converged) return std::nullopt;
+  if (!project(next, around, dt, options, !solves.viscosity.skipped, report)) return std::nullopt;
   return next;
 }
 
 void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, const Vec3d& velocity,
-          const SolidField& solid) {
+          double temperature, const SolidField& solid) {
   unite(*liquid.phi, distance, solid.cells, kMargin);
   const Velocity before = liquid.velocity;
   liquid.velocity = velocityFor(*liquid.phi, solid);
+  if (liquid.temperature) {
+    liquid.temperature =
+        makeTemperature(*liquid.temperature, liquid.velocity.component[0]->constTree());
+    heatBody(*liquid.temperature, distance, temperature);
+  }
   const double h = voxelSize(liquid);
   for (int a = 0; a < 3; ++a) {
     FloatGrid& grid = *liquid.velocity.component[a];
@@ -227,13 +271,22 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   addGravity(liquid.velocity, options.gravity * kick);
   liquid.ahead += kick;
   const SolidField around = withFlows(solid, flows, phi, before, options.gravity, 0.0);
+  if (liquid.temperature) {
+    liquid.temperature = makeTemperature(*liquid.temperature, liquid.velocity.component[0]->constTree());
+    setSourceTemperature(*liquid.temperature, flows);
+    extendTemperature(*liquid.temperature, phi, *solid.phi, kTemperatureLayers);
+  }
   // Friction acts as long as gravity does.
-  const ViscosityReport viscosity = applyViscosity(liquid.velocity, phi, around, kick, options.density,
-                                                   {.constant = options.viscosity});
-  if (report != nullptr) report->viscosity = viscosity;
-  if (!viscosity.converged) return false;
+  const FloatGrid::Ptr viscosity =
+      liquid.temperature ? viscosityOf(*liquid.temperature, options.heat.law, options.viscosity) : nullptr;
+  const ViscosityReport friction =
+      applyViscosity(liquid.velocity, phi, around, kick, options.density,
+                     {.constant = options.viscosity, .variable = viscosity.get()});
+  if (report != nullptr) report->viscosity = friction;
+  if (!friction.converged) return false;
   const double dt = 1.0 / options.frameRate;
-  const bool viscous = !isNegligible(options.viscosity, dt, options.density, voxelSize(liquid));
+  const bool viscous = liquid.temperature != nullptr ||
+                       !isNegligible(options.viscosity, dt, options.density, voxelSize(liquid));
   return project(liquid, around, dt, options, viscous, report);
 }
 

@@ -22,6 +22,8 @@ struct Liquid {
   Markers markers;
   std::int64_t steps = 0;  // taken so far: the seed of the markers to come
   double ahead = 0.0;      // s: the velocity is that of so much later than phi
+  // K at cell centres of the velocity's leaves, extended into air and solids; null where heat is not simulated.
+  FloatGrid::Ptr temperature = nullptr;
 };
 
 // Half the width of phi's band in voxels, for steps of at most `cfl` cells.
@@ -33,6 +35,7 @@ bool isEmpty(const Liquid& liquid);
 struct StepReport {
   PressureReport pressure;
   ViscosityReport viscosity;
+  bool heatConverged = true;
 };
 
 // The liquid dt seconds later; `solid` and `flows` are those of that time. The velocity moves phi, so it
@@ -43,9 +46,9 @@ std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double
                            const Options& options, StepReport* report = nullptr,
                            const RunningFlows& flows = {});
 
-// Adds liquid where distance(x) < 0, of that velocity. The velocity of the whole is projected by settle().
+// Adds liquid where distance(x) < 0, of that velocity and temperature. The velocity of the whole is projected by settle().
 void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, const Vec3d& velocity,
-          const SolidField& solid);
+          double temperature, const SolidField& solid);
 
 // Empties the places that solids leave when `before` turns into `after`.
 void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& after);
