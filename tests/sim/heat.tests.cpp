@@ -65,7 +65,10 @@ TEST_CASE("advectTemperature: an even temperature stays, another one moves with 
   Pool even(16, 0.5, [](const Vec3d&) { return 1234.5; });
   const Velocity turn = velocityField(even.h, even.phi->tree(), flow);
   const auto kept = advectTemperature(*even.temperature, turn, even.phi->tree(), *even.phi, dt);
-  for (auto it = kept->cbeginValueOn(); it; ++it) REQUIRE(*it == 1234.5f);
+  for (auto it = kept->cbeginValueOn(); it; ++it) {
+    const Coord c = it.getCoord();  // in the domain: what comes from beyond the leaves is not known
+    if (std::min({c[0], c[1], c[2]}) >= 0 && std::max({c[0], c[1], c[2]}) < 16) REQUIRE(*it == 1234.5f);
+  }
 
   std::vector<double> errors;
   for (const int n : {16, 32, 64}) {
