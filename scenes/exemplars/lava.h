@@ -8,7 +8,7 @@ namespace fluidtex::exemplars {
 
 struct Lava {
   int size = 256;   // pixels, width and height
-  int plates = 9;   // plates across
+  int plates = 13;  // plates across
   int samples = 3;  // a pixel's side, for anti-aliasing
   std::uint64_t seed = 11;
 };

@@ -101,7 +101,9 @@ TEST_CASE("advectTemperature: an even temperature stays, another one moves with 
 TEST_CASE("conductHeat: a cosine fades at the rate of its wave length", "[sim]") {
   const auto wave = [](const Vec3d& x) { return 1000.0 + 100.0 * std::cos(2.0 * M_PI * x[0]); };
   Pool pool(32, 2.0, wave);
-  HeatOptions heat{.capacity = 1000.0, .conductivity = 2e4};
+  HeatOptions heat;
+  heat.capacity = 1000.0;
+  heat.conductivity = 2e4;
   const double time = 1.0, diffusivity = heat.conductivity / (kDensity * heat.capacity);
   for (int n = 0; n < 20; ++n)
     REQUIRE(conductHeat(*pool.temperature, *pool.phi, pool.solid, time / 20, kDensity, heat));
@@ -113,7 +115,11 @@ TEST_CASE("conductHeat: a cosine fades at the rate of its wave length", "[sim]")
 TEST_CASE("conductHeat: a well-stirred pool radiates as Stefan and Boltzmann say", "[sim]") {
   constexpr double kLevel = 0.5, kSigma = 5.670374419e-8;
   // d(T^-3)/dt = 3 sigma / (depth density capacity), without surroundings and with a temperature even in depth.
-  HeatOptions heat{.capacity = 1000.0, .conductivity = 1e9, .emissivity = 0.9, .ambient = 0.0};
+  HeatOptions heat;
+  heat.capacity = 1000.0;
+  heat.conductivity = 1e9;
+  heat.emissivity = 0.9;
+  heat.ambient = 0.0;
   Pool pool(16, kLevel, [](const Vec3d&) { return 1500.0; });
   const double time = 4e5;
   constexpr int kSteps = 200;
@@ -134,7 +140,8 @@ TEST_CASE("solver: temperature rides on the liquid, and comes back from a file b
   Options options;
   options.resolution = 16;
   options.viscosity = 50.0;
-  options.heat = {.simulated = true, .emissivity = 0.9};
+  options.heat.simulated = true;
+  options.heat.emissivity = 0.9;
   options.heat.law = {.kind = ViscosityLaw::Kind::exponential, .reference = 1400.0, .slope = 0.01};
   options.liquid.push_back({.shape = {Box{{0.0, 0.0, 0.0}, {0.5, 1.0, 0.5}}}, .temperature = 1400.0});
   options.liquid.push_back({.shape = {Box{{0.5, 0.0, 0.0}, {1.0, 1.0, 0.3}}}, .temperature = 1100.0});
