@@ -135,6 +135,19 @@ void checkWall(const sim::Wall& wall, const std::string& path, Reader& reader) {
                  "give it together with wall = \"no_slip\" or \"friction\"");
 }
 
+void checkVolume(const Scene& scene, Reader& reader) {
+  const auto& sides = scene.sim.sides;
+  const bool closed =
+      scene.sim.sources.empty() && scene.sim.drains.empty() &&
+      std::all_of(sides.begin(), sides.end(), [](sim::Side side) { return side == sim::Side::wall; });
+  if (scene.sim.keepVolume && !closed && reader.clean("simulation.keep_volume")) {
+    reader.fault(
+        "simulation.keep_volume",
+        "is for scenes where no liquid comes or goes, and this one has a source, a drain or an open side",
+        "leave it out");
+  }
+}
+
 void checkBodies(const Scene& scene, Reader& reader) {
   if (scene.sim.liquid.empty() && scene.sim.sources.empty() && reader.clean("liquid") &&
       reader.clean("source"))
@@ -263,6 +276,7 @@ void check(const Scene& scene, Reader& reader) {
   checkDomain(scene, reader);
   checkBodies(scene, reader);
   checkFlows(scene, reader);
+  checkVolume(scene, reader);
   checkTexture(scene, reader);
   checkPicture(scene, reader);
 }

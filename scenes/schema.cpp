@@ -53,7 +53,10 @@ void describeMotion(Visitor& visitor, sim::Options& sim) {
     visitor.number("solidus", heat.law.solidus, kNotNegative);
     visitor.number("solid_viscosity", heat.law.solidViscosity, kPositive);
   });
-  visitor.table("simulation", [&] { visitor.number("cfl", sim.cfl, {.low = 0.1, .high = 4.0}); });
+  visitor.table("simulation", [&] {
+    visitor.number("cfl", sim.cfl, {.low = 0.1, .high = 4.0});
+    visitor.flag("keep_volume", sim.keepVolume);
+  });
   visitor.list("wall", sim.walls, [&](sim::DomainWall& wall) {
     choice(visitor, "face", wall.face, kDomainFaces);
     describeWall(visitor, wall.wall);

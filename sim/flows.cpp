@@ -5,6 +5,8 @@
 #include "sim/shapes.h"
 #include "sim/step.h"
 
+#include <openvdb/tools/Interpolation.h>
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -16,6 +18,9 @@ namespace {
 
 // A source's surface whose normal has a larger share than this along the velocity is its front.
 constexpr double kFront = 0.1;
+// Liquid that stands less than this many cells over a source's side has crept there; deeper, the source is
+// under water.
+constexpr double kBare = 0.25;
 
 // The value of a curve, level before its first point and after its last one.
 double rateAt(const std::vector<RatePoint>& rate, double t) {
@@ -61,7 +66,7 @@ std::vector<FloatLeaf*> leavesAt(FloatGrid& phi, const FloatGrid& shape) {
   return leaves;
 }
 
-// Whether air lies a cell outside the source's surface there, on another side than the one it flows out of.
+// Whether air lies just outside the source's surface there, on another side than the one it flows out of.
 // place: a cell; distance: the source's there.
 bool bareSide(const FloatGrid& phi, const FloatGrid& shape, const Coord& place, float distance,
               const Vec3d& velocity) {
@@ -74,8 +79,8 @@ bool bareSide(const FloatGrid& phi, const FloatGrid& shape, const Coord& place, 
     normal[a] = shape.constTree().getValue(above) - shape.constTree().getValue(below);
   }
   if (!normal.normalize() || normal.dot(velocity) > kFront * velocity.length()) return false;
-  const Vec3d outside = place.asVec3d() + (1.0 - distance / h) * normal;
-  return phi.constTree().getValue(Coord::round(outside)) > 0.0f;
+  const Vec3d outside = place.asVec3d() + (kBare - distance / h) * normal;
+  return openvdb::tools::BoxSampler::sample(phi.constTree(), outside) > 0.0f;
 }
 
 // phi = min(phi, source). Where the sides of a source that flows lie bare they are the surface: liquid that

@@ -405,6 +405,9 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   assert(dt > 0.0 && density > 0.0);
   Liquid liquid = gatherLiquid(phi, solid, {&u.constTree(), &v.constTree(), &w.constTree()});
   const int n = liquid.numbering.size();
+  for (LiquidCell& cell : liquid.cells) {
+    cell.outflow -= options.expansion * solid.voxelSize * (1.0 - cell.closed / kSides);
+  }
   const double pascal = density * solid.voxelSize / dt;  // of one unit of q
 
   Projection result;

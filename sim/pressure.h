@@ -16,7 +16,10 @@ struct PressureOptions {
   // area, 0.1 density |g| h, keeps still water calm.
   double suction = 0.0;
   int maxSeparationPasses = 4;  // solves after the first; 0: liquid never lets go
-  bool keepPressure = false;    // fill Projection::pressure
+  // Share of its volume by which the liquid grows each second (1/s): its divergence is that instead of 0. Not
+  // where it is enclosed on all sides.
+  double expansion = 0.0;
+  bool keepPressure = false;  // fill Projection::pressure
 };
 
 struct PressureReport {

@@ -25,7 +25,7 @@ constexpr double kSameTime = 1e-6;
 
 Liquid liquidOf(const State& state) {
   return {state.phi, {{state.u, state.v, state.w}}, state.markers, state.steps,
-          state.ahead, state.temperature};
+          state.ahead, state.due, state.temperature};
 }
 
 // Copying a grid, or writing and reading it, can change the last bits of its transform, and with them all
@@ -44,6 +44,7 @@ void store(State& state, Liquid liquid, double h) {
   state.steps = liquid.steps;
   state.ahead = liquid.ahead;
   state.temperature = liquid.temperature;
+  state.due = liquid.due;
   state.u = liquid.velocity.component[0];
   state.v = liquid.velocity.component[1];
   state.w = liquid.velocity.component[2];
@@ -112,7 +113,7 @@ constexpr double kShortest = 1e-5;
 Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_shared<Solids>(options)) {
   const double h = options.voxelSize();
   m_state.poured.assign(options.liquid.size(), false);
-  store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0, 0.0}, h);
+  store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0, 0.0, 0.0}, h);
   if (options.heat.simulated) m_state.temperature = makeTemperature(h, options.heat.ambient);
   prepare();
 }
@@ -146,9 +147,13 @@ void Solver::applyEvents() {
   const double now = m_state.time;
   const auto solid = m_solids->at(now);
   bool changed = m_state.frame == 0;
-  Liquid liquid{
-      m_state.phi->deepCopy(), {{m_state.u, m_state.v, m_state.w}}, {}, m_state.steps, m_state.ahead,
-      m_state.temperature};
+  Liquid liquid{m_state.phi->deepCopy(),
+                {{m_state.u, m_state.v, m_state.w}},
+                {},
+                m_state.steps,
+                m_state.ahead,
+                m_state.due,
+                m_state.temperature};
   if (const auto active = m_solids->active(now); active != m_active) {
     changeSolids(liquid, *m_solid, *solid);
     m_active = active;
@@ -172,8 +177,10 @@ void Solver::applyEvents() {
   // Up to the middle of the first step.
   const double first = longestStep(m_options, maxAbs(liquid.velocity), speedOf(*solid));
   const double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
+  const double before = liquidVolume(*m_state.phi, *m_solid);
   StepReport report;
   if (!settle(liquid, *solid, kick, m_options, &report, flows)) fail(now, 1.0 / m_options.frameRate, report);
+  liquid.due += liquidVolume(*liquid.phi, *solid) - before;
   store(m_state, std::move(liquid), m_options.voxelSize());
 }
 

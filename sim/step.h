@@ -22,6 +22,7 @@ struct Liquid {
   Markers markers;
   std::int64_t steps = 0;  // taken so far: the seed of the markers to come
   double ahead = 0.0;      // s: the velocity is that of so much later than phi
+  double due = 0.0;        // m3: the volume that has been put in
   // K at cell centres of the velocity's leaves, extended into air and solids; null where heat is not simulated.
   FloatGrid::Ptr temperature = nullptr;
 };

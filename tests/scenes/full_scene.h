@@ -65,6 +65,7 @@ solidus = 900
 solid_viscosity = 5e5
 [simulation]
 cfl = 1.5
+keep_volume = false
 [[wall]]
 wall = "no_slip"
 wall_velocity = [0, 1, 2]

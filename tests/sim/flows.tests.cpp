@@ -106,7 +106,7 @@ TEST_CASE("flows: liquid that leaves on all sides leaves nothing behind") {
   options.liquid = {{Shape{Sphere{Vec3d(0.5), 0.2}}, Vec3d(1.0, 0.0, 0.0), 0.0}};
   Solver solver(options);
   double last = solver.next().stats.volume;
-  for (int n = 2; n <= 16; ++n) {
+  for (int n = 2; n <= 24; ++n) {
     const double volume = solver.next().stats.volume;
     CHECK(volume <= 1.02 * last);
     last = volume;

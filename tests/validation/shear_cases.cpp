@@ -214,7 +214,7 @@ std::vector<Case> shearCases() {
            order("error of u, max, m/s", 1.9)},
           {"couette", "viscous", "A plate begins to move", {8, 16, 32, 64}, {8, 16}, couetteStart,
            order("error of u, max, m/s", {})},
-          {"cylinders", "viscous", "Flow between a turning and a resting cylinder", {16, 32, 64, 128}, {16, 32},
+          {"cylinders", "viscous", "Flow between a turning and a resting cylinder", {16, 32, 64, 128}, {},
            cylinders, order("error of u, mean, m/s", 1.9)}};
 }
 

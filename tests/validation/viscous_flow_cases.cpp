@@ -176,7 +176,7 @@ Result spinningDisc(int resolution, const Progress& progress) {
 
 std::vector<Case> viscousFlowCases() {
   std::vector<Case> list = {
-      {"taylor_green_viscous", "viscous", "Taylor and Green's vortices with viscosity", {32, 64, 128}, {32},
+      {"taylor_green_viscous", "viscous", "Taylor and Green's vortices with viscosity", {32, 64, 128}, {},
        viscousVortices, {}},
       {"spinning_disc", "viscous", "A very viscous disc turns once", {32, 64}, {}, spinningDisc, {}}};
   const std::pair<int, CavityReference> cavities[] = {{100, {-0.21404, 0.17957, -0.25379}},
