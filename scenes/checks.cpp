@@ -126,6 +126,15 @@ void checkFlows(const Scene& scene, Reader& reader) {
   }
 }
 
+void checkWall(const sim::Wall& wall, const std::string& path, Reader& reader) {
+  if (!reader.clean(path + ".wall")) return;
+  if (wall.kind != sim::WallKind::friction && reader.given(path + ".slip_length"))
+    reader.fault(path + ".slip_length", "is of no use here", "give it together with wall = \"friction\"");
+  if (wall.kind == sim::WallKind::slip && reader.given(path + ".wall_velocity"))
+    reader.fault(path + ".wall_velocity", "a wall that slips drags nothing along",
+                 "give it together with wall = \"no_slip\" or \"friction\"");
+}
+
 void checkVolume(const Scene& scene, Reader& reader) {
   const auto& sides = scene.sim.sides;
   const bool closed =
@@ -153,12 +162,15 @@ void checkBodies(const Scene& scene, Reader& reader) {
                    "put at least a part of it between [0, 0, 0] and " + written(scene.sim.size));
     }
   }
+  for (std::size_t i = 0; i < scene.sim.walls.size(); ++i)
+    checkWall(scene.sim.walls[i].wall, "wall." + std::to_string(i), reader);
   std::map<std::string, std::string> firstOfName;
   for (std::size_t i = 0; i < scene.sim.solids.size(); ++i) {
     const sim::Solid& solid = scene.sim.solids[i];
     const std::string path = "solid." + std::to_string(i);
     checkShape(solid.shape, path, reader);
     checkTimes(solid.from, solid.until, path, reader);
+    checkWall(solid.wall, path, reader);
     checkMotion(solid, path, reader);
     if (!reader.clean(path + ".name")) continue;
     const auto [first, isNew] = firstOfName.emplace(solid.name, path);

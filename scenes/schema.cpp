@@ -13,6 +13,11 @@ void choice(Visitor& visitor, const std::string& key, Enum& value, const std::ve
 
 // Of what ends at a time, or never.
 constexpr Limits kUntil{.low = 0.0, .aboveLow = true, .infinite = true};
+void describeWall(Visitor& visitor, sim::Wall& wall) {
+  choice(visitor, "wall", wall.kind, {"slip", "no_slip", "friction"});
+  visitor.number("slip_length", wall.slipLength, kPositive);
+  visitor.vector("wall_velocity", wall.velocity, kAny);
+}
 
 void describeMotion(Visitor& visitor, sim::Options& sim) {
   visitor.table(
@@ -32,20 +37,42 @@ void describeMotion(Visitor& visitor, sim::Options& sim) {
     visitor.number("viscosity", sim.viscosity, kNotNegative);
     visitor.vector("gravity", sim.gravity, kAny);
   });
+  visitor.table("heat", [&] {
+    sim::HeatOptions& heat = sim.heat;
+    visitor.flag("simulate", heat.simulated);
+    visitor.number("capacity", heat.capacity, kPositive);
+    visitor.number("conductivity", heat.conductivity, kNotNegative);
+    visitor.number("emissivity", heat.emissivity, kShare);
+    visitor.number("ambient", heat.ambient, kNotNegative);
+    visitor.number("wall_transfer", heat.wallTransfer, kNotNegative);
+    visitor.number("wall_temperature", heat.wallTemperature, kNotNegative);
+    choice(visitor, "law", heat.law.kind, {"constant", "exponential", "arrhenius"});
+    visitor.number("reference", heat.law.reference, kPositive);
+    visitor.number("slope", heat.law.slope, kNotNegative);
+    visitor.number("activation_energy", heat.law.activationEnergy, kNotNegative);
+    visitor.number("solidus", heat.law.solidus, kNotNegative);
+    visitor.number("solid_viscosity", heat.law.solidViscosity, kPositive);
+  });
   visitor.table("simulation", [&] {
     visitor.number("cfl", sim.cfl, {.low = 0.1, .high = 4.0});
     visitor.flag("keep_volume", sim.keepVolume);
+  });
+  visitor.list("wall", sim.walls, [&](sim::DomainWall& wall) {
+    choice(visitor, "face", wall.face, kDomainFaces);
+    describeWall(visitor, wall.wall);
   });
   visitor.list("liquid", sim.liquid, [&](sim::LiquidBody& body) {
     describeShape(visitor, body.shape);
     visitor.vector("velocity", body.velocity, kAny);
     visitor.number("from", body.from, kNotNegative);
+    visitor.number("temperature", body.temperature, kPositive);
   });
   visitor.list("solid", sim.solids, [&](sim::Solid& solid) {
     visitor.text("name", solid.name);
     describeShape(visitor, solid.shape);
     visitor.number("from", solid.from, kNotNegative);
     visitor.number("until", solid.until, kUntil);
+    describeWall(visitor, solid.wall);
     visitor.flag("visible", solid.visible);
     visitor.vector("color", solid.color, kShare);
     visitor.vector("pivot", solid.pivot, kAny);

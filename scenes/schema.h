@@ -12,6 +12,10 @@ inline const std::vector<std::string> kShapeKeys = {"box",  "sphere",       "cyl
                                                     "mesh", "height_field", "union",    "difference"};
 inline const std::vector<std::string> kDensityKeys = {"points", "spacing"};
 
+// In the order of sim::DomainFace.
+inline const std::vector<std::string> kDomainFaces = {"all",   "x_low", "x_high", "y_low",
+                                                      "y_high", "z_low", "z_high"};
+
 void describe(Visitor& visitor, Scene& scene);
 
 // The shape keys of one liquid, solid or part: kShapeKeys.

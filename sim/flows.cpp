@@ -216,7 +216,7 @@ Flows::Flows(const Options& options)
   };
   for (const Source& source : m_sources) {
     const ShapeDistance distance(source.shape, m_h, m_size);
-    SourceGrids grids{gridOf(distance), source.velocity, {}};
+    SourceGrids grids{gridOf(distance), source.velocity, source.temperature, {}};
     if (source.velocity != Vec3d(0.0)) grids.velocity = facesOf(*grids.phi, source.velocity, m_cells);
     m_sourceGrids.push_back(std::move(grids));
   }

@@ -14,6 +14,7 @@ namespace fluidtex::sim {
 struct SourceGrids {
   FloatGrid::Ptr phi;  // the liquid that is always there
   Vec3d speed{0.0};    // m/s
+  double temperature = 0.0;  // K
   std::array<FloatGrid::Ptr, 3>
       velocity{};  // active at all faces of its cells; null where it only keeps full
 };

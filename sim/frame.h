@@ -26,6 +26,7 @@ struct FrameStats {
   std::int64_t cells = 0;       // liquid cells
   double volume = 0.0;          // m3 of liquid
   int pressureIterations = 0;   // summed over the substeps
+  int viscosityIterations = 0;  // summed over the substeps
   double pressureResidual = 0;  // largest relative residual of the substeps
 };
 

@@ -76,6 +76,49 @@ struct LiquidBody {
   Shape shape;
   Vec3d velocity{0.0};  // m/s
   double from = 0.0;
+  double temperature = 293.15;  // K
+};
+
+enum class WallKind { slip, noSlip, friction };
+
+// What liquid meets at a solid's surface. It acts through viscosity: a liquid whose viscosity is negligible on
+// the grid slips along all walls.
+struct Wall {
+  WallKind kind = WallKind::slip;
+  // With friction, metres: how far behind the surface the velocity along it would be the wall's if it went on
+  // changing as in the liquid beside it (Navier's slip length). 0 is no slip, infinity free slip.
+  double slipLength = 0.01;
+  Vec3d velocity{0.0};  // m/s, of the surface along itself (a belt, a driven lid)
+};
+
+// Which of the domain's faces.
+enum class DomainFace { all, xLow, xHigh, yLow, yHigh, zLow, zHigh };
+
+struct DomainWall {
+  DomainFace face = DomainFace::all;
+  Wall wall;
+};
+
+// How viscosity depends on temperature (K). Options::viscosity is that at `reference`.
+struct ViscosityLaw {
+  enum class Kind { constant, exponential, arrhenius };
+  Kind kind = Kind::constant;
+  double reference = 1400.0;           // K
+  double slope = 0.04;                 // 1/K, exponential: viscosity exp(-slope (T - reference))
+  double activationEnergy = 200000.0;  // J/mol, Arrhenius: viscosity exp(E / R (1/T - 1/reference))
+  double solidus = 0.0;                // K, solid below
+  double solidViscosity = 1e6;         // Pa s, of the solid; the law never exceeds it
+};
+
+struct HeatOptions {
+  bool simulated = false;
+  double capacity = 1200.0;         // J/(kg K)
+  double conductivity = 1.5;        // W/(m K)
+  double emissivity = 0.0;          // 0 to 1, of the surface
+  double ambient = 293.15;          // K, around it
+  double wallTransfer = 0.0;        // W/(m2 K), to walls
+  double wallTemperature = 293.15;  // K
+  ViscosityLaw law;
 };
 
 // Where a moving solid is at a time: moved by `move` (metres) and turned by `turn` degrees about its axis.
@@ -91,6 +134,7 @@ struct Solid {
   std::string name;
   Shape shape;
   double from = 0.0, until = kForever;
+  Wall wall;
   bool visible = true;
   Vec3d color{0.5, 0.5, 0.5};             // linear RGB, how it is drawn where visible
   std::vector<Keyframe> keyframes;        // in the order of time
@@ -130,6 +174,8 @@ struct Options {
   Vec3d gravity{0.0, 0.0, -9.81};
   double density = 1000.0;   // kg/m3
   double viscosity = 0.001;  // Pa s
+  HeatOptions heat;
+  std::vector<DomainWall> walls;  // what differs from a wall that slips; of several for one face, the last
   double cfl = 3.0;          // a substep moves nothing further than this many cells
   double frameRate = 24.0;   // frames a second
   // Liquid that the grid has lost or gained is made up for, everywhere alike (Options without sources, drains
@@ -139,6 +185,15 @@ struct Options {
   std::vector<Solid> solids;
   std::vector<Source> sources;
   std::vector<Drain> drains;
+
+  // Of a side that is a wall, in the order of `sides`.
+  Wall wallOf(int side) const {
+    Wall wall;
+    for (const DomainWall& given : walls) {
+      if (given.face == DomainFace::all || int(given.face) == side + 1) wall = given.wall;
+    }
+    return wall;
+  }
 
   double voxelSize() const { return std::max({size.x(), size.y(), size.z()}) / resolution; }
 };

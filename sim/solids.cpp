@@ -2,6 +2,7 @@
 
 #include "sim/mac_grid.h"
 #include "sim/solid_field.h"
+#include "sim/walls.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -21,6 +22,9 @@ using Range = tbb::blocked_range<int>;
 Solids::Solids(const Options& options) : m_options(options) {
   for (const Solid& solid : m_options.solids)
     m_shapes.emplace_back(solid.shape, m_options.voxelSize(), m_options.size);
+  for (int side = 0; side < 6; ++side) {
+    if (m_options.sides[side] == Side::wall) m_walls[side] = m_options.wallOf(side);
+  }
 }
 
 std::vector<std::size_t> Solids::active(double t) const {
@@ -121,6 +125,23 @@ double Solids::distanceTo(const std::vector<Placed>& solids, const Vec3d& x, boo
   return distance;
 }
 
+const Wall& Solids::nearestWall(const std::vector<Placed>& solids, const Vec3d& x) const {
+  double nearest = kForever;
+  const Wall* wall = nullptr;
+  const auto offer = [&](double distance, const Wall& candidate) {
+    if (distance < nearest) {
+      nearest = distance;
+      wall = &candidate;
+    }
+  };
+  for (int a = 0; a < 3; ++a) {
+    offer(x[a], m_walls[2 * a]);
+    offer(m_options.size[a] - x[a], m_walls[2 * a + 1]);
+  }
+  for (const Placed& solid : solids) offer(distanceTo(solid, x), m_options.solids[solid.index].wall);
+  return *wall;
+}
+
 double Solids::distance(const Vec3d& x, double t) const {
   return distanceTo(placed(t, active(t)), x, true);
 }
@@ -172,6 +193,11 @@ std::shared_ptr<const SolidField> Solids::at(double t, const std::vector<std::si
     field.sides = m_options.sides;
     if (std::any_of(solids.begin(), solids.end(), [](const Placed& solid) { return solid.pose.moving(); }))
       addSpeeds(field, solids);
+    const bool grip = std::any_of(m_walls.begin(), m_walls.end(), grips) ||
+                      std::any_of(set.begin(), set.end(),
+                                  [&](std::size_t i) { return grips(m_options.solids[i].wall); });
+    if (grip)
+      setWalls(field, [&](const Vec3d& x) -> const Wall& { return nearestWall(solids, x); }, distance);
     m_cached = std::make_shared<SolidField>(std::move(field));
     m_cachedSet = solids;
   }

@@ -40,6 +40,13 @@ struct SolidField {
   // Velocity of faces where it is given, m/s, active there, else kNotGiven: the pressure has no say there.
   // Null where there are none.
   openvdb::FloatGrid::Ptr givenU, givenV, givenW;
+  // What viscous liquid meets at the solids' surfaces (see sim/walls.h). Slip length in metres at cell centres
+  // within 3 voxels of a surface: 0 where liquid sticks, infinite where it slips freely; null where it does
+  // so everywhere.
+  openvdb::FloatGrid::Ptr slipLength;
+  // Velocity of the surfaces along themselves, on top of that of the solids: u, v, w at faces, m/s; null where
+  // none slides.
+  std::array<openvdb::FloatGrid::Ptr, 3> slide;
 };
 
 // Open share of a square face from the solid's signed distance at its corners, taken linear along the edges
@@ -64,7 +71,7 @@ class Solids {
   // Signed distance at world position x to the active solids and the domain's walls, metres, negative inside.
   double distance(const Vec3d& x, double t) const;
 
-  // Distances, open faces and speeds at time t; kept, and made anew only when the set has changed or a solid
+  // Distances, open faces and speeds and walls at time t; kept, and made anew only when the set has changed or a solid
   // has moved since the last call.
   std::shared_ptr<const SolidField> at(double t) { return at(t, active(t)); }
   // The same of a given set of solids, at their places of time t.
@@ -82,9 +89,11 @@ class Solids {
   // To the sides of the domain; `all`: those that are no walls too.
   double sideDistance(const Vec3d& x, bool all) const;
   double distanceTo(const std::vector<Placed>& solids, const Vec3d& x, bool all) const;
+  const Wall& nearestWall(const std::vector<Placed>& solids, const Vec3d& x) const;
   void addSpeeds(SolidField& field, const std::vector<Placed>& solids) const;
 
   Options m_options;
+  std::array<Wall, 6> m_walls;  // of the domain
   std::vector<ShapeDistance> m_shapes;  // one for each of Options::solids
   std::vector<Placed> m_cachedSet;
   std::shared_ptr<const SolidField> m_cached;

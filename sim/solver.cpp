@@ -1,6 +1,7 @@
 #include "sim/solver.h"
 
 #include "sim/advect_velocity.h"
+#include "sim/heat.h"
 #include "sim/flows.h"
 #include "sim/level_set.h"
 #include "sim/mac_grid.h"
@@ -23,7 +24,8 @@ constexpr int kMaxHalvings = 6;
 constexpr double kSameTime = 1e-6;
 
 Liquid liquidOf(const State& state) {
-  return {state.phi, {{state.u, state.v, state.w}}, state.markers, state.steps, state.ahead, state.due};
+  return {state.phi, {{state.u, state.v, state.w}}, state.markers, state.steps,
+          state.ahead, state.due, state.temperature};
 }
 
 // Copying a grid, or writing and reading it, can change the last bits of its transform, and with them all
@@ -33,6 +35,7 @@ void setTransforms(State& state, double h) {
   state.u->setTransform(faceTransform(h, 0));
   state.v->setTransform(faceTransform(h, 1));
   state.w->setTransform(faceTransform(h, 2));
+  if (state.temperature) state.temperature->setTransform(cellTransform(h));
 }
 
 void store(State& state, Liquid liquid, double h) {
@@ -40,6 +43,7 @@ void store(State& state, Liquid liquid, double h) {
   state.markers = std::move(liquid.markers);
   state.steps = liquid.steps;
   state.ahead = liquid.ahead;
+  state.temperature = liquid.temperature;
   state.due = liquid.due;
   state.u = liquid.velocity.component[0];
   state.v = liquid.velocity.component[1];
@@ -84,14 +88,21 @@ constexpr double kShortest = 1e-5;
   throw SolverError(message.str());
 }
 
-[[noreturn]] void fail(double time, double dt, const PressureReport& report) {
+[[noreturn]] void fail(double time, double dt, const StepReport& report) {
   std::ostringstream message;
   message << "the simulation cannot go on at time " << time << " s: ";
-  if (report.converged) {
-    message << "a velocity is not finite";
+  const auto blame = [&](const char* solve, double residual, int iterations) {
+    message << "the " << solve << " solve did not converge (relative residual " << residual << " after "
+            << iterations << " iterations)";
+  };
+  if (!report.heatConverged) {
+    message << "the solve for the temperature did not converge";
+  } else if (!report.viscosity.converged) {
+    blame("viscosity", report.viscosity.residual, report.viscosity.iterations);
+  } else if (!report.pressure.converged) {
+    blame("pressure", report.pressure.residual, report.pressure.iterations);
   } else {
-    message << "the pressure solve did not converge (relative residual " << report.residual << " after "
-            << report.iterations << " iterations)";
+    message << "a velocity is not finite";
   }
   message << ", even with a step of " << dt << " s; a smaller cfl or a finer resolution may help";
   throw SolverError(message.str());
@@ -103,6 +114,7 @@ Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_
   const double h = options.voxelSize();
   m_state.poured.assign(options.liquid.size(), false);
   store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0, 0.0, 0.0}, h);
+  if (options.heat.simulated) m_state.temperature = makeTemperature(h, options.heat.ambient);
   prepare();
 }
 
@@ -115,6 +127,9 @@ Solver::Solver(const Options& options, State state)
     throw SolverError(message.str());
   }
   setTransforms(m_state, asked);
+  if (options.heat.simulated && !m_state.temperature)
+    throw SolverError("the state was made without heat, the scene asks for it");
+  if (!options.heat.simulated) m_state.temperature = nullptr;
   m_state.poured.resize(options.liquid.size(), false);
   prepare();
 }
@@ -137,7 +152,8 @@ void Solver::applyEvents() {
                 {},
                 m_state.steps,
                 m_state.ahead,
-                m_state.due};
+                m_state.due,
+                m_state.temperature};
   if (const auto active = m_solids->active(now); active != m_active) {
     changeSolids(liquid, *m_solid, *solid);
     m_active = active;
@@ -153,7 +169,7 @@ void Solver::applyEvents() {
     if (m_state.poured[n] || body.from > now) continue;
     const ShapeDistance distance(body.shape, m_options.voxelSize(), m_options.size);
     pour(
-        liquid, [&](const Vec3d& x) { return distance(x); }, body.velocity, *solid);
+        liquid, [&](const Vec3d& x) { return distance(x); }, body.velocity, body.temperature, *solid);
     m_state.poured[n] = true;
     changed = true;
   }
@@ -162,7 +178,7 @@ void Solver::applyEvents() {
   const double first = longestStep(m_options, maxAbs(liquid.velocity), speedOf(*solid));
   const double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
   const double before = liquidVolume(*m_state.phi, *m_solid);
-  PressureReport report;
+  StepReport report;
   if (!settle(liquid, *solid, kick, m_options, &report, flows)) fail(now, 1.0 / m_options.frameRate, report);
   liquid.due += liquidVolume(*liquid.phi, *solid) - before;
   store(m_state, std::move(liquid), m_options.voxelSize());
@@ -187,7 +203,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     bool last = dt > (1.0 - kSameTime) * remaining;
     std::shared_ptr<const SolidField> solid;
 
-    PressureReport pressure;
+    StepReport solves;
     std::optional<Liquid> next;
     for (int halving = 0;; ++halving) {
       const double then = last ? time : m_state.time + dt;
@@ -196,9 +212,9 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       const double after = last ? 1.0 / m_options.frameRate : remaining - dt;
       const double nextLongest =
           longestStep(m_options, speed + m_options.gravity.length() * dt, speedOf(*solid));
-      next = step(liquid, *solid, dt, evenPart(after, nextLongest), m_options, &pressure, m_flows->at(then));
+      next = step(liquid, *solid, dt, evenPart(after, nextLongest), m_options, &solves, m_flows->at(then));
       if (next) break;
-      if (halving == kMaxHalvings) fail(m_state.time, dt, pressure);
+      if (halving == kMaxHalvings) fail(m_state.time, dt, solves);
       dt *= 0.5;
       last = false;
     }
@@ -206,8 +222,9 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     frame.substeps.push_back({dt, u, v, w});
     FrameStats& stats = frame.stats;
     stats.dtMin = stats.dtMin > 0.0 ? std::min(stats.dtMin, dt) : dt;
-    stats.pressureIterations += pressure.iterations;
-    stats.pressureResidual = std::max(stats.pressureResidual, pressure.residual);
+    stats.pressureIterations += solves.pressure.iterations;
+    stats.pressureResidual = std::max(stats.pressureResidual, solves.pressure.residual);
+    stats.viscosityIterations += solves.viscosity.iterations;
     store(m_state, std::move(*next), m_options.voxelSize());
     m_state.time = last ? time : m_state.time + dt;
     m_solid = solid;
@@ -246,6 +263,7 @@ Frame Solver::next(const std::function<void(double)>& progress) {
   m_state.frame = frame.index;
   frame.surfacePhi = visibleSurface(*m_state.phi, *m_solid, kSurfaceBand);
   frame.solidPhi = m_solid->phi;
+  if (m_state.temperature) frame.fields["temperature"] = m_state.temperature;
   frame.stats.cells = liquidCells(*m_state.phi, *m_solid);
   frame.stats.volume = liquidVolume(*m_state.phi, *m_solid);
   if (progress) progress(1.0);

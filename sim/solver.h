@@ -24,6 +24,7 @@ struct State {
   double time = 0.0;                // s
   openvdb::FloatGrid::Ptr phi;      // liquid, narrow band, metres, negative inside
   openvdb::FloatGrid::Ptr u, v, w;  // face velocities, m/s, of one topology; transforms as in Substep
+  openvdb::FloatGrid::Ptr temperature;  // K at cell centres; null where heat is not simulated
   Markers markers;                  // on both sides of the surface
   std::int64_t steps = 0;           // substeps so far
   double due = 0.0;                 // m3: the volume that has been put in, less what solids took away

@@ -11,6 +11,7 @@ namespace {
 using openvdb::FloatGrid;
 
 constexpr const char* kGridNames[4] = {"phi", "u", "v", "w"};
+constexpr const char* kTemperature = "temperature";
 
 // A block as bytes: origin, number of markers, markers.
 void append(std::string& bytes, const MarkerBlock& block) {
@@ -65,6 +66,12 @@ void writeState(const State& state, const std::filesystem::path& file) {
     grid->setSaveFloatAsHalf(false);
     out.push_back(grid);
   }
+  if (state.temperature) {
+    const auto grid = state.temperature->copy();
+    grid->setName(kTemperature);
+    grid->setSaveFloatAsHalf(false);
+    out.push_back(grid);
+  }
   openvdb::MetaMap metadata;
   metadata.insertMeta("frame", openvdb::Int32Metadata(state.frame));
   metadata.insertMeta("steps", openvdb::Int64Metadata(state.steps));
@@ -102,6 +109,10 @@ State readState(const std::filesystem::path& file) {
     for (int n = 0; n < 4; ++n) {
       *grids[n] = openvdb::gridPtrCast<FloatGrid>(vdb.readGrid(kGridNames[n]));
       if (!*grids[n]) throw openvdb::TypeError(std::string("grid ") + kGridNames[n] + " is not of floats");
+    }
+    if (vdb.hasGrid(kTemperature)) {
+      state.temperature = openvdb::gridPtrCast<FloatGrid>(vdb.readGrid(kTemperature));
+      if (!state.temperature) throw openvdb::TypeError("grid temperature is not of floats");
     }
   } catch (const std::exception& error) {
     // A file cut short fails in many ways (no memory, unknown types); for the caller it is one.

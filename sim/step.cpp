@@ -2,9 +2,11 @@
 
 #include "sim/advect_velocity.h"
 #include "sim/extrapolate.h"
+#include "sim/heat.h"
 #include "sim/leaf_table.h"
 #include "sim/level_set.h"
 #include "sim/move_surface.h"
+#include "sim/walls.h"
 
 #include <openvdb/tools/Morphology.h>
 
@@ -18,6 +20,9 @@ namespace {
 
 // Layers of voxels outside the domain in which phi and velocity may have leaves.
 constexpr int kMargin = kLeafDim;
+
+// Cells beyond the liquid that get its temperature: what is newly wet in a step lies within.
+constexpr int kTemperatureLayers = 6;
 
 double voxelSize(const Liquid& liquid) {
   return liquid.phi->voxelSize()[0];
@@ -107,6 +112,32 @@ void openGaps(Liquid& liquid, const SolidField& solid, const openvdb::MaskGrid& 
   trimBand(phi, *solid.phi);
 }
 
+// Liquid that comes out of sources has their temperature.
+void setSourceTemperature(FloatGrid& temperature, const RunningFlows& flows) {
+  for (const auto& [source, factor] : flows.sources) {
+    for (FloatLeaf* leaf : leavesOf(temperature.tree())) {
+      float scratch[kLeafSize];
+      const float* phi = leafValues(source->phi->constTree(), leaf->origin(), scratch);
+      for (int i = 0; i < kLeafSize; ++i) {
+        if (phi[i] < 0.0f) leaf->setValueOnly(i, static_cast<float>(source->temperature));
+      }
+    }
+  }
+}
+
+// Carries the temperature over into `next`, whose surface and leaves are known, and conducts it. False where
+// that fails.
+bool moveHeat(const Liquid& liquid, Liquid& next, const SolidField& solid, const RunningFlows& flows, double dt,
+              const Options& options) {
+  next.temperature = advectTemperature(*liquid.temperature, liquid.velocity,
+                                       next.velocity.component[0]->constTree(), *next.phi, dt);
+  setSourceTemperature(*next.temperature, flows);
+  const bool done =
+      conductHeat(*next.temperature, *next.phi, solid, dt, options.density, options.heat);
+  extendTemperature(*next.temperature, *next.phi, *solid.phi, kTemperatureLayers);
+  return done;
+}
+
 // How fast the liquid has to grow (1/s) to make up for what it has lost. The dam break loses up to 0.2 of its
 // volume a second; more than the bar would be seen to swell.
 double expansionOf(const Liquid& liquid, const SolidField& solid) {
@@ -115,14 +146,15 @@ double expansionOf(const Liquid& liquid, const SolidField& solid) {
   return volume > 0.0 ? std::clamp((liquid.due / volume - 1.0) / kTime, -kMost, kMost) : 0.0;
 }
 
-bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& options,
-             PressureReport* report) {
+// viscous: whether friction is felt, so that liquid can stick to walls.
+bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& options, bool viscous,
+             StepReport* report) {
   PressureOptions pressure;
   if (options.keepVolume && liquid.due > 0.0) pressure.expansion = expansionOf(liquid, solid);
   pressure.suction = 0.1 * options.density * options.gravity.length() * voxelSize(liquid);
   auto& [u, v, w] = liquid.velocity.component;
   const Projection projection = project(*u, *v, *w, *liquid.phi, solid, dt, options.density, pressure);
-  if (report != nullptr) *report = projection.report;
+  if (report != nullptr) report->pressure = projection.report;
   if (!projection.report.converged) return false;
   // The projection may have added faces to one component: all three have one topology again.
   u->topologyUnion(*v);
@@ -131,6 +163,7 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& 
   w->topologyUnion(*u);
   extrapolate(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
   constrainToSolids(*u, *v, *w, *liquid.phi, solid, projection.valid, *projection.separating);
+  if (viscous) stickToWalls(liquid.velocity, solid, projection.valid);
   openGaps(liquid, solid, *projection.separating, options.gravity * dt);
   return std::isfinite(maxAbs(liquid.velocity));
 }
@@ -178,7 +211,7 @@ bool isEmpty(const Liquid& liquid) {
 }
 
 std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, double nextDt,
-                           const Options& options, PressureReport* report, const RunningFlows& flows) {
+                           const Options& options, StepReport* report, const RunningFlows& flows) {
   const double kick = std::max(0.0, dt - liquid.ahead + 0.5 * nextDt);
   Liquid next{liquid.phi->deepCopy(),   {},        liquid.markers, liquid.steps + 1,
               liquid.ahead - dt + kick, liquid.due};
@@ -190,7 +223,20 @@ std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double
   advectVelocity(liquid.velocity, next.velocity, *liquid.phi, *next.phi, dt);
   addGravity(next.velocity, options.gravity * kick);
   const SolidField around = withFlows(solid, flows, *next.phi, liquid.velocity, options.gravity, dt);
-  if (!project(next, around, dt, options, report)) return std::nullopt;
+  StepReport solves;
+  solves.pressure.converged = true;
+  FloatGrid::Ptr viscosity;
+  if (liquid.temperature) {
+    solves.heatConverged = moveHeat(liquid, next, around, flows, dt, options);
+    viscosity = viscosityOf(*next.temperature, options.heat.law, options.viscosity);
+  }
+  if (solves.heatConverged) {
+    solves.viscosity = applyViscosity(next.velocity, *next.phi, around, kick, options.density,
+                                      {.constant = options.viscosity, .variable = viscosity.get()});
+  }
+  if (report != nullptr) *report = solves;
+  if (!solves.heatConverged || !solves.viscosity.converged) return std::nullopt;
+  if (!project(next, around, dt, options, !solves.viscosity.skipped, report)) return std::nullopt;
   if (!anyInside(*next.phi)) {
     // What is left of the band has no surface that could renew it.
     next.phi->clear();
@@ -200,10 +246,15 @@ std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double
 }
 
 void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, const Vec3d& velocity,
-          const SolidField& solid) {
+          double temperature, const SolidField& solid) {
   unite(*liquid.phi, distance, solid.cells, kMargin);
   const Velocity before = liquid.velocity;
   liquid.velocity = velocityFor(*liquid.phi, solid);
+  if (liquid.temperature) {
+    liquid.temperature =
+        makeTemperature(*liquid.temperature, liquid.velocity.component[0]->constTree());
+    heatBody(*liquid.temperature, distance, temperature);
+  }
   const double h = voxelSize(liquid);
   for (int a = 0; a < 3; ++a) {
     FloatGrid& grid = *liquid.velocity.component[a];
@@ -236,7 +287,7 @@ void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& af
 }
 
 bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options,
-            PressureReport* report, const RunningFlows& flows) {
+            StepReport* report, const RunningFlows& flows) {
   FloatGrid& phi = *liquid.phi;
   applyFlows(phi, liquid.markers, flows);
   for (const Coord& origin : wetLeaves(phi, solid.cells, kMargin)) phi.tree().touchLeaf(origin);
@@ -270,7 +321,23 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   addGravity(liquid.velocity, options.gravity * kick);
   liquid.ahead += kick;
   const SolidField around = withFlows(solid, flows, phi, before, options.gravity, 0.0);
-  return project(liquid, around, 1.0 / options.frameRate, options, report);
+  if (liquid.temperature) {
+    liquid.temperature = makeTemperature(*liquid.temperature, liquid.velocity.component[0]->constTree());
+    setSourceTemperature(*liquid.temperature, flows);
+    extendTemperature(*liquid.temperature, phi, *solid.phi, kTemperatureLayers);
+  }
+  // Friction acts as long as gravity does.
+  const FloatGrid::Ptr viscosity =
+      liquid.temperature ? viscosityOf(*liquid.temperature, options.heat.law, options.viscosity) : nullptr;
+  const ViscosityReport friction =
+      applyViscosity(liquid.velocity, phi, around, kick, options.density,
+                     {.constant = options.viscosity, .variable = viscosity.get()});
+  if (report != nullptr) report->viscosity = friction;
+  if (!friction.converged) return false;
+  const double dt = 1.0 / options.frameRate;
+  const bool viscous = liquid.temperature != nullptr ||
+                       !isNegligible(options.viscosity, dt, options.density, voxelSize(liquid));
+  return project(liquid, around, dt, options, viscous, report);
 }
 
 }  // namespace fluidtex::sim

@@ -7,6 +7,7 @@
 #include "sim/markers.h"
 #include "sim/pressure.h"
 #include "sim/solids.h"
+#include "sim/viscosity.h"
 
 #include <functional>
 #include <optional>
@@ -22,6 +23,8 @@ struct Liquid {
   std::int64_t steps = 0;  // taken so far: the seed of the markers to come
   double ahead = 0.0;      // s: the velocity is that of so much later than phi
   double due = 0.0;        // m3: the volume that has been put in
+  // K at cell centres of the velocity's leaves, extended into air and solids; null where heat is not simulated.
+  FloatGrid::Ptr temperature = nullptr;
 };
 
 // Half the width of phi's band in voxels, for steps of at most `cfl` cells.
@@ -30,24 +33,30 @@ int bandWidth(double cfl);
 // Whether there is any.
 bool isEmpty(const Liquid& liquid);
 
+struct StepReport {
+  PressureReport pressure;
+  ViscosityReport viscosity;
+  bool heatConverged = true;
+};
+
 // The liquid dt seconds later; `solid` and `flows` are those of that time. The velocity moves phi, so it
 // should be that of the middle of the step (leapfrog, second order in time): gravity takes the new one to the
-// middle of the step after, of nextDt seconds. Nothing when the pressure solve does not converge or a
-// velocity is not finite: try a smaller dt. `report`, where given, is filled either way.
+// middle of the step after, of nextDt seconds. Nothing when a solve does not converge or a velocity is
+// not finite: try a smaller dt. `report`, where given, is filled either way.
 std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, double nextDt,
-                           const Options& options, PressureReport* report = nullptr,
+                           const Options& options, StepReport* report = nullptr,
                            const RunningFlows& flows = {});
 
-// Adds liquid where distance(x) < 0, of that velocity. The velocity of the whole is projected by settle().
+// Adds liquid where distance(x) < 0, of that velocity and temperature. The velocity of the whole is projected by settle().
 void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, const Vec3d& velocity,
-          const SolidField& solid);
+          double temperature, const SolidField& solid);
 
 // Empties the places that solids leave when `before` turns into `after`.
 void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& after);
 
 // Makes phi a distance and the velocity free of divergence after pouring or a change of solids or of flows.
-// Gravity acts for `kick` seconds. False when the pressure solve does not converge.
+// Gravity and friction act for `kick` seconds. False when a solve does not converge.
 [[nodiscard]] bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options,
-                          PressureReport* report = nullptr, const RunningFlows& flows = {});
+                          StepReport* report = nullptr, const RunningFlows& flows = {});
 
 }  // namespace fluidtex::sim

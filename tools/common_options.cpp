@@ -20,14 +20,6 @@ int parseNumber(std::string_view text, const std::string& whole) {
   return number;
 }
 
-// The solver has no viscous force: a liquid thicker than water would not look it, and its scene should know.
-void warnOfViscosity(const scenes::Scene& scene) {
-  if (scene.sim.viscosity <= sim::Options{}.viscosity) return;
-  fmt::print(stderr,
-             "{}: warning: fluid.viscosity: {:g} Pa s is not simulated yet; the liquid flows like water\n",
-             scene.file.string(), scene.sim.viscosity);
-}
-
 // Reads every mesh file and forgets it: one that is damaged is known before anything is done.
 void tryMeshes(const sim::Shape& shape) {
   const auto tryParts = [](const std::vector<sim::Shape>& parts) {
@@ -76,7 +68,6 @@ scenes::Scene loadScene(const CommonOptions& options) {
   scenes::Scene scene = scenes::loadScene(options.scene, overrides);
   for (const sim::LiquidBody& body : scene.sim.liquid) tryMeshes(body.shape);
   for (const sim::Solid& solid : scene.sim.solids) tryMeshes(solid.shape);
-  if (!options.quiet) warnOfViscosity(scene);
   return scene;
 }
 

@@ -3,62 +3,19 @@
 // height and the light, its shadow from the edge of the scales above.
 #include "scenes/exemplars/scales.h"
 
+#include "scenes/exemplars/pattern.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace fluidtex::exemplars {
 
 namespace {
 
-using Color = std::array<double, 3>;  // linear RGB
-
-constexpr double kPi = 3.14159265358979323846;
-
 // Outline of a scale in units of the distance between columns and between rows.
 constexpr double kHalfWidth = 0.535;  // more than 0.5: neighbours meet in a crease
 constexpr double kLength = 1.62;      // from the widest place to the free end
 constexpr double kRoundness = 2.3;    // exponent of the outline: 2 is an ellipse, more is blunter
-
-double random(std::uint64_t seed, std::uint64_t a, std::uint64_t b, std::uint64_t c) {
-  // SplitMix64's finaliser [Steele, Lea, Flood 2014] over a linear combination of the arguments.
-  std::uint64_t x = seed * 0x9e3779b97f4a7c15u + a * 0xbf58476d1ce4e5b9u + b * 0x94d049bb133111ebu +
-                    c * 0xd6e8feb86659fd93u;
-  for (int round = 0; round < 2; ++round) {
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    x ^= x >> 31;
-  }
-  return double(x >> 11) * 0x1.0p-53;
-}
-
-double smooth(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
-
-double mixed(double a, double b, double t) {
-  return a + (b - a) * t;
-}
-
-Color mixed(const Color& a, const Color& b, double t) {
-  return {mixed(a[0], b[0], t), mixed(a[1], b[1], t), mixed(a[2], b[2], t)};
-}
-
-int wrapped(int i, int n) {
-  return ((i % n) + n) % n;
-}
-
-// Value noise with `cells` lattice cells across the unit square, periodic; 0..1.
-double noise(std::uint64_t seed, std::uint64_t stream, double x, double y, int cells) {
-  const double u = x * cells, v = y * cells;
-  const int i = int(std::floor(u)), j = int(std::floor(v));
-  const double s = smooth(0.0, 1.0, u - i), t = smooth(0.0, 1.0, v - j);
-  const auto at = [&](int di, int dj) {
-    return random(seed, stream, std::uint64_t(wrapped(i + di, cells)), std::uint64_t(wrapped(j + dj, cells)));
-  };
-  return mixed(mixed(at(0, 0), at(1, 0), s), mixed(at(0, 1), at(1, 1), s), t);
-}
 
 struct Scale {
   double x, y;           // of the widest place, image = unit square
@@ -196,11 +153,6 @@ class Hide {
   Scales m_options;
   std::vector<Scale> m_scales;  // rows x columns
 };
-
-double encoded(double linear) {  // sRGB, IEC 61966-2-1
-  const double value = std::clamp(linear, 0.0, 1.0);
-  return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
-}
 
 }  // namespace
 

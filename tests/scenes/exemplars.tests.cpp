@@ -1,3 +1,4 @@
+#include "scenes/exemplars/lava.h"
 #include "scenes/exemplars/scales.h"
 
 #include <OpenImageIO/imageio.h>
@@ -86,6 +87,40 @@ TEST_CASE("green scales: green, neither black nor white, with light and dark", "
   CHECK(darkest < 60);
   CHECK(brightest > 150);
   CHECK(brightest < 255);
+}
+
+TEST_CASE("lava: the image that ships is the generator's, pixel by pixel", "[scenes]") {
+  const Lava options;
+  const auto input = OIIO::ImageInput::open(FLUIDTEX_SOURCE_DIR "/scenes/exemplars/lava.png");
+  REQUIRE(input);
+  REQUIRE(input->spec().width == options.size);
+  REQUIRE(input->spec().nchannels == 3);
+  Pixels shipped(std::size_t(options.size) * options.size * 3);
+  REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, shipped.data()));
+  CHECK((shipped == makeLava(options)));
+}
+
+TEST_CASE("lava: toroidal, mostly dark crust, and what glows is red before it is yellow", "[scenes]") {
+  const Lava options{.size = 96, .plates = 5};
+  const Pixels pixels = makeLava(options);
+  for (const bool columns : {true, false}) {
+    double largest = 0.0;
+    for (int i = 0; i + 1 < options.size; ++i)
+      largest = std::max(largest, step(pixels, options.size, i, i + 1, columns));
+    CHECK(step(pixels, options.size, options.size - 1, 0, columns) <= largest);
+  }
+  int dark = 0, bright = 0;
+  for (std::size_t i = 0; i < pixels.size(); i += 3) {
+    const int red = pixels[i], green = pixels[i + 1], blue = pixels[i + 2];
+    dark += red < 90;
+    bright += red > 200;
+    if (red > 120) {
+      CHECK(red > green);
+      CHECK(green >= blue);
+    }
+  }
+  CHECK(dark > 0.5 * options.size * options.size);
+  CHECK(bright > 0.02 * options.size * options.size);
 }
 
 }  // namespace fluidtex::exemplars

@@ -49,13 +49,35 @@ z_high = "stream"
 density = 900
 viscosity = 0.5
 gravity = [1, 0, -3]
+[heat]
+simulate = true
+capacity = 1000
+conductivity = 2
+emissivity = 0.5
+ambient = 300
+wall_transfer = 10
+wall_temperature = 400
+law = "arrhenius"
+reference = 1300
+slope = 0.1
+activation_energy = 150000
+solidus = 900
+solid_viscosity = 5e5
 [simulation]
 cfl = 1.5
 keep_volume = false
+[[wall]]
+wall = "no_slip"
+wall_velocity = [0, 1, 2]
+[[wall]]
+face = "x_high"
+wall = "friction"
+slip_length = 0.5
 [[liquid]]
 box = { min = [0, 0.5, 0], max = [1, 1, 0.5] }
 velocity = [1, 2, 3]
 from = 0.25
+temperature = 1500
 [[liquid]]
 union = [ { sphere = { center = [1, 1, 1], radius = 0.5 } }, { difference = [ { half_space = { point = [0, 0, 0.1], normal = [0, 0, 2] } }, { mesh = { file = "m.obj", scale = 2, translate = [3, 2, 1] } } ] } ]
 [[solid]]
@@ -63,6 +85,9 @@ name = "gate"
 mesh = { file = "m.obj" }
 from = 0.5
 until = 0.75
+wall = "friction"
+slip_length = 0.25
+wall_velocity = [1, 0, 0]
 visible = false
 color = [1, 0.25, 0]
 [[solid]]

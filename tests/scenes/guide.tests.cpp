@@ -91,7 +91,7 @@ TEST_CASE("scene: the guide's defaults are the ones that are used", "[scenes]") 
   const std::string box = "box = { min = [0, 0, 0], max = [1, 1, 1] }\n";
   const Json resolved = Json::parse(sceneOf(kGoodScene + "[[solid]]\nmesh = { file = 'm.obj' }\n" +
                                             "keyframe = [ { time = 1 } ]\n[[source]]\n" + box +
-                                            "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + box)
+                                            "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + box + "[[wall]]\n")
                                         .resolved);
   int compared = 0;
   for (const GuideRow& row : guideRows()) {

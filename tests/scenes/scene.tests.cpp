@@ -68,11 +68,29 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(sim.viscosity == 0.5);
   CHECK(sim.gravity == sim::Vec3d(1, 0, -3));
   CHECK(sim.cfl == 1.5);
+  CHECK(sim.wallOf(0).kind == sim::WallKind::noSlip);
+  CHECK(sim.wallOf(0).velocity == sim::Vec3d(0, 1, 2));
+  CHECK(sim.wallOf(1).kind == sim::WallKind::friction);
+  CHECK(sim.wallOf(1).slipLength == 0.5);
   REQUIRE(sim.liquid.size() == 2);
   CHECK(std::get<sim::Box>(sim.liquid[0].shape.kind).min == sim::Vec3d(0, 0.5, 0));
   CHECK(std::get<sim::Box>(sim.liquid[0].shape.kind).max == sim::Vec3d(1, 1, 0.5));
   CHECK(sim.liquid[0].velocity == sim::Vec3d(1, 2, 3));
   CHECK(sim.liquid[0].from == 0.25);
+  CHECK(sim.liquid[0].temperature == 1500.0);
+  CHECK(sim.heat.simulated);
+  CHECK(sim.heat.capacity == 1000.0);
+  CHECK(sim.heat.conductivity == 2.0);
+  CHECK(sim.heat.emissivity == 0.5);
+  CHECK(sim.heat.ambient == 300.0);
+  CHECK(sim.heat.wallTransfer == 10.0);
+  CHECK(sim.heat.wallTemperature == 400.0);
+  CHECK(sim.heat.law.kind == sim::ViscosityLaw::Kind::arrhenius);
+  CHECK(sim.heat.law.reference == 1300.0);
+  CHECK(sim.heat.law.slope == 0.1);
+  CHECK(sim.heat.law.activationEnergy == 150000.0);
+  CHECK(sim.heat.law.solidus == 900.0);
+  CHECK(sim.heat.law.solidViscosity == 5e5);
   const auto& both = std::get<sim::Union>(sim.liquid[1].shape.kind);
   REQUIRE(both.parts.size() == 2);
   CHECK(std::get<sim::Sphere>(both.parts[0].kind).radius == 0.5);
@@ -87,6 +105,9 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(sim.solids[0].name == "gate");
   CHECK(sim.solids[0].from == 0.5);
   CHECK(sim.solids[0].until == 0.75);
+  CHECK(sim.solids[0].wall.kind == sim::WallKind::friction);
+  CHECK(sim.solids[0].wall.slipLength == 0.25);
+  CHECK(sim.solids[0].wall.velocity == sim::Vec3d(1, 0, 0));
   CHECK_FALSE(sim.solids[0].visible);
   CHECK(sim.solids[0].color == sim::Vec3d(1, 0.25, 0));
   CHECK(sim.solids[1].until == sim::kForever);
@@ -169,7 +190,7 @@ TEST_CASE("scene: the resolved scene has every key, given or not", "[scenes]") {
   const std::string ball = "sphere = { center = [1, 1, 1], radius = 0.5 }\n";
   const std::string oneEach =
       "[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 } ]\n[[source]]\n" + ball +
-      "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + ball;
+      "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + ball + "[[wall]]\n";
   std::set<std::string> whole, defaults;
   collectKeys(Json::parse(sceneOf(kFullScene).resolved), "", whole);
   collectKeys(Json::parse(sceneOf(kGoodScene + oneEach).resolved), "", defaults);

@@ -97,6 +97,11 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
       {"[[solid]]\nname = 'a'\nmesh = { file = 'm.obj' }\n[[solid]]\nname = 'a'\nmesh = { file = 'm.obj' }",
        "s.toml:10:1: error: solid.1.name: \"a\" is the name of solid.0 too; give each solid a name of its "
        "own"},
+      {"[[wall]]\nslip_length = 1",
+       "s.toml:7:1: error: wall.0.slip_length: is of no use here; give it together with wall = \"friction\""},
+      {"[[solid]]\nmesh = { file = 'm.obj' }\nwall_velocity = [1, 0, 0]",
+       "s.toml:8:1: error: solid.0.wall_velocity: a wall that slips drags nothing along; give it together with "
+       "wall = \"no_slip\" or \"friction\""},
       {"[camera]\nfrom = [1, 2, 3]\nat = [1, 2, 3]",
        "s.toml:7:1: error: camera.from: the camera stands at the point it looks at; give camera.from and "
        "camera.at different "

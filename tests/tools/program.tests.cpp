@@ -173,12 +173,3 @@ TEST_CASE("fluidtex: version, help with an example for each subcommand, and the 
   CHECK_THAT(runProgram({"check", kSmallScene, "--set", "domain.size=[1, 0.6, 0.6]"}).out,
              Catch::Contains("24 x 15 x 15 cells"));
 }
-
-TEST_CASE("fluidtex: a viscosity that is not simulated is named, and nothing else about a valid scene",
-          "[tools]") {
-  CHECK_THAT(runProgram({"check", kSmallScene}).err, !Catch::Contains("warning"));
-  const Finished thick = runProgram({"check", kSmallScene, "--set", "fluid.viscosity=50"});
-  CHECK(thick.exitCode == 0);
-  CHECK_THAT(thick.err,
-             Catch::Contains("small.toml: warning: fluid.viscosity: 50 Pa s is not simulated yet"));
-}

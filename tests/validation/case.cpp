@@ -5,6 +5,7 @@
 #include "tests/validation/reinit_cases.h"
 #include "tests/validation/rest_cases.h"
 #include "tests/validation/stream_cases.h"
+#include "tests/validation/viscous_cases.h"
 #include "tests/validation/wave_cases.h"
 
 #include <cmath>
@@ -19,7 +20,8 @@ bool Row::ok() const {
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> list;
-    for (auto* part : {levelSetCases, reinitCases, waveCases, restCases, damBreakCases, streamCases}) {
+    for (auto* part : {levelSetCases, reinitCases, waveCases, restCases, damBreakCases, streamCases,
+                       shearCases, viscousFlowCases}) {
       for (Case& c : part()) list.push_back(std::move(c));
     }
     return list;

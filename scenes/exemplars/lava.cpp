@@ -1,0 +1,152 @@
+// Plates are the cells of scattered sites (Worley, "A cellular texture basis function", 1996) in a space bent by
+// noise. The distance to the nearest border, against a width that varies from place to place, says how far a
+// crack is open; large plates are cracked once more, finely.
+#include "scenes/exemplars/lava.h"
+
+#include "scenes/exemplars/pattern.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::exemplars {
+namespace {
+
+// Octaves of noise about 0, each finer one weaker by `gain`.
+double fractal(std::uint64_t seed, std::uint64_t stream, double x, double y, int cells, int octaves, double gain) {
+  double sum = 0.0, weight = 1.0;
+  for (int octave = 0; octave < octaves; ++octave) {
+    sum += weight * (noise(seed, stream + std::uint64_t(octave), x, y, cells) - 0.5);
+    cells *= 2;
+    weight *= gain;
+  }
+  return sum;
+}
+
+// The cell that a point is in and how far its border is, in units of the sites' distance.
+struct Cell {
+  double border = 1e9;
+  double shade = 0.0;  // 0..1, of the cell
+};
+
+Cell cellAt(std::uint64_t seed, std::uint64_t stream, double x, double y, int cells) {
+  const double u = x * cells, v = y * cells;
+  const int i0 = int(std::floor(u)), j0 = int(std::floor(v));
+  const auto site = [&](int i, int j, double& sx, double& sy) {
+    const auto a = std::uint64_t(wrapped(i, cells)), b = std::uint64_t(wrapped(j, cells));
+    sx = i + 0.08 + 0.84 * random(seed, stream, a, b);
+    sy = j + 0.08 + 0.84 * random(seed, stream + 1, a, b);
+  };
+  int ni = i0, nj = j0;
+  double nearest = 1e9, nx = 0.0, ny = 0.0;
+  for (int j = j0 - 2; j <= j0 + 2; ++j) {
+    for (int i = i0 - 2; i <= i0 + 2; ++i) {
+      double sx, sy;
+      site(i, j, sx, sy);
+      const double d = std::hypot(sx - u, sy - v);
+      if (d >= nearest) continue;
+      nearest = d;
+      ni = i, nj = j, nx = sx, ny = sy;
+    }
+  }
+  Cell cell;
+  cell.shade = random(seed, stream + 2, std::uint64_t(wrapped(ni, cells)), std::uint64_t(wrapped(nj, cells)));
+  for (int j = nj - 2; j <= nj + 2; ++j) {
+    for (int i = ni - 2; i <= ni + 2; ++i) {
+      if (i == ni && j == nj) continue;
+      double sx, sy;
+      site(i, j, sx, sy);
+      const double dx = sx - nx, dy = sy - ny, length = std::hypot(dx, dy);
+      // To the line half way between the two sites.
+      cell.border = std::min(cell.border, ((0.5 * (sx + nx) - u) * dx + (0.5 * (sy + ny) - v) * dy) / length);
+    }
+  }
+  return cell;
+}
+
+// Colour of what glows at a heat of 0 (just dark) to 1.
+Color glow(double heat) {
+  const Color dark{0.018, 0.002, 0.001}, red{0.42, 0.018, 0.004}, orange{0.95, 0.17, 0.012}, gold{1.0, 0.55, 0.10};
+  if (heat < 0.35) return mixed(dark, red, smooth(0.0, 0.35, heat));
+  if (heat < 0.7) return mixed(red, orange, smooth(0.35, 0.7, heat));
+  return mixed(orange, gold, smooth(0.7, 1.0, heat));
+}
+
+class Crust {
+ public:
+  explicit Crust(const Lava& options) : m_options(options) {}
+
+  Color colorAt(double x, double y) const {
+    const std::uint64_t seed = m_options.seed;
+    const int n = m_options.plates;
+    const double wx = x + 0.34 / n * fractal(seed, 20, x, y, n, 4, 0.55);
+    const double wy = y + 0.34 / n * fractal(seed, 30, x, y, n, 4, 0.55);
+    const Cell plate = cellAt(seed, 1, wx, wy, n), piece = cellAt(seed, 5, wx, wy, 3 * n);
+
+    // How wide cracks are here: broad between plates, hair-fine within, closed in places.
+    const double strain = noise(seed, 40, x, y, 4) * 0.6 + noise(seed, 41, x, y, 9) * 0.4;
+    const double wide = 0.030 + 0.150 * smooth(0.35, 0.75, strain);
+    const double fine = 0.13 * smooth(0.55, 0.95, noise(seed, 42, x, y, 6));
+    const double seam = fine > 0.0 ? 1.0 - piece.border / fine : 0.0;
+    const double crack = std::max(1.0 - plate.border / wide, 0.5 * seam);
+
+    // Crust: near black, browner where it is young, with wrinkles that the light picks out.
+    const double e = 0.6 / m_options.size;
+    const double slopeX = height(x + e, y, plate.border) - height(x - e, y, plate.border);
+    const double slopeY = height(x, y + e, plate.border) - height(x, y - e, plate.border);
+    const double light = std::clamp(0.75 - 60.0 * (0.55 * slopeX + 0.8 * slopeY), 0.15, 2.6);
+    const Color old{0.030, 0.028, 0.030}, young{0.070, 0.044, 0.036};
+    Color color = mixed(old, young, 0.65 * plate.shade + 0.35 * noise(seed, 50, x, y, 12));
+    const double tone = light * (0.75 + 0.5 * noise(seed, 51, x, y, m_options.size / 2)) *
+                        (0.55 + 0.45 * smooth(0.0, 0.18, plate.border));
+    for (double& channel : color) channel *= tone;
+
+    // The rims of the plates are warm; in the open crack the melt is hottest in the middle.
+    const double rim = 0.30 * std::exp(-std::max(0.0, plate.border - wide) / 0.055) * smooth(0.3, 0.9, strain);
+    const double supply = 0.35 + 0.75 * smooth(0.3, 0.7, strain);
+    const double heat = crack > 0.0 ? 0.18 + 0.85 * std::pow(crack, 0.8) * supply : 0.0;
+    const double melt = smooth(0.0, 0.22, crack);
+    const Color warm = glow(std::min(1.0, rim));
+    for (std::size_t k = 0; k < 3; ++k) color[k] += warm[k] * (rim > 0.02 ? 1.0 : 0.0) * smooth(0.02, 0.1, rim);
+    const double flicker = 0.9 + 0.2 * noise(seed, 60, x, y, 64);
+    return mixed(color, glow(std::min(1.0, heat * flicker)), melt);
+  }
+
+ private:
+  // Of the crust: swollen plates with ropes along them and a rough skin; in the units of the slopes' factor.
+  double height(double x, double y, double border) const {
+    const std::uint64_t seed = m_options.seed;
+    const int n = m_options.plates;
+    const double bend = fractal(seed, 70, x, y, n, 2, 0.5);
+    const double ropes = noise(seed, 74, x + 0.10 * bend, y + 0.10 * bend, 5 * n);
+    const double skin = fractal(seed, 80, x, y, 8 * n, 2, 0.6);
+    return 0.010 * ropes + 0.006 * skin + 0.012 * smooth(0.0, 0.3, border);
+  }
+
+  Lava m_options;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> makeLava(const Lava& options) {
+  const Crust crust(options);
+  const double step = 1.0 / (double(options.size) * options.samples);
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(std::size_t(options.size) * options.size * 3);
+  for (int row = 0; row < options.size; ++row) {
+    for (int column = 0; column < options.size; ++column) {
+      Color sum{};
+      for (int j = 0; j < options.samples; ++j) {
+        for (int i = 0; i < options.samples; ++i) {
+          const Color color = crust.colorAt((column * options.samples + i + 0.5) * step,
+                                            (row * options.samples + j + 0.5) * step);
+          for (std::size_t k = 0; k < 3; ++k) sum[k] += color[k];
+        }
+      }
+      for (const double channel : sum)
+        pixels.push_back(std::uint8_t(255.0 * encoded(channel / (options.samples * options.samples)) + 0.5));
+    }
+  }
+  return pixels;
+}
+
+}  // namespace fluidtex::exemplars

@@ -1,0 +1,29 @@
+// Hashes, periodic noise and colours, for images made by rule.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace fluidtex::exemplars {
+
+using Color = std::array<double, 3>;  // linear RGB
+
+// 0..1, another one for each set of arguments.
+double random(std::uint64_t seed, std::uint64_t a, std::uint64_t b, std::uint64_t c);
+
+// 0 below `low`, 1 above `high`, smooth between.
+double smooth(double low, double high, double x);
+
+double mixed(double a, double b, double t);
+Color mixed(const Color& a, const Color& b, double t);
+
+// i modulo n, from 0.
+int wrapped(int i, int n);
+
+// Value noise with `cells` lattice cells across the unit square, periodic; 0..1.
+double noise(std::uint64_t seed, std::uint64_t stream, double x, double y, int cells);
+
+// sRGB of a linear value, IEC 61966-2-1; cut to 0..1.
+double encoded(double linear);
+
+}  // namespace fluidtex::exemplars
