@@ -12,8 +12,8 @@ namespace fluidtex::sim {
 
 // A source on the grid.
 struct SourceGrids {
-  FloatGrid::Ptr phi;  // the liquid that is always there
-  Vec3d speed{0.0};    // m/s
+  FloatGrid::Ptr phi;        // the liquid that is always there
+  Vec3d speed{0.0};          // m/s
   double temperature = 0.0;  // K
   std::array<FloatGrid::Ptr, 3>
       velocity{};  // active at all faces of its cells; null where it only keeps full

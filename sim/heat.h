@@ -8,8 +8,8 @@
 
 namespace fluidtex::sim {
 
-// Viscosity (Pa s) of a liquid at a temperature: `viscosity` at the law's reference temperature, changed as the
-// law says, and at most the solid's; the solid's below the solidus.
+// Viscosity (Pa s) of a liquid at a temperature: `viscosity` at the law's reference temperature, changed as
+// the law says, and at most the solid's; the solid's below the solidus.
 double viscosityAt(const ViscosityLaw& law, double viscosity, double temperature);
 
 // The same for every value of a grid.
@@ -37,7 +37,7 @@ FloatGrid::Ptr advectTemperature(const FloatGrid& from, const Velocity& velocity
 // and loss to walls, for dt seconds; implicit, the radiation linearised about the temperature before, so that
 // no dt is too long and nothing gets colder than the coldest around it. False where the solve does not
 // converge.
-[[nodiscard]] bool conductHeat(FloatGrid& temperature, const FloatGrid& phi, const SolidField& solid, double dt,
-                               double density, const HeatOptions& heat);
+[[nodiscard]] bool conductHeat(FloatGrid& temperature, const FloatGrid& phi, const SolidField& solid,
+                               double dt, double density, const HeatOptions& heat);
 
 }  // namespace fluidtex::sim

@@ -193,11 +193,12 @@ std::shared_ptr<const SolidField> Solids::at(double t, const std::vector<std::si
     field.sides = m_options.sides;
     if (std::any_of(solids.begin(), solids.end(), [](const Placed& solid) { return solid.pose.moving(); }))
       addSpeeds(field, solids);
-    const bool grip = std::any_of(m_walls.begin(), m_walls.end(), grips) ||
-                      std::any_of(set.begin(), set.end(),
-                                  [&](std::size_t i) { return grips(m_options.solids[i].wall); });
+    const bool grip =
+        std::any_of(m_walls.begin(), m_walls.end(), grips) ||
+        std::any_of(set.begin(), set.end(), [&](std::size_t i) { return grips(m_options.solids[i].wall); });
     if (grip)
-      setWalls(field, [&](const Vec3d& x) -> const Wall& { return nearestWall(solids, x); }, distance);
+      setWalls(
+          field, [&](const Vec3d& x) -> const Wall& { return nearestWall(solids, x); }, distance);
     m_cached = std::make_shared<SolidField>(std::move(field));
     m_cachedSet = solids;
   }

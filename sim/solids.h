@@ -40,12 +40,12 @@ struct SolidField {
   // Velocity of faces where it is given, m/s, active there, else kNotGiven: the pressure has no say there.
   // Null where there are none.
   openvdb::FloatGrid::Ptr givenU, givenV, givenW;
-  // What viscous liquid meets at the solids' surfaces (see sim/walls.h). Slip length in metres at cell centres
-  // within 3 voxels of a surface: 0 where liquid sticks, infinite where it slips freely; null where it does
-  // so everywhere.
+  // What viscous liquid meets at the solids' surfaces (see sim/walls.h). Slip length in metres at cell
+  // centres within 3 voxels of a surface: 0 where liquid sticks, infinite where it slips freely; null where
+  // it does so everywhere.
   openvdb::FloatGrid::Ptr slipLength;
-  // Velocity of the surfaces along themselves, on top of that of the solids: u, v, w at faces, m/s; null where
-  // none slides.
+  // Velocity of the surfaces along themselves, on top of that of the solids: u, v, w at faces, m/s; null
+  // where none slides.
   std::array<openvdb::FloatGrid::Ptr, 3> slide;
 };
 
@@ -71,8 +71,8 @@ class Solids {
   // Signed distance at world position x to the active solids and the domain's walls, metres, negative inside.
   double distance(const Vec3d& x, double t) const;
 
-  // Distances, open faces and speeds and walls at time t; kept, and made anew only when the set has changed or a solid
-  // has moved since the last call.
+  // Distances, open faces and speeds and walls at time t; kept, and made anew only when the set has changed
+  // or a solid has moved since the last call.
   std::shared_ptr<const SolidField> at(double t) { return at(t, active(t)); }
   // The same of a given set of solids, at their places of time t.
   std::shared_ptr<const SolidField> at(double t, const std::vector<std::size_t>& set);
@@ -93,7 +93,7 @@ class Solids {
   void addSpeeds(SolidField& field, const std::vector<Placed>& solids) const;
 
   Options m_options;
-  std::array<Wall, 6> m_walls;  // of the domain
+  std::array<Wall, 6> m_walls;          // of the domain
   std::vector<ShapeDistance> m_shapes;  // one for each of Options::solids
   std::vector<Placed> m_cachedSet;
   std::shared_ptr<const SolidField> m_cached;

@@ -1,8 +1,8 @@
 #include "sim/solver.h"
 
 #include "sim/advect_velocity.h"
-#include "sim/heat.h"
 #include "sim/flows.h"
+#include "sim/heat.h"
 #include "sim/level_set.h"
 #include "sim/mac_grid.h"
 #include "sim/shapes.h"
@@ -24,8 +24,8 @@ constexpr int kMaxHalvings = 6;
 constexpr double kSameTime = 1e-6;
 
 Liquid liquidOf(const State& state) {
-  return {state.phi, {{state.u, state.v, state.w}}, state.markers, state.steps,
-          state.ahead, state.due, state.temperature};
+  return {state.phi,        {{state.u, state.v, state.w}}, state.markers, state.steps, state.ahead, state.due,
+          state.temperature};
 }
 
 // Copying a grid, or writing and reading it, can change the last bits of its transform, and with them all

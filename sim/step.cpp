@@ -127,13 +127,12 @@ void setSourceTemperature(FloatGrid& temperature, const RunningFlows& flows) {
 
 // Carries the temperature over into `next`, whose surface and leaves are known, and conducts it. False where
 // that fails.
-bool moveHeat(const Liquid& liquid, Liquid& next, const SolidField& solid, const RunningFlows& flows, double dt,
-              const Options& options) {
+bool moveHeat(const Liquid& liquid, Liquid& next, const SolidField& solid, const RunningFlows& flows,
+              double dt, const Options& options) {
   next.temperature = advectTemperature(*liquid.temperature, liquid.velocity,
                                        next.velocity.component[0]->constTree(), *next.phi, dt);
   setSourceTemperature(*next.temperature, flows);
-  const bool done =
-      conductHeat(*next.temperature, *next.phi, solid, dt, options.density, options.heat);
+  const bool done = conductHeat(*next.temperature, *next.phi, solid, dt, options.density, options.heat);
   extendTemperature(*next.temperature, *next.phi, *solid.phi, kTemperatureLayers);
   return done;
 }
@@ -251,8 +250,7 @@ void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, c
   const Velocity before = liquid.velocity;
   liquid.velocity = velocityFor(*liquid.phi, solid);
   if (liquid.temperature) {
-    liquid.temperature =
-        makeTemperature(*liquid.temperature, liquid.velocity.component[0]->constTree());
+    liquid.temperature = makeTemperature(*liquid.temperature, liquid.velocity.component[0]->constTree());
     heatBody(*liquid.temperature, distance, temperature);
   }
   const double h = voxelSize(liquid);
@@ -286,8 +284,8 @@ void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& af
   cutSolids(*liquid.phi, *before.phi, left);
 }
 
-bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options,
-            StepReport* report, const RunningFlows& flows) {
+bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options, StepReport* report,
+            const RunningFlows& flows) {
   FloatGrid& phi = *liquid.phi;
   applyFlows(phi, liquid.markers, flows);
   for (const Coord& origin : wetLeaves(phi, solid.cells, kMargin)) phi.tree().touchLeaf(origin);

@@ -23,7 +23,8 @@ struct Liquid {
   std::int64_t steps = 0;  // taken so far: the seed of the markers to come
   double ahead = 0.0;      // s: the velocity is that of so much later than phi
   double due = 0.0;        // m3: the volume that has been put in
-  // K at cell centres of the velocity's leaves, extended into air and solids; null where heat is not simulated.
+  // K at cell centres of the velocity's leaves, extended into air and solids; null where heat is not
+  // simulated.
   FloatGrid::Ptr temperature = nullptr;
 };
 
@@ -47,7 +48,8 @@ std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double
                            const Options& options, StepReport* report = nullptr,
                            const RunningFlows& flows = {});
 
-// Adds liquid where distance(x) < 0, of that velocity and temperature. The velocity of the whole is projected by settle().
+// Adds liquid where distance(x) < 0, of that velocity and temperature. The velocity of the whole is projected
+// by settle().
 void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, const Vec3d& velocity,
           double temperature, const SolidField& solid);
 

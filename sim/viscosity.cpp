@@ -40,17 +40,17 @@ void viscousForce(const ViscousSystem& system, const std::vector<double>& x, std
     }
   });
   for (int c = 0; c < 3; ++c) {
-    tbb::parallel_for(
-        Range(system.start[c].front(), system.start[c].back(), kGrain), [&](const Range& range) {
-          for (std::int32_t i = range.begin(); i < range.end(); ++i) {
-            double force = 0.0;
-            for (int slot = 0; slot < 6; ++slot) {
-              const std::int32_t s = system.samplesOf[i][slot];
-              if (s < samples) force += strainOf(system.samples[s], c, slot) * stress[s];
-            }
-            out[i] = force;
-          }
-        });
+    tbb::parallel_for(Range(system.start[c].front(), system.start[c].back(), kGrain),
+                      [&](const Range& range) {
+                        for (std::int32_t i = range.begin(); i < range.end(); ++i) {
+                          double force = 0.0;
+                          for (int slot = 0; slot < 6; ++slot) {
+                            const std::int32_t s = system.samplesOf[i][slot];
+                            if (s < samples) force += strainOf(system.samples[s], c, slot) * stress[s];
+                          }
+                          out[i] = force;
+                        }
+                      });
   }
 }
 

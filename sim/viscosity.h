@@ -18,11 +18,12 @@ struct ViscosityOptions {
 };
 
 // Whether a viscosity (Pa s) is one that ViscosityOptions::negligible speaks of.
-bool isNegligible(double viscosity, double dt, double density, double h, const ViscosityOptions& options = {});
+bool isNegligible(double viscosity, double dt, double density, double h,
+                  const ViscosityOptions& options = {});
 
 struct ViscosityReport {
   bool converged = true;
-  bool skipped = false;    // it was negligible; nothing was touched
+  bool skipped = false;  // it was negligible; nothing was touched
   int iterations = 0;
   double residual = 0.0;   // relative 2-norm at the end
   std::int64_t faces = 0;  // unknowns
@@ -35,8 +36,8 @@ struct ViscosityField {
   const FloatGrid* variable = nullptr;  // in place of the constant where given
 };
 
-// Replaces u, v, w (m/s) in the liquid by the solution of  density (u - u_before) / dt = div(viscosity (grad u +
-// grad u^T)), implicit in time, so that any dt is stable; the whole stress, which couples the three
+// Replaces u, v, w (m/s) in the liquid by the solution of  density (u - u_before) / dt = div(viscosity (grad
+// u + grad u^T)), implicit in time, so that any dt is stable; the whole stress, which couples the three
 // components. No stress at the surface. At solids the component along the solid's normal is the solid's, and
 // those along it follow SolidField::slipLength and slide. Read and written at faces beside a cell with phi <
 // 0, and at faces in solids next to them, which get the solid's velocity. phi in metres, extended into
@@ -46,8 +47,9 @@ struct ViscosityField {
 //
 // Source: Batty and Bridson, "Accurate viscous free surfaces for buckling, coiling, and rotating liquids",
 // 2008.
-[[nodiscard]] ViscosityReport applyViscosity(Velocity& velocity, const FloatGrid& phi, const SolidField& solid,
-                                             double dt, double density, const ViscosityField& viscosity,
+[[nodiscard]] ViscosityReport applyViscosity(Velocity& velocity, const FloatGrid& phi,
+                                             const SolidField& solid, double dt, double density,
+                                             const ViscosityField& viscosity,
                                              const ViscosityOptions& options = {});
 
 }  // namespace fluidtex::sim

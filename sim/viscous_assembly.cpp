@@ -1,9 +1,10 @@
 // The viscous energy of a liquid from its grids: Batty and Bridson, "Accurate viscous free surfaces for
 // buckling, coiling, and rotating liquids", 2008. Departures:
 // - Only faces beside a liquid cell are unknown. A strain that would need another face is left out: that face
-//   would have no mass and give way until the strain is gone. What mass there is around such a face goes to its
-//   unknown neighbours, so that a film's weight is whole.
-// - Walls lie where the solid's distance has its zero, not at faces: a difference that reaches into a solid is
+//   would have no mass and give way until the strain is gone. What mass there is around such a face goes to
+//   its unknown neighbours, so that a film's weight is whole.
+// - Walls lie where the solid's distance has its zero, not at faces: a difference that reaches into a solid
+// is
 //   taken over the distance to the wall, and volumes end there. For walls along an axis this is second order.
 #include "sim/viscous_system.h"
 
@@ -183,11 +184,11 @@ void gatherMass(const FaceFields& fields, ViscousSystem& system) {
   }
 }
 
-// The factor of a difference between an unknown and a given face, depths in cells: what it takes for the wall's
-// drag to be that of a linear profile which is 0 a slip length behind the wall, on a sample of that volume.
+// The factor of a difference between an unknown and a given face, depths in cells: what it takes for the
+// wall's drag to be that of a linear profile which is 0 a slip length behind the wall, on a sample of that
+// volume.
 float reachFactor(float unknownDistance, float givenDistance, float slip) {
-  const float reach =
-      std::clamp(unknownDistance / (unknownDistance - givenDistance), kMinReach, 1.0f);
+  const float reach = std::clamp(unknownDistance / (unknownDistance - givenDistance), kMinReach, 1.0f);
   return 1.0f / std::sqrt(reach * (reach + slip));
 }
 
@@ -282,8 +283,9 @@ void gatherSamples(const Sampler& sampler, ViscousSystem& system) {
 
 }  // namespace
 
-ViscousSystem viscousSystem(const Velocity& velocity, const FloatGrid& phi, const SolidField& solid, double dt,
-                            double density, const ViscosityField& viscosity, std::vector<double>& before) {
+ViscousSystem viscousSystem(const Velocity& velocity, const FloatGrid& phi, const SolidField& solid,
+                            double dt, double density, const ViscosityField& viscosity,
+                            std::vector<double>& before) {
   ViscousSystem system;
   system.table = makeLeafTable(velocity.component[0]->constTree());
   {

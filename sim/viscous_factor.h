@@ -27,8 +27,8 @@ class ViscousFactor {
   std::unique_ptr<Matrix> m_matrix;
 };
 
-// The unknowns of parts in which no 3 x 3 x 3 cells of liquid fit, and of two cells around them: sheets, threads
-// and drops that coarser grids do not see.
+// The unknowns of parts in which no 3 x 3 x 3 cells of liquid fit, and of two cells around them: sheets,
+// threads and drops that coarser grids do not see.
 std::vector<std::int32_t> facesOfThinParts(const ViscousSystem& system);
 
 }  // namespace fluidtex::sim

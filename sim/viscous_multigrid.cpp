@@ -1,8 +1,8 @@
 // Gauss-Seidel sweeps that carry the strains along: a face sees its residual through its six samples, and
-// changes them at once. Faces of one component and one parity of i + j + k share no sample, so each such group
-// is swept in parallel. Coarse levels have the same form with cells twice as large: masses and weights are
-// summed up, not Galerkin's products. The coarsest is factored. So are, on the finest, thin parts: a sheet of
-// one or two cells bends almost without strain, in ways that no coarser grid can follow.
+// changes them at once. Faces of one component and one parity of i + j + k share no sample, so each such
+// group is swept in parallel. Coarse levels have the same form with cells twice as large: masses and weights
+// are summed up, not Galerkin's products. The coarsest is factored. So are, on the finest, thin parts: a
+// sheet of one or two cells bends almost without strain, in ways that no coarser grid can follow.
 #include "sim/viscous_multigrid.h"
 
 #include "sim/viscous_factor.h"
@@ -175,9 +175,8 @@ ViscousSystem coarsen(const ViscousSystem& fine, Transfer& transfer) {
     };
     for (std::int32_t s = fine.typeStart[t]; s < fine.typeStart[t + 1]; ++s) {
       const StrainSample& sample = fine.samples[s];
-      const bool free = std::all_of(sample.face.begin(), sample.face.end(), [&](std::int32_t f) {
-        return f < fine.unknowns || f == fine.nowhere();
-      });
+      const bool free = std::all_of(sample.face.begin(), sample.face.end(),
+                                    [&](std::int32_t f) { return f < fine.unknowns || f == fine.nowhere(); });
       if (!free) continue;  // part of the anchors
       const Coord at = fine.coord[sample.face[t < 3 ? 0 : 1]];
       Coord base(at[0] >> 1, at[1] >> 1, at[2] >> 1);
@@ -220,9 +219,9 @@ struct ViscousMultigrid::Level {
   const ViscousSystem& system;  // `own`, or the caller's
   Transfer transfer;            // to the next level
   std::vector<float> inverseDiagonal;
-  std::vector<float> x, b;     // faces + 1 values, those that are not unknown 0
-  std::vector<float> strain;   // samples + 1 values
-  std::vector<float> r;        // #unknowns
+  std::vector<float> x, b;                // faces + 1 values, those that are not unknown 0
+  std::vector<float> strain;              // samples + 1 values
+  std::vector<float> r;                   // #unknowns
   std::unique_ptr<ViscousFactor> factor;  // of all faces of the coarsest level, of thin parts on the finest
 
   explicit Level(const ViscousSystem& finest) : system(finest) { prepare(); }
@@ -296,9 +295,8 @@ struct ViscousMultigrid::Level {
   void solveFactored() {
     const auto& faces = factor->faces();
     std::vector<double> rest(faces.size());
-    tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t n) {
-      rest[n] = residual(faces[n], componentOf(system, faces[n]));
-    });
+    tbb::parallel_for(std::size_t{0}, faces.size(),
+                      [&](std::size_t n) { rest[n] = residual(faces[n], componentOf(system, faces[n])); });
     factor->solve(rest);
     for (std::size_t n = 0; n < faces.size(); ++n) x[faces[n]] += static_cast<float>(rest[n]);
     updateStrain();

@@ -1,9 +1,10 @@
 // The viscous energy of a liquid on a staggered grid, as a list of strains, and its minimisation.
 //
-// Minimised over the velocities x of the liquid's faces:  sum of mass (x - before)^2 / 2 + sum over samples of
-// weight e^2 / 2,  e = a (x[face1] - x[face0]) + b (x[face3] - x[face2]).  A sample is one entry of the strain
-// at one place: on the diagonal (at a cell's centre, two faces) or off it (at a cell's edge, four faces).
-// Differences are formed before they are weighted, so that a translation has no strain to the last bit.
+// Minimised over the velocities x of the liquid's faces:  sum of mass (x - before)^2 / 2 + sum over samples
+// of weight e^2 / 2,  e = a (x[face1] - x[face0]) + b (x[face3] - x[face2]).  A sample is one entry of the
+// strain at one place: on the diagonal (at a cell's centre, two faces) or off it (at a cell's edge, four
+// faces). Differences are formed before they are weighted, so that a translation has no strain to the last
+// bit.
 #pragma once
 
 #include "sim/leaf_table.h"
@@ -39,14 +40,14 @@ struct ViscousSystem {
   // i + j + k. Then faces of solids, whose values are given.
   std::int32_t unknowns = 0, faces = 0;
   std::vector<Coord> coord;  // #faces
-  // Start of the faces of component c in leaf n with even (0) and odd (1) i + j + k, at [c][2 n + parity]; one
-  // more entry at the end.
+  // Start of the faces of component c in leaf n with even (0) and odd (1) i + j + k, at [c][2 n + parity];
+  // one more entry at the end.
   std::array<std::vector<std::int32_t>, 3> start;
 
-  std::vector<StrainSample> samples;                      // of one type after the other
-  std::array<std::int32_t, kStrains + 1> typeStart{};     // into samples
-  std::vector<FaceSamples> samplesOf;                     // #unknowns; samples.size() for none
-  std::vector<float> mass;                                // #unknowns
+  std::vector<StrainSample> samples;                   // of one type after the other
+  std::array<std::int32_t, kStrains + 1> typeStart{};  // into samples
+  std::vector<FaceSamples> samplesOf;                  // #unknowns; samples.size() for none
+  std::vector<float> mass;                             // #unknowns
 
   // A face beyond the last, whose value is 0.
   std::int32_t nowhere() const { return faces; }
@@ -72,8 +73,9 @@ void linkSamples(ViscousSystem& system);
 
 // The system of a liquid; `before` gets the velocity at all faces (nowhere() included). Lengths in cells,
 // weights relative to the mass of a full cell.
-ViscousSystem viscousSystem(const Velocity& velocity, const FloatGrid& phi, const SolidField& solid, double dt,
-                            double density, const ViscosityField& viscosity, std::vector<double>& before);
+ViscousSystem viscousSystem(const Velocity& velocity, const FloatGrid& phi, const SolidField& solid,
+                            double dt, double density, const ViscosityField& viscosity,
+                            std::vector<double>& before);
 
 // Solves from x = before; faces of solids keep their values.
 [[nodiscard]] ViscosityReport solveViscous(const ViscousSystem& system, std::vector<double>& x,

@@ -14,8 +14,7 @@ double lowerVolume(double m1, double m2, double m3, double alpha) {
   constexpr double kTiny = 1e-12;
   const double m12 = m1 + m2;
   if (alpha < m1) return alpha * alpha * alpha / std::max(6.0 * m1 * m2 * m3, kTiny);
-  if (alpha < m2)
-    return alpha * (alpha - m1) / (2.0 * m2 * m3) + m1 * m1 / std::max(6.0 * m2 * m3, kTiny);
+  if (alpha < m2) return alpha * (alpha - m1) / (2.0 * m2 * m3) + m1 * m1 / std::max(6.0 * m2 * m3, kTiny);
   const auto cut = [alpha](double m) { return m * m * (m - 3.0 * alpha); };
   if (alpha < std::min(m12, m3)) {
     return (alpha * alpha * (3.0 * m12 - alpha) + cut(m1) + cut(m2)) / std::max(6.0 * m1 * m2 * m3, kTiny);

@@ -22,8 +22,8 @@ void setWalls(SolidField& field, const std::function<const Wall&(const Vec3d&)>&
               const std::function<double(const Vec3d&)>& distance);
 
 // After constrainToSolids: gives closed faces in solids, those not in `valid`, the velocity that goes on from
-// the liquid's through the wall's at the surface, so that what is traced along a wall where liquid sticks comes
-// to rest there. Nothing where SolidField::slipLength is null.
+// the liquid's through the wall's at the surface, so that what is traced along a wall where liquid sticks
+// comes to rest there. Nothing where SolidField::slipLength is null.
 void stickToWalls(Velocity& velocity, const SolidField& solid, const FaceMasks& valid);
 
 }  // namespace fluidtex::sim

@@ -114,7 +114,8 @@ TEST_CASE("conductHeat: a cosine fades at the rate of its wave length", "[sim]")
 
 TEST_CASE("conductHeat: a well-stirred pool radiates as Stefan and Boltzmann say", "[sim]") {
   constexpr double kLevel = 0.5, kSigma = 5.670374419e-8;
-  // d(T^-3)/dt = 3 sigma / (depth density capacity), without surroundings and with a temperature even in depth.
+  // d(T^-3)/dt = 3 sigma / (depth density capacity), without surroundings and with a temperature even in
+  // depth.
   HeatOptions heat;
   heat.capacity = 1000.0;
   heat.conductivity = 1e9;

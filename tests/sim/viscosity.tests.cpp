@@ -120,8 +120,7 @@ TEST_CASE("negativeShare: is the volume below a plane in a cube", "[sim]") {
       const double z = (i % kSamples + 0.5) / kSamples - 0.5;
       inside += d + g[0] * x + g[1] * y + g[2] * z < 0.0;
     }
-    CHECK_THAT(negativeShare(d, g[0], g[1], g[2]),
-               WithinAbs(inside / std::pow(kSamples, 3.0), 0.01));
+    CHECK_THAT(negativeShare(d, g[0], g[1], g[2]), WithinAbs(inside / std::pow(kSamples, 3.0), 0.01));
   }
 }
 
@@ -135,9 +134,7 @@ TEST_CASE("applyViscosity: a translation is left as it is, to the last bit", "[s
 }
 
 TEST_CASE("applyViscosity: rigid rotation has no strain", "[sim]") {
-  const Field spin = [](const Vec3d& x) {
-    return Vec3d(1.0, 2.0, -3.0).cross(x - Vec3d(0.5, 0.4, 0.6));
-  };
+  const Field spin = [](const Vec3d& x) { return Vec3d(1.0, 2.0, -3.0).cross(x - Vec3d(0.5, 0.4, 0.6)); };
   for (const double number : {1.0, 1e3, 1e5}) {
     Tank tank(tankOf(24), dropDistance, spin);
     CHECK(tank.apply(number).converged);
@@ -179,7 +176,8 @@ TEST_CASE("applyViscosity: a free drop keeps its momentum and its spin", "[sim]"
 TEST_CASE("applyViscosity: between moving plates the profile is a straight line", "[sim]") {
   const Channel channel(8, 2.0);
   const Field profile = [](const Vec3d& x) { return Vec3d(std::clamp(x[2], 0.0, 1.0), 0.0, 0.0); };
-  Tank tank(channel.options, [](const Vec3d&) { return -1.0; }, [](const Vec3d&) { return Vec3d(0.0); });
+  Tank tank(
+      channel.options, [](const Vec3d&) { return -1.0; }, [](const Vec3d&) { return Vec3d(0.0); });
   tank.setWallVelocity(profile);
   CHECK(tank.apply(1e6).converged);
   CHECK(tank.error(profile, everywhere) < 1e-4);
@@ -194,7 +192,8 @@ TEST_CASE("applyViscosity: a plate between the faces is where its distance says"
     const Field profile = [=](const Vec3d& x) {
       return Vec3d(std::clamp((x[2] - height) / (1.0 - height), 0.0, 1.0), 0.0, 0.0);
     };
-    Tank tank(channel.options, [](const Vec3d&) { return -1.0; }, [](const Vec3d&) { return Vec3d(0.0); });
+    Tank tank(
+        channel.options, [](const Vec3d&) { return -1.0; }, [](const Vec3d&) { return Vec3d(0.0); });
     tank.setWallVelocity(profile);
     CHECK(tank.apply(1e6, {.tolerance = 1e-10}).converged);
     // Exact, but for cells that have plate and side wall at once: there the solid's distance has a crease.
@@ -209,7 +208,8 @@ TEST_CASE("applyViscosity: with a slip length the profile starts that far behind
   const Field profile = [](const Vec3d& x) {
     return Vec3d((std::min(x[2], 1.0) + kSlip) / (1.0 + kSlip), 0.0, 0.0);
   };
-  Tank tank(channel.options, [](const Vec3d&) { return -1.0; }, [](const Vec3d&) { return Vec3d(0.0); });
+  Tank tank(
+      channel.options, [](const Vec3d&) { return -1.0; }, [](const Vec3d&) { return Vec3d(0.0); });
   tank.setWallVelocity([&](const Vec3d& x) { return x[2] < 0.0 ? Vec3d(0.0) : profile(x); });
   CHECK(tank.apply(1e6).converged);
   CHECK(tank.error(profile, everywhere) < 1e-3);
@@ -226,7 +226,8 @@ TEST_CASE("applyViscosity: Poiseuille flow is right to h^2 / 8", "[sim]") {
       return Vec3d(0.5 * z * (1.0 - z), 0.0, 0.0);
     };
     const double h = channel.options.voxelSize(), dt = number * h * h;
-    Tank tank(channel.options, [](const Vec3d&) { return -1.0; }, [&](const Vec3d&) { return Vec3d(dt, 0, 0); });
+    Tank tank(
+        channel.options, [](const Vec3d&) { return -1.0; }, [&](const Vec3d&) { return Vec3d(dt, 0, 0); });
     tank.setWallVelocity(profile);
     CHECK(tank.apply(number, {.tolerance = 1e-10}).converged);
     errors.push_back(tank.error(profile, [](const Vec3d& x) { return std::abs(x[0] - 1.5) < 0.2; }));
@@ -243,8 +244,9 @@ TEST_CASE("applyViscosity: a film's profile is right wherever its surface lies",
       const double z = std::clamp(x[2], 0.0, depth);
       return Vec3d(z * depth - 0.5 * z * z, 0.0, 0.0);
     };
-    Tank tank(channel.options, [=](const Vec3d& x) { return x[2] - depth; },
-              [&](const Vec3d&) { return Vec3d(dt, 0, 0); });
+    Tank tank(
+        channel.options, [=](const Vec3d& x) { return x[2] - depth; },
+        [&](const Vec3d&) { return Vec3d(dt, 0, 0); });
     tank.setWallVelocity(profile);
     CHECK(tank.apply(number, {.tolerance = 1e-9}).converged);
     // Half of the error is that of any wall, h^2 / 8.
@@ -270,7 +272,8 @@ TEST_CASE("applyViscosity: between a turning and a resting sphere", "[sim]") {
     shell.parts = {Shape{Box{Vec3d(-1.0), Vec3d(2.0)}}, Shape{Sphere{Vec3d(0.5), kOuter}}};
     options.solids[1].shape.kind = shell;
     for (Solid& solid : options.solids) solid.wall.kind = WallKind::noSlip;
-    Tank tank(options, [](const Vec3d&) { return -1.0; }, [](const Vec3d&) { return Vec3d(0.0); });
+    Tank tank(
+        options, [](const Vec3d&) { return -1.0; }, [](const Vec3d&) { return Vec3d(0.0); });
     tank.setWallVelocity(exact);
     CHECK(tank.apply(1e7).converged);
     errors.push_back(tank.error(exact, everywhere));
@@ -317,7 +320,8 @@ TEST_CASE("applyViscosity: variable viscosity bends the profile where it is thin
     const double z = std::clamp(x[2], 0.0, 1.0);
     return Vec3d(z < 0.5 ? 0.4 * z : 0.2 + 1.6 * (z - 0.5), 0.0, 0.0);
   };
-  Tank tank(channel.options, [](const Vec3d&) { return -1.0; }, [](const Vec3d&) { return Vec3d(0.0); });
+  Tank tank(
+      channel.options, [](const Vec3d&) { return -1.0; }, [](const Vec3d&) { return Vec3d(0.0); });
   tank.setWallVelocity(profile);
   FloatGrid::Ptr viscosity = tank.phi->deepCopy();
   for (auto it = viscosity->beginValueOn(); it; ++it)

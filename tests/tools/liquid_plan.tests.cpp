@@ -15,8 +15,10 @@ sim::Options twoBodies(int resolution) {
   options.resolution = resolution;
   options.liquid.push_back({{sim::Box{{-0.1, 0.0, 0.0}, {0.45, 0.9, 0.2}}}});
   options.liquid.push_back({{sim::Sphere{{0.6, 0.4, 0.3}, 0.17}}, {}, 0.5});
-  options.solids.push_back({"post", {sim::Sphere{{0.3, 0.3, 0.1}, 0.11}}});
-  options.solids.push_back({"later", {sim::Sphere{{0.3, 0.6, 0.1}, 0.11}}, 0.5});
+  options.solids.resize(2);
+  options.solids[0].shape = {sim::Sphere{{0.3, 0.3, 0.1}, 0.11}};
+  options.solids[1].shape = {sim::Sphere{{0.3, 0.6, 0.1}, 0.11}};
+  options.solids[1].from = 0.5;
   return options;
 }
 

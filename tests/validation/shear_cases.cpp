@@ -1,6 +1,6 @@
 // Section C.5 of the reference: shear flows between walls. Nothing in them depends on the pressure, so the
-// viscosity kernel is measured alone, in a slab one leaf thick with slippery sides. Ends of a channel are walls
-// that move with the exact profile; figures are taken in its middle.
+// viscosity kernel is measured alone, in a slab one leaf thick with slippery sides. Ends of a channel are
+// walls that move with the exact profile; figures are taken in its middle.
 #include "tests/validation/viscous_cases.h"
 
 #include "sim/viscosity.h"
@@ -22,7 +22,8 @@ using Field = std::function<Vec3d(const Vec3d&)>;
 class Basin {
  public:
   explicit Basin(const sim::Options& options)
-      : m_solid(*sim::Solids(options).at(0.0)), m_phi(sim::makePhi(options.voxelSize(), 6 * options.voxelSize())) {
+      : m_solid(*sim::Solids(options).at(0.0)),
+        m_phi(sim::makePhi(options.voxelSize(), 6 * options.voxelSize())) {
     for (int i = -8; i < m_solid.cells[0] + 8; i += 8) {
       for (int j = -8; j < m_solid.cells[1] + 8; j += 8) {
         for (int k = -8; k < m_solid.cells[2] + 8; k += 8) {
@@ -44,7 +45,8 @@ class Basin {
   }
 
   void push(double change) {
-    for (auto it = velocity.component[0]->beginValueOn(); it; ++it) it.setValue(static_cast<float>(*it + change));
+    for (auto it = velocity.component[0]->beginValueOn(); it; ++it)
+      it.setValue(static_cast<float>(*it + change));
   }
 
   bool apply(double kinematicViscosity, double dt) {
@@ -138,7 +140,8 @@ Result couetteStart(int resolution, const Progress& progress) {
   };
   Basin basin(channel(resolution));
   constexpr double kEnd = 0.05;
-  const int steps = 4 * resolution;  // dt / h^2 grows with the resolution: first order in time, as one substep
+  const int steps =
+      4 * resolution;  // dt / h^2 grows with the resolution: first order in time, as one substep
   for (int n = 0; n < steps; ++n) {
     basin.setWalls(along(profile(kEnd * (n + 1) / steps)));
     if (!basin.apply(1.0, kEnd / steps)) return {{failed("couette", resolution)}, {}};
@@ -152,8 +155,24 @@ Result couetteStart(int resolution, const Progress& progress) {
     distance = off;
     middle = value - (profile(kEnd)(x[1]) - profile(kEnd)(0.5));
   });
-  return {{{"couette", resolution, "error of u, max, m/s", errorInMiddle(basin, profile(kEnd)), {}, {}, false, {}, 0.0},
-           {"couette", resolution, "u in the middle at 0.05 s, m/s", middle, {}, {}, false, {{0.113844, "series"}}, 0.0}},
+  return {{{"couette",
+            resolution,
+            "error of u, max, m/s",
+            errorInMiddle(basin, profile(kEnd)),
+            {},
+            {},
+            false,
+            {},
+            0.0},
+           {"couette",
+            resolution,
+            "u in the middle at 0.05 s, m/s",
+            middle,
+            {},
+            {},
+            false,
+            {{0.113844, "series"}},
+            0.0}},
           {}};
 }
 
@@ -210,12 +229,27 @@ std::vector<Case> shearCases() {
   const auto order = [](const char* measure, std::optional<double> must) {
     return [=](const std::vector<Row>& rows) { return orderRows(rows, measure, must, {}); };
   };
-  return {{"poiseuille", "viscous", "Flow between plates", {8, 16, 32, 64}, {8, 16, 32}, poiseuille,
+  return {{"poiseuille",
+           "viscous",
+           "Flow between plates",
+           {8, 16, 32, 64},
+           {8, 16, 32},
+           poiseuille,
            order("error of u, max, m/s", 1.9)},
-          {"couette", "viscous", "A plate begins to move", {8, 16, 32, 64}, {8, 16}, couetteStart,
+          {"couette",
+           "viscous",
+           "A plate begins to move",
+           {8, 16, 32, 64},
+           {8, 16},
+           couetteStart,
            order("error of u, max, m/s", {})},
-          {"cylinders", "viscous", "Flow between a turning and a resting cylinder", {16, 32, 64, 128}, {},
-           cylinders, order("error of u, mean, m/s", 1.9)}};
+          {"cylinders",
+           "viscous",
+           "Flow between a turning and a resting cylinder",
+           {16, 32, 64, 128},
+           {},
+           cylinders,
+           order("error of u, mean, m/s", 1.9)}};
 }
 
 }  // namespace fluidtex::validation

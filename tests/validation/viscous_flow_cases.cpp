@@ -80,7 +80,8 @@ Result cavity(int reynolds, CavityReference reference, int resolution, const Pro
   const sim::Wall still{.kind = sim::WallKind::noSlip};
   for (const DomainFace face : {DomainFace::xLow, DomainFace::xHigh, DomainFace::yLow})
     options.walls.push_back({face, still});
-  options.walls.push_back({DomainFace::yHigh, {.kind = sim::WallKind::noSlip, .velocity = Vec3d(1.0, 0.0, 0.0)}});
+  options.walls.push_back(
+      {DomainFace::yHigh, {.kind = sim::WallKind::noSlip, .velocity = Vec3d(1.0, 0.0, 0.0)}});
   sim::Solver solver(options);
   solver.next();
 
@@ -111,8 +112,15 @@ Result cavity(int reynolds, CavityReference reference, int resolution, const Pro
   const std::string test = fmt::format("cavity_{}", reynolds);
   const double must = reynolds < 1000 ? 1.0 : 2.0;
   const auto row = [&](const char* name, double value, double exact) {
-    Row r{test,  resolution, fmt::format("{}, error, %", name), 100.0 * (value / exact - 1.0), {}, 0.2, false,
-          {{exact, "converged, m/s"}}, 0.0};
+    Row r{test,
+          resolution,
+          fmt::format("{}, error, %", name),
+          100.0 * (value / exact - 1.0),
+          {},
+          0.2,
+          false,
+          {{exact, "converged, m/s"}},
+          0.0};
     if (resolution >= 128) r.must = must;
     return r;
   };
@@ -120,11 +128,17 @@ Result cavity(int reynolds, CavityReference reference, int resolution, const Pro
   const auto grid = solver.state().u->getConstUnsafeAccessor();
   for (int j = 0; j < resolution; ++j)
     line.points.push_back({(j + 0.5) / resolution, grid.getValue(Coord(middle, j, 4))});
-  return {{row("least u", u, reference.uMin), row("most v", extremum(false, 1.0), reference.vMax),
+  return {{row("least u", u, reference.uMin),
+           row("most v", extremum(false, 1.0), reference.vMax),
            row("least v", extremum(false, -1.0), reference.vMin),
            {test, resolution, "time until steady, s", frames / options.frameRate, {}, {}, false, {}, 0.0}},
-          {{fmt::format("{}_{}", test, resolution), fmt::format("Driven cavity, Re {}: u on the middle line", reynolds),
-            "y (m)", "u (m/s)", false, false, {std::move(line)}}}};
+          {{fmt::format("{}_{}", test, resolution),
+            fmt::format("Driven cavity, Re {}: u on the middle line", reynolds),
+            "y (m)",
+            "u (m/s)",
+            false,
+            false,
+            {std::move(line)}}}};
 }
 
 // A disc that turns freely, or flies: friction must not feel it.
@@ -176,19 +190,28 @@ Result spinningDisc(int resolution, const Progress& progress) {
 
 std::vector<Case> viscousFlowCases() {
   std::vector<Case> list = {
-      {"taylor_green_viscous", "viscous", "Taylor and Green's vortices with viscosity", {32, 64, 128}, {},
-       viscousVortices, {}},
+      {"taylor_green_viscous",
+       "viscous",
+       "Taylor and Green's vortices with viscosity",
+       {32, 64, 128},
+       {},
+       viscousVortices,
+       {}},
       {"spinning_disc", "viscous", "A very viscous disc turns once", {32, 64}, {}, spinningDisc, {}}};
   const std::pair<int, CavityReference> cavities[] = {{100, {-0.21404, 0.17957, -0.25379}},
                                                       {400, {-0.32870, 0.30380, -0.45405}},
                                                       {1000, {-0.38849, 0.37686, -0.52706}}};
   for (const auto& [reynolds, reference] : cavities) {
-    list.push_back({fmt::format("cavity_{}", reynolds), "viscous", fmt::format("Driven cavity at Re {}", reynolds),
-                    {32, 64, 128}, {},
-                    [reynolds = reynolds, reference = reference](int resolution, const Progress& progress) {
-                      return cavity(reynolds, reference, resolution, progress);
-                    },
-                    [](const std::vector<Row>& rows) { return orderRows(rows, "least u, error, %", 1.8, {}); }});
+    list.push_back(
+        {fmt::format("cavity_{}", reynolds),
+         "viscous",
+         fmt::format("Driven cavity at Re {}", reynolds),
+         {32, 64, 128},
+         {},
+         [reynolds = reynolds, reference = reference](int resolution, const Progress& progress) {
+           return cavity(reynolds, reference, resolution, progress);
+         },
+         [](const std::vector<Row>& rows) { return orderRows(rows, "least u, error, %", 1.8, {}); }});
   }
   return list;
 }
