@@ -26,8 +26,9 @@ inline constexpr float kSolidLayers = 2.99f;
 
 struct ReinitOptions {
   int iterations = 8;  // of 0.45 h each: how far from the surface the distance is made right
-  // Take the surface for smooth where phi is. Not where phi is still far from a distance on one side of it.
-  bool smooth = true;
+  // Take the surface for smooth, where phi is, within three cells of solids too. Not where phi is still the
+  // distance to a body's own faces at a wall.
+  bool smoothAtSolids = true;
 };
 
 // Turns phi into a signed distance near the surface, which itself stays where it is: cells next to it use its

@@ -126,7 +126,7 @@ struct LeafPlan {
 };
 
 LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h,
-                  bool smooth) {
+                  bool smoothAtSolids) {
   float block[kBlock] = {};
   gather(phi, origin, kHalo, block, true);
   float scratch[kLeafSize];
@@ -135,6 +135,8 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
   std::array<bool, kLeafSize> held;
   for (int i = 0; i < kLeafSize; ++i) held[i] = solid[i] < deepest;
   LeafPlan plan{nearCells(block), {}, {}};
+  const float nearest = *std::min_element(solid, solid + kLeafSize);
+  const bool smooth = smoothAtSolids || nearest > 2.9f * h;
   for (const CellDistance& cell : smooth ? surfaceDistances(phi, origin, h) : std::vector<CellDistance>{}) {
     if (held[cell.offset]) continue;
     held[cell.offset] = true;
@@ -191,7 +193,8 @@ void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, const ReinitOptions
   const auto leaves = leavesOf(phi.tree());
   std::vector<LeafPlan> plans(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    plans[n] = planLeaf(phi.constTree(), solidPhi.constTree(), leaves[n]->origin(), h, options.smooth);
+    plans[n] =
+        planLeaf(phi.constTree(), solidPhi.constTree(), leaves[n]->origin(), h, options.smoothAtSolids);
   });
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     for (const CellDistance& cell : plans[n].moved) leaves[n]->setValueOnly(cell.offset, h * cell.phi);
