@@ -144,9 +144,9 @@ void Solver::prepare() {
 
 // Pours what is due and takes over solids that come or go at the present time.
 void Solver::applyEvents() {
-  const double now = m_state.time;
+  const double now = m_state.time, before = liquidVolume(*m_state.phi, *m_solid);
   const auto solid = m_solids->at(now);
-  bool changed = m_state.frame == 0;
+  bool changed = m_state.frame == 0, measured = changed;
   Liquid liquid{m_state.phi->deepCopy(),
                 {{m_state.u, m_state.v, m_state.w}},
                 {},
@@ -156,6 +156,8 @@ void Solver::applyEvents() {
                 m_state.temperature};
   if (const auto active = m_solids->active(now); active != m_active) {
     changeSolids(liquid, *m_solid, *solid);
+    // A solid that goes takes no liquid with it; one that comes may.
+    measured = measured || !std::includes(m_active.begin(), m_active.end(), active.begin(), active.end());
     m_active = active;
     changed = true;
   }
@@ -171,16 +173,15 @@ void Solver::applyEvents() {
     pour(
         liquid, [&](const Vec3d& x) { return distance(x); }, body.velocity, body.temperature, *solid);
     m_state.poured[n] = true;
-    changed = true;
+    changed = measured = true;
   }
   if (!changed) return;
   // Up to the middle of the first step.
   const double first = longestStep(m_options, maxAbs(liquid.velocity), speedOf(*solid));
   const double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
-  const double before = liquidVolume(*m_state.phi, *m_solid);
   StepReport report;
   if (!settle(liquid, *solid, kick, m_options, &report, flows)) fail(now, 1.0 / m_options.frameRate, report);
-  liquid.due += liquidVolume(*liquid.phi, *solid) - before;
+  if (measured) liquid.due += liquidVolume(*liquid.phi, *solid) - before;
   store(m_state, std::move(liquid), m_options.voxelSize());
 }
 
