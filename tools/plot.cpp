@@ -56,7 +56,11 @@ std::string script(const Plot& plot, const std::filesystem::path& file) {
 
 }  // namespace
 
-void writePlot(const Plot& plot, const std::filesystem::path& file) {
+void writePlot(const Plot& whole, const std::filesystem::path& file) {
+  Plot plot = whole;
+  // A surface that is gone has no outline.
+  std::erase_if(plot.curves, [](const Curve& curve) { return curve.points.empty(); });
+  if (plot.curves.empty()) return;
   writeAtomically(file, [&](const std::filesystem::path& temporary) {
     FILE* gnuplot = popen("gnuplot", "w");
     if (gnuplot == nullptr) throw std::runtime_error("gnuplot could not be started");

@@ -30,7 +30,7 @@ double largestDivergence(const sim::Velocity& velocity, const Coord& cells) {
 
 }  // namespace
 
-AdvectionResult run(const AdvectionTest& test, int resolution, const Progress& progress, double sliceAt) {
+AdvectionResult run(const AdvectionTest& test, int resolution, const Progress& progress) {
   const double h = 1.0 / resolution;
   sim::Options options;
   options.size = Vec3d(test.width, test.height, test.slab ? sim::kLeafDim * h : 1.0);
@@ -54,7 +54,7 @@ AdvectionResult run(const AdvectionTest& test, int resolution, const Progress& p
   const Coord samples = test.slab ? Coord(10, 10, 2) : Coord(4);
   // A slab's measures are areas: of the layers between its first and last cell centres.
   const double unit = test.slab ? (sim::kLeafDim - 1) * h : 1.0;
-  const int slice = test.slab ? sim::kLeafDim / 2 : static_cast<int>(sliceAt * resolution);
+  const int slice = test.slab ? sim::kLeafDim / 2 : static_cast<int>(test.sliceAt * resolution);
 
   AdvectionResult result;
   result.steps = steps;

@@ -16,7 +16,8 @@ struct AdvectionTest {
   bool slab = true;
   double surface = 0.0;  // length of the exact outline (slab) or area of the surface
   double cfl = 1.0;
-  int turns = 1;  // how often the flow runs through
+  int turns = 1;          // how often the flow runs through
+  double sliceAt = 0.35;  // height of the outlines that a volume gives, metres
 };
 
 // Measures are areas for a slab, volumes else.
@@ -26,14 +27,13 @@ struct AdvectionResult {
   double farthest = 0.0, farthestBefore = 0.0;
   double divergence = 0.0;  // largest of the face velocities, times h over the greatest speed
   int steps = 0;
-  // Outlines in the middle of the slab, or at the height `sliceAt` of a volume.
+  // Outlines in the middle of the slab, or at the height AdvectionTest::sliceAt of a volume.
   std::vector<std::array<double, 2>> before, half, after;
 
   double volumeError() const { return volumeAfter / volumeBefore - 1.0; }
 };
 
 // `resolution`: cells to one metre.
-AdvectionResult run(const AdvectionTest& test, int resolution, const Progress& progress,
-                    double sliceAt = 0.35);
+AdvectionResult run(const AdvectionTest& test, int resolution, const Progress& progress);
 
 }  // namespace fluidtex::validation

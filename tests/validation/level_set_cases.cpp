@@ -97,6 +97,7 @@ Case zalesak(int turns) {
 
 Case zalesakSphere() {
   AdvectionTest test{slottedSphere(), slottedSphere(), rotation(), 1.0, 1.0, false, 0.3433};
+  test.sliceAt = 0.5;
   return advectionCase("zalesak_sphere", "A slotted sphere, one turn", test, {50, 100}, {},
                        {{100, {.volume = {1.0, 0.1, {}}}}});
 }
