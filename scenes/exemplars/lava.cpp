@@ -1,6 +1,6 @@
-// Plates are the cells of scattered sites (Worley, "A cellular texture basis function", 1996) in a space bent by
-// noise. The distance to the nearest border, against a width that varies from place to place, says how far a
-// crack is open; large plates are cracked once more, finely.
+// Plates are the cells of scattered sites (Worley, "A cellular texture basis function", 1996) in a space bent
+// by noise. The distance to the nearest border, against a width that varies from place to place, says how far
+// a crack is open; large plates are cracked once more, finely.
 #include "scenes/exemplars/lava.h"
 
 #include "scenes/exemplars/pattern.h"
@@ -12,7 +12,8 @@ namespace fluidtex::exemplars {
 namespace {
 
 // Octaves of noise about 0, each finer one weaker by `gain`.
-double fractal(std::uint64_t seed, std::uint64_t stream, double x, double y, int cells, int octaves, double gain) {
+double fractal(std::uint64_t seed, std::uint64_t stream, double x, double y, int cells, int octaves,
+               double gain) {
   double sum = 0.0, weight = 1.0;
   for (int octave = 0; octave < octaves; ++octave) {
     sum += weight * (noise(seed, stream + std::uint64_t(octave), x, y, cells) - 0.5);
@@ -65,7 +66,8 @@ Cell cellAt(std::uint64_t seed, std::uint64_t stream, double x, double y, int ce
 
 // Colour of what glows at a heat of 0 (just dark) to 1.
 Color glow(double heat) {
-  const Color dark{0.018, 0.002, 0.001}, red{0.42, 0.018, 0.004}, orange{0.95, 0.17, 0.012}, gold{1.0, 0.55, 0.10};
+  const Color dark{0.018, 0.002, 0.001}, red{0.42, 0.018, 0.004}, orange{0.95, 0.17, 0.012},
+      gold{1.0, 0.55, 0.10};
   if (heat < 0.35) return mixed(dark, red, smooth(0.0, 0.35, heat));
   if (heat < 0.7) return mixed(red, orange, smooth(0.35, 0.7, heat));
   return mixed(orange, gold, smooth(0.7, 1.0, heat));
@@ -101,12 +103,14 @@ class Crust {
     for (double& channel : color) channel *= tone;
 
     // The rims of the plates are warm; in the open crack the melt is hottest in the middle.
-    const double rim = 0.30 * std::exp(-std::max(0.0, plate.border - wide) / 0.055) * smooth(0.3, 0.9, strain);
+    const double rim =
+        0.30 * std::exp(-std::max(0.0, plate.border - wide) / 0.055) * smooth(0.3, 0.9, strain);
     const double supply = 0.35 + 0.75 * smooth(0.3, 0.7, strain);
     const double heat = crack > 0.0 ? 0.18 + 0.85 * std::pow(crack, 0.8) * supply : 0.0;
     const double melt = smooth(0.0, 0.22, crack);
     const Color warm = glow(std::min(1.0, rim));
-    for (std::size_t k = 0; k < 3; ++k) color[k] += warm[k] * (rim > 0.02 ? 1.0 : 0.0) * smooth(0.02, 0.1, rim);
+    for (std::size_t k = 0; k < 3; ++k)
+      color[k] += warm[k] * (rim > 0.02 ? 1.0 : 0.0) * smooth(0.02, 0.1, rim);
     const double flicker = 0.9 + 0.2 * noise(seed, 60, x, y, 64);
     return mixed(color, glow(std::min(1.0, heat * flicker)), melt);
   }
@@ -129,24 +133,7 @@ class Crust {
 
 std::vector<std::uint8_t> makeLava(const Lava& options) {
   const Crust crust(options);
-  const double step = 1.0 / (double(options.size) * options.samples);
-  std::vector<std::uint8_t> pixels;
-  pixels.reserve(std::size_t(options.size) * options.size * 3);
-  for (int row = 0; row < options.size; ++row) {
-    for (int column = 0; column < options.size; ++column) {
-      Color sum{};
-      for (int j = 0; j < options.samples; ++j) {
-        for (int i = 0; i < options.samples; ++i) {
-          const Color color = crust.colorAt((column * options.samples + i + 0.5) * step,
-                                            (row * options.samples + j + 0.5) * step);
-          for (std::size_t k = 0; k < 3; ++k) sum[k] += color[k];
-        }
-      }
-      for (const double channel : sum)
-        pixels.push_back(std::uint8_t(255.0 * encoded(channel / (options.samples * options.samples)) + 0.5));
-    }
-  }
-  return pixels;
+  return rendered(options.size, options.samples, [&](double x, double y) { return crust.colorAt(x, y); });
 }
 
 }  // namespace fluidtex::exemplars

@@ -32,8 +32,8 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder = argv[1];
   const fluidtex::exemplars::Scales scales;
   const fluidtex::exemplars::Lava lava;
-  const bool written =
-      write((folder / "green_scales.png").string(), scales.size, fluidtex::exemplars::makeGreenScales(scales)) &&
-      write((folder / "lava.png").string(), lava.size, fluidtex::exemplars::makeLava(lava));
+  const bool written = write((folder / "green_scales.png").string(), scales.size,
+                             fluidtex::exemplars::makeGreenScales(scales)) &&
+                       write((folder / "lava.png").string(), lava.size, fluidtex::exemplars::makeLava(lava));
   return written ? 0 : 2;
 }

@@ -50,4 +50,24 @@ double encoded(double linear) {
   return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
 }
 
+std::vector<std::uint8_t> rendered(int size, int samples, const std::function<Color(double, double)>& color) {
+  const double step = 1.0 / (double(size) * samples);
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(std::size_t(size) * size * 3);
+  for (int row = 0; row < size; ++row) {
+    for (int column = 0; column < size; ++column) {
+      Color sum{};
+      for (int j = 0; j < samples; ++j) {
+        for (int i = 0; i < samples; ++i) {
+          const Color part = color((column * samples + i + 0.5) * step, (row * samples + j + 0.5) * step);
+          for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
+        }
+      }
+      for (const double channel : sum)
+        pixels.push_back(std::uint8_t(255.0 * encoded(channel / (samples * samples)) + 0.5));
+    }
+  }
+  return pixels;
+}
+
 }  // namespace fluidtex::exemplars

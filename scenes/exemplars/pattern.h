@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <vector>
 
 namespace fluidtex::exemplars {
 
@@ -25,5 +27,9 @@ double noise(std::uint64_t seed, std::uint64_t stream, double x, double y, int c
 
 // sRGB of a linear value, IEC 61966-2-1; cut to 0..1.
 double encoded(double linear);
+
+// size x size pixels, sRGB, three bytes each, row by row from the top: the mean of samples x samples colours in each.
+// The image is the unit square, x to the right, y down.
+std::vector<std::uint8_t> rendered(int size, int samples, const std::function<Color(double x, double y)>& color);
 
 }  // namespace fluidtex::exemplars

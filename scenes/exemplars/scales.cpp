@@ -158,24 +158,7 @@ class Hide {
 
 std::vector<std::uint8_t> makeGreenScales(const Scales& options) {
   const Hide hide(options);
-  const double step = 1.0 / (double(options.size) * options.samples);
-  std::vector<std::uint8_t> pixels;
-  pixels.reserve(std::size_t(options.size) * options.size * 3);
-  for (int row = 0; row < options.size; ++row) {
-    for (int column = 0; column < options.size; ++column) {
-      Color sum{};
-      for (int j = 0; j < options.samples; ++j) {
-        for (int i = 0; i < options.samples; ++i) {
-          const Color color = hide.colorAt((column * options.samples + i + 0.5) * step,
-                                           (row * options.samples + j + 0.5) * step);
-          for (std::size_t k = 0; k < 3; ++k) sum[k] += color[k];
-        }
-      }
-      for (double channel : sum)
-        pixels.push_back(std::uint8_t(255.0 * encoded(channel / (options.samples * options.samples)) + 0.5));
-    }
-  }
-  return pixels;
+  return rendered(options.size, options.samples, [&](double x, double y) { return hide.colorAt(x, y); });
 }
 
 }  // namespace fluidtex::exemplars
