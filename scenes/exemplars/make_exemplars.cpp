@@ -1,8 +1,7 @@
 // make_exemplars FOLDER: writes the example images that ship with the scenes into FOLDER.
 #include "scenes/exemplars/lava.h"
 #include "scenes/exemplars/scales.h"
-
-#include <OpenImageIO/imageio.h>
+#include "scenes/write_png.h"
 
 #include <filesystem>
 #include <iostream>
@@ -12,12 +11,7 @@ namespace {
 bool write(const std::string& file, int size, const std::vector<std::uint8_t>& pixels) {
   OIIO::ImageSpec spec(size, size, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  const auto output = OIIO::ImageOutput::create(file);
-  if (!output || !output->open(file, spec) || !output->write_image(OIIO::TypeDesc::UINT8, pixels.data()) ||
-      !output->close()) {
-    std::cerr << file << ": cannot be written: " << (output ? output->geterror() : OIIO::geterror()) << "\n";
-    return false;
-  }
+  if (!fluidtex::scenes::writePng(file, spec, pixels.data())) return false;
   std::cout << file << "\n";
   return true;
 }

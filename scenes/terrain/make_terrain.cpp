@@ -1,8 +1,7 @@
 // make_terrain FOLDER: writes the height fields that ship with the scenes into FOLDER, as grey PNGs of 16
 // bits.
 #include "scenes/terrain/terrain.h"
-
-#include <OpenImageIO/imageio.h>
+#include "scenes/write_png.h"
 
 #include <filesystem>
 #include <iostream>
@@ -13,12 +12,7 @@ namespace {
 bool write(const fluidtex::terrain::Ground& ground, double high, const std::string& file) {
   const auto pixels = fluidtex::terrain::greyValues(ground, 0.0, high);
   const OIIO::ImageSpec spec(ground.width, ground.height, 1, OIIO::TypeDesc::UINT16);
-  const auto output = OIIO::ImageOutput::create(file);
-  if (!output || !output->open(file, spec) || !output->write_image(OIIO::TypeDesc::UINT16, pixels.data()) ||
-      !output->close()) {
-    std::cerr << file << ": cannot be written: " << (output ? output->geterror() : OIIO::geterror()) << "\n";
-    return false;
-  }
+  if (!fluidtex::scenes::writePng(file, spec, pixels.data())) return false;
   std::cout << file << ": " << ground.pixel << " m a pixel, white is " << high << " m\n";
   return true;
 }

@@ -39,18 +39,23 @@ double step(const Pixels& pixels, int size, int a, int b, bool columns) {
   return sum / (size * 3.0);
 }
 
+// The pixels of a square image that ships.
+Pixels shipped(const std::string& name, int size) {
+  const auto input = OIIO::ImageInput::open(FLUIDTEX_SOURCE_DIR "/scenes/exemplars/" + name);
+  REQUIRE(input);
+  REQUIRE(input->spec().width == size);
+  REQUIRE(input->spec().height == size);
+  REQUIRE(input->spec().nchannels == 3);
+  Pixels pixels(std::size_t(size) * size * 3);
+  REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, pixels.data()));
+  return pixels;
+}
+
 }  // namespace
 
 TEST_CASE("green scales: the image that ships is the generator's, pixel by pixel", "[scenes]") {
   const Scales options;
-  const auto input = OIIO::ImageInput::open(FLUIDTEX_SOURCE_DIR "/scenes/exemplars/green_scales.png");
-  REQUIRE(input);
-  REQUIRE(input->spec().width == options.size);
-  REQUIRE(input->spec().height == options.size);
-  REQUIRE(input->spec().nchannels == 3);
-  Pixels shipped(std::size_t(options.size) * options.size * 3);
-  REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, shipped.data()));
-  CHECK((shipped == makeGreenScales(options)));
+  CHECK((shipped("green_scales.png", options.size) == makeGreenScales(options)));
 }
 
 TEST_CASE("green scales: toroidal, the step over each edge is one of the usual steps", "[scenes]") {
@@ -91,13 +96,7 @@ TEST_CASE("green scales: green, neither black nor white, with light and dark", "
 
 TEST_CASE("lava: the image that ships is the generator's, pixel by pixel", "[scenes]") {
   const Lava options;
-  const auto input = OIIO::ImageInput::open(FLUIDTEX_SOURCE_DIR "/scenes/exemplars/lava.png");
-  REQUIRE(input);
-  REQUIRE(input->spec().width == options.size);
-  REQUIRE(input->spec().nchannels == 3);
-  Pixels shipped(std::size_t(options.size) * options.size * 3);
-  REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, shipped.data()));
-  CHECK((shipped == makeLava(options)));
+  CHECK((shipped("lava.png", options.size) == makeLava(options)));
 }
 
 TEST_CASE("lava: toroidal, mostly dark crust, and what glows is red before it is yellow", "[scenes]") {

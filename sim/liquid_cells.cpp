@@ -1,0 +1,162 @@
+#include "sim/liquid_cells.h"
+
+#include "sim/level_set.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace fluidtex::sim {
+
+namespace {
+
+using Range = tbb::blocked_range<int>;
+
+// A surface nearer to a cell's centre than this share of a cell counts as this far away, in the matrix and in
+// the velocity alike: bounds the matrix' entries.
+constexpr float kMinTheta = 0.01f;
+
+constexpr int kSide = kLeafDim + 2;  // a leaf's values and one more layer around them
+constexpr int kStride[3] = {kSide * kSide, kSide, 1};
+using Patch = std::array<float, kSide * kSide * kSide>;
+
+Coord localOf(int offset) {
+  return Coord(offset >> 6, (offset >> 3) & 7, offset & 7);
+}
+
+int patchIndex(int local) {
+  return ((local >> 6) + 1) * kStride[0] + (((local >> 3) & 7) + 1) * kStride[1] + (local & 7) + 1;
+}
+
+Patch patchOf(const FloatTree& tree, const Coord& origin) {
+  Patch patch{};
+  gather(tree, origin, 1, patch.data(), true);
+  return patch;
+}
+
+// Open shares of the three kinds of faces around one block.
+std::array<Patch, 3> openPatches(const SolidField& solid, const Coord& origin) {
+  return {patchOf(solid.openU->constTree(), origin), patchOf(solid.openV->constTree(), origin),
+          patchOf(solid.openW->constTree(), origin)};
+}
+
+// A field that is 0 where there is none, or of which there may be no tree.
+Patch patchOf(const FloatGrid::Ptr& grid, const Coord& origin, float without) {
+  if (grid != nullptr) return patchOf(grid->constTree(), origin);
+  Patch patch;
+  patch.fill(without);
+  return patch;
+}
+
+// Velocities that are given around one block, kNotGiven elsewhere.
+std::array<Patch, 3> givenPatches(const SolidField& solid, const Coord& origin) {
+  return {patchOf(solid.givenU, origin, kNotGiven), patchOf(solid.givenV, origin, kNotGiven),
+          patchOf(solid.givenW, origin, kNotGiven)};
+}
+
+// Cells of the domain with phi < 0 and an open face whose velocity is not given.
+std::vector<CellBlock> liquidBlocks(const FloatGrid& phi, const SolidField& solid) {
+  const std::vector<Coord> origins = wetLeaves(phi, solid.cells, 0);
+  std::vector<CellBlock> blocks(origins.size());
+  tbb::parallel_for(Range(0, static_cast<int>(blocks.size())), [&](const Range& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      CellBlock& block = blocks[b];
+      block.origin = origins[b];
+      const FloatLeaf* leaf = phi.constTree().probeConstLeaf(block.origin);
+      for (int c = 0; c < kLeafSize; ++c) {
+        const Coord cell = block.origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
+        const bool inside = cell[0] < solid.cells[0] && cell[1] < solid.cells[1] && cell[2] < solid.cells[2];
+        block.cells[c] = inside && (leaf == nullptr || leaf->getValue(c) < 0.0f);
+      }
+      if (block.cells.none()) continue;
+      const auto open = openPatches(solid, block.origin);
+      const auto given = givenPatches(solid, block.origin);
+      for (int c = 0; c < kLeafSize; ++c) {
+        const int at = patchIndex(c);
+        bool any = false;
+        for (int a = 0; a < 3; ++a) {
+          for (const int face : {at, at + kStride[a]})
+            any = any || (open[a][face] > 0.0f && given[a][face] == kNotGiven);
+        }
+        if (!any) block.cells.reset(c);
+      }
+    }
+  });
+  std::erase_if(blocks, [](const CellBlock& block) { return block.cells.none(); });
+  return blocks;
+}
+
+// Whether the neighbour of a cell on this side lies beyond an open side of the domain.
+bool beyondEdge(const SolidField& solid, const Coord& cell, int side) {
+  const int axis = side >> 1;
+  return solid.sides[side] == Side::open && cell[axis] == (side & 1 ? solid.cells[axis] - 1 : 0);
+}
+
+}  // namespace
+
+LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
+                         const std::array<const FloatTree*, 3>& velocity) {
+  const FloatTree& phi = phiGrid.constTree();
+  LiquidCells liquid;
+  liquid.blocks = liquidBlocks(phiGrid, solid);
+  liquid.numbering = CellNumbering(liquid.blocks, solid.cells);
+  liquid.cells.resize(liquid.numbering.size());
+  tbb::parallel_for(Range(0, static_cast<int>(liquid.blocks.size())), [&](const Range& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      const Coord& origin = liquid.blocks[b].origin;
+      const int* numbers = liquid.numbering.block(origin);
+      const Patch distance = patchOf(phi, origin);
+      const auto open = openPatches(solid, origin);
+      const std::array<Patch, 3> speed{patchOf(*velocity[0], origin), patchOf(*velocity[1], origin),
+                                       patchOf(*velocity[2], origin)};
+      const std::array<Patch, 3> solidSpeed{patchOf(solid.speedU, origin, 0.0f),
+                                            patchOf(solid.speedV, origin, 0.0f),
+                                            patchOf(solid.speedW, origin, 0.0f)};
+      const auto given = givenPatches(solid, origin);
+      for (int c = 0; c < kLeafSize; ++c) {
+        if (numbers[c] < 0) continue;
+        LiquidCell& cell = liquid.cells[numbers[c]];
+        const int here = patchIndex(c);
+        for (int s = 0; s < kSides; ++s) {
+          const int axis = s >> 1, up = s & 1;
+          const int face = here + up * kStride[axis];
+          const int beside = up ? here + kStride[axis] : here - kStride[axis];
+          const float out = up ? 1.0f : -1.0f, closed = 1.0f - open[axis][face];
+          const bool isGiven = given[axis][face] != kNotGiven;
+          const double outward = out * (isGiven ? given[axis][face] : speed[axis][face]);
+          const double push = out * solidSpeed[axis][face];
+          cell.outflow += open[axis][face] * outward + closed * push;
+          if (isGiven) {
+            cell.open[s] = cell.theta[s] = 0.0f;
+            continue;
+          }
+          cell.open[s] = open[axis][face];
+          cell.closed += closed;
+          cell.leaving += closed * static_cast<float>(std::max(0.0, push - outward));
+          if (cell.open[s] > 0.0f && beyondEdge(solid, origin + localOf(c), s)) {
+            cell.theta[s] = kEdgeTheta;
+            continue;
+          }
+          const float inside = distance[here], outside = distance[beside];
+          cell.theta[s] = cell.open[s] > 0.0f && outside >= 0.0f
+                              ? std::max(kMinTheta, inside / (inside - outside))
+                              : 0.0f;
+        }
+      }
+    }
+  });
+  if (std::find(solid.sides.begin(), solid.sides.end(), Side::open) != solid.sides.end()) {
+    for (int i = 0; i < liquid.numbering.size(); ++i) {
+      const Coord& place = liquid.numbering.cells()[i];
+      for (int s = 0; s < kSides; ++s) {
+        if (liquid.cells[i].open[s] <= 0.0f || !beyondEdge(solid, place, s)) continue;
+        const double along = velocity[s >> 1]->getValue(s & 1 ? neighborOf(place, s) : place);
+        liquid.edges.push_back({i, s, s & 1 ? along : -along, false});
+      }
+    }
+  }
+  return liquid;
+}
+
+}  // namespace fluidtex::sim

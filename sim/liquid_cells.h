@@ -1,0 +1,55 @@
+// The liquid as the pressure sees it: its cells, numbered, with what lies on each of their six sides.
+// The surface: pressure 0 where phi is, between two centres; Gibou, Fedkiw, Cheng, Kang, "A
+// second-order-accurate symmetric discretization of the Poisson equation on irregular domains", 2002. Solids:
+// fluxes through the open part of each face; Ng, Min, Gibou, "An efficient fluid-solid coupling algorithm for
+// single-phase flows", 2009.
+#pragma once
+
+#include "sim/mac_grid.h"
+#include "sim/poisson.h"
+#include "sim/solids.h"
+
+#include <array>
+#include <vector>
+
+namespace fluidtex::sim {
+
+// From a cell's centre to the surface on the domain's open side, in cells.
+inline constexpr float kEdgeTheta = 0.5f;
+
+// One liquid cell and its six sides. Pressure is kept as q = p dt / (density h), a velocity.
+struct LiquidCell {
+  std::array<float, kSides> open;   // area share
+  std::array<float, kSides> theta;  // to the surface, in cells; 0 where the neighbour is not air
+  // Before projection: sum of open area times outward velocity, and of closed area times the solid's.
+  double outflow = 0.0;
+  float closed = 0.0f;   // sum of closed area
+  float leaving = 0.0f;  // before projection: sum of closed area times velocity away from it
+};
+
+// A face through which a liquid cell meets an open side of the domain: there the surface is.
+struct Edge {
+  int cell, side;
+  double outward;  // velocity before projection
+  bool shut;       // it would draw in what is not there
+};
+
+struct LiquidCells {
+  std::vector<CellBlock> blocks;
+  CellNumbering numbering;
+  std::vector<LiquidCell> cells;
+  std::vector<Edge> edges;
+};
+
+// The neighbour of a cell on a side: 0 towards -x, 1 towards +x, 2 towards -y, ...
+inline Coord neighborOf(Coord cell, int side) {
+  cell[side >> 1] += (side & 1) ? 1 : -1;
+  return cell;
+}
+
+// The cells of the domain with phi < 0 that have an open face whose velocity is not given. velocity: u, v, w
+// before the projection, m/s.
+LiquidCells gatherLiquid(const FloatGrid& phi, const SolidField& solid,
+                         const std::array<const FloatTree*, 3>& velocity);
+
+}  // namespace fluidtex::sim
