@@ -170,8 +170,10 @@ void Solver::applyEvents() {
     const LiquidBody& body = m_options.liquid[n];
     if (m_state.poured[n] || body.from > now) continue;
     const ShapeDistance distance(body.shape, m_options.voxelSize(), m_options.size);
+    // As far ahead of the present as the velocity of what is there.
+    const Vec3d velocity = body.velocity + m_options.gravity * liquid.ahead;
     pour(
-        liquid, [&](const Vec3d& x) { return distance(x); }, body.velocity, body.temperature, *solid);
+        liquid, [&](const Vec3d& x) { return distance(x); }, velocity, body.temperature, *solid);
     m_state.poured[n] = true;
     changed = measured = true;
   }
@@ -190,6 +192,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     Liquid liquid = liquidOf(m_state);
     if (isEmpty(liquid)) {
       m_state.time = time;
+      m_state.ahead = 0.0;
       m_solid = m_solids->at(time, m_active);
       return;
     }
