@@ -37,8 +37,8 @@ Vec3f facePosition(int offset, int axis) {
 
 }  // namespace
 
-void advectVelocity(const Velocity& from, Velocity& to, const FloatGrid& phiFrom, const FloatGrid& phiTo,
-                    double dt) {
+void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to, const FloatGrid& phiFrom,
+                    const FloatGrid& phiTo, double dt) {
   const float h = static_cast<float>(phiFrom.voxelSize()[0]);
   const float step = static_cast<float>(dt) / h;
   const double reach = dt * maxAbs(from) / h;
@@ -56,7 +56,7 @@ void advectVelocity(const Velocity& from, Velocity& to, const FloatGrid& phiFrom
   const float inside = kWellInside * h;
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, leafCount), [&](const tbb::blocked_range<std::size_t>& range) {
-        VelocityWindow window(halo);
+        VelocityWindow window(halo), content(halo);
         Window before(halo, centre), after(1, centre);
         for (std::size_t n = range.begin(); n != range.end(); ++n) {
           const Coord origin = target[0][n]->origin();
@@ -68,9 +68,10 @@ void advectVelocity(const Velocity& from, Velocity& to, const FloatGrid& phiFrom
           passes[n] = std::make_unique<LeafPass>();
           LeafPass& pass = *passes[n];
           window.load(from, origin);
+          content.load(carried, origin);
           before.load(phiFrom.constTree(), origin);
           for (int axis = 0; axis < 3; ++axis) {
-            const Window& own = window.component(axis);
+            const Window& own = content.component(axis);
             const int below = axis == 0 ? after.side * after.side : (axis == 1 ? after.side : 1);
             float* out = guess[axis][n]->buffer().data();
             for (int i = 0; i < kLeafSize; ++i) {
@@ -90,34 +91,35 @@ void advectVelocity(const Velocity& from, Velocity& to, const FloatGrid& phiFrom
         }
       });
 
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leafCount),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      VelocityWindow window(halo), ahead(halo);
-                      Window after(halo, centre);
-                      for (std::size_t n = range.begin(); n != range.end(); ++n) {
-                        if (!passes[n]) continue;
-                        const LeafPass& pass = *passes[n];
-                        const Coord origin = target[0][n]->origin();
-                        window.load(from, origin);
-                        ahead.load(predicted, origin);
-                        after.load(phiTo.constTree(), origin);
-                        for (int axis = 0; axis < 3; ++axis) {
-                          const float* first = guess[axis][n]->buffer().data();
-                          float* out = target[axis][n]->buffer().data();
-                          for (int i = 0; i < kLeafSize; ++i) {
-                            if ((pass.flags[axis][i] & kWanted) == 0) continue;
-                            out[i] = first[i];
-                            if ((pass.flags[axis][i] & kCorrect) == 0) continue;
-                            const Vec3f x = facePosition(i, axis);
-                            const Vec3f goal = window.trace(x, step);
-                            if (after.at(goal) >= inside) continue;
-                            const float back = ahead.component(axis).at(goal);
-                            const float corrected = first[i] + 0.5f * (window.component(axis).at(x) - back);
-                            out[i] = std::clamp(corrected, pass.low[axis][i], pass.high[axis][i]);
-                          }
-                        }
-                      }
-                    });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, leafCount), [&](const tbb::blocked_range<std::size_t>& range) {
+        VelocityWindow window(halo), content(0), ahead(halo);
+        Window after(halo, centre);
+        for (std::size_t n = range.begin(); n != range.end(); ++n) {
+          if (!passes[n]) continue;
+          const LeafPass& pass = *passes[n];
+          const Coord origin = target[0][n]->origin();
+          window.load(from, origin);
+          content.load(carried, origin);
+          ahead.load(predicted, origin);
+          after.load(phiTo.constTree(), origin);
+          for (int axis = 0; axis < 3; ++axis) {
+            const float* first = guess[axis][n]->buffer().data();
+            float* out = target[axis][n]->buffer().data();
+            for (int i = 0; i < kLeafSize; ++i) {
+              if ((pass.flags[axis][i] & kWanted) == 0) continue;
+              out[i] = first[i];
+              if ((pass.flags[axis][i] & kCorrect) == 0) continue;
+              const Vec3f x = facePosition(i, axis);
+              const Vec3f goal = window.trace(x, step);
+              if (after.at(goal) >= inside) continue;
+              const float back = ahead.component(axis).at(goal);
+              const float corrected = first[i] + 0.5f * (content.component(axis).values[i] - back);
+              out[i] = std::clamp(corrected, pass.low[axis][i], pass.high[axis][i]);
+            }
+          }
+        }
+      });
 }
 
 }  // namespace fluidtex::sim

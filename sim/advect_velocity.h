@@ -1,4 +1,4 @@
-// Velocity carried along by itself.
+// Velocity carried along.
 #pragma once
 
 #include "sim/mac_grid.h"
@@ -8,12 +8,14 @@ namespace fluidtex::sim {
 // The furthest that advectVelocity can trace, in cells: dt max|u| / h has to stay below.
 inline constexpr double kMaxTrace = 5.0;
 
-// Writes to `to` the velocity `from` after dt seconds of self-advection, at the active faces of `to` that
+// Writes to `to` what has become of the face values `carried` after dt seconds in the velocity `from` (`from`
+// itself, for self-advection), at the active faces of `to` that
 // touch liquid (a cell with phiTo < 0); other faces stay as they are. Semi-Lagrangian with a third-order
 // Runge-Kutta back-trace and MacCormack's correction, limited to the values around the traced point; plain
 // semi-Lagrangian where the samples are not all well inside the liquid. phiFrom, phiTo: the surface before
-// and after, metres. `from` must be extrapolated for at least dt max|u| / h + 2 cells around the liquid.
-void advectVelocity(const Velocity& from, Velocity& to, const FloatGrid& phiFrom, const FloatGrid& phiTo,
-                    double dt);
+// and after, metres. `from` and `carried`, of one topology, must be extrapolated for at least dt max|u| / h +
+// 2 cells around the liquid.
+void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to, const FloatGrid& phiFrom,
+                    const FloatGrid& phiTo, double dt);
 
 }  // namespace fluidtex::sim

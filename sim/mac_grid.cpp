@@ -61,6 +61,12 @@ Velocity makeVelocity(double h, const FloatTree& like) {
   return velocity;
 }
 
+Velocity copyOf(const Velocity& velocity) {
+  Velocity copy;
+  for (int a = 0; a < 3; ++a) copy.component[a] = velocity.component[a]->deepCopy();
+  return copy;
+}
+
 std::vector<FloatLeaf*> leavesOf(FloatTree& tree) {
   std::vector<FloatLeaf*> leaves;
   leaves.reserve(tree.leafCount());

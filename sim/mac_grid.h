@@ -39,6 +39,8 @@ struct Velocity {
 FloatGrid::Ptr makePhi(double h, double background);
 Velocity makeVelocity(double h);
 
+Velocity copyOf(const Velocity& velocity);
+
 // Empty trees get the topology of `like` (leaves, active voxels), and value 0 there.
 Velocity makeVelocity(double h, const FloatTree& like);
 

@@ -81,8 +81,8 @@ struct LiquidBody {
 
 enum class WallKind { slip, noSlip, friction };
 
-// What liquid meets at a solid's surface. It acts through viscosity: a liquid whose viscosity is negligible on
-// the grid slips along all walls.
+// What liquid meets at a solid's surface. It acts through viscosity: a liquid whose viscosity is negligible
+// on the grid slips along all walls.
 struct Wall {
   WallKind kind = WallKind::slip;
   // With friction, metres: how far behind the surface the velocity along it would be the wall's if it went on
@@ -176,8 +176,8 @@ struct Options {
   double viscosity = 0.001;  // Pa s
   HeatOptions heat;
   std::vector<DomainWall> walls;  // what differs from a wall that slips; of several for one face, the last
-  double cfl = 3.0;          // a substep moves nothing further than this many cells
-  double frameRate = 24.0;   // frames a second
+  double cfl = 3.0;               // a substep moves nothing further than this many cells
+  double frameRate = 24.0;        // frames a second
   // Liquid that the grid has lost or gained is made up for, everywhere alike (Options without sources, drains
   // and open sides only).
   bool keepVolume = false;

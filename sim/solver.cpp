@@ -24,8 +24,8 @@ constexpr int kMaxHalvings = 6;
 constexpr double kSameTime = 1e-6;
 
 Liquid liquidOf(const State& state) {
-  return {state.phi,        {{state.u, state.v, state.w}}, state.markers, state.steps, state.ahead, state.due,
-          state.temperature};
+  return {state.phi, {{state.u, state.v, state.w}},    state.markers,    state.steps, state.ahead,
+          state.due, {{state.au, state.av, state.aw}}, state.temperature};
 }
 
 // Copying a grid, or writing and reading it, can change the last bits of its transform, and with them all
@@ -35,6 +35,10 @@ void setTransforms(State& state, double h) {
   state.u->setTransform(faceTransform(h, 0));
   state.v->setTransform(faceTransform(h, 1));
   state.w->setTransform(faceTransform(h, 2));
+  FloatGrid* const acceleration[3] = {state.au.get(), state.av.get(), state.aw.get()};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (acceleration[axis] != nullptr) acceleration[axis]->setTransform(faceTransform(h, axis));
+  }
   if (state.temperature) state.temperature->setTransform(cellTransform(h));
 }
 
@@ -48,6 +52,9 @@ void store(State& state, Liquid liquid, double h) {
   state.u = liquid.velocity.component[0];
   state.v = liquid.velocity.component[1];
   state.w = liquid.velocity.component[2];
+  state.au = liquid.acceleration.component[0];
+  state.av = liquid.acceleration.component[1];
+  state.aw = liquid.acceleration.component[2];
   setTransforms(state, h);
 }
 
@@ -113,7 +120,7 @@ constexpr double kShortest = 1e-5;
 Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_shared<Solids>(options)) {
   const double h = options.voxelSize();
   m_state.poured.assign(options.liquid.size(), false);
-  store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0, 0.0, 0.0}, h);
+  store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0, 0.0, 0.0, {}}, h);
   if (options.heat.simulated) m_state.temperature = makeTemperature(h, options.heat.ambient);
   prepare();
 }
@@ -153,6 +160,7 @@ void Solver::applyEvents() {
                 m_state.steps,
                 m_state.ahead,
                 m_state.due,
+                {{m_state.au, m_state.av, m_state.aw}},
                 m_state.temperature};
   if (const auto active = m_solids->active(now); active != m_active) {
     changeSolids(liquid, *m_solid, *solid);

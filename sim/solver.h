@@ -24,6 +24,7 @@ struct State {
   double time = 0.0;                    // s
   openvdb::FloatGrid::Ptr phi;          // liquid, narrow band, metres, negative inside
   openvdb::FloatGrid::Ptr u, v, w;      // face velocities, m/s, of one topology; transforms as in Substep
+  openvdb::FloatGrid::Ptr au, av, aw;   // m/s2 there, by pressure and friction, in the last step; or null
   openvdb::FloatGrid::Ptr temperature;  // K at cell centres; null where heat is not simulated
   Markers markers;                      // on both sides of the surface
   std::int64_t steps = 0;               // substeps so far

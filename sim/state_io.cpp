@@ -4,14 +4,18 @@
 
 #include <cstring>
 #include <string>
+#include <utility>
 
 namespace fluidtex::sim {
 namespace {
 
 using openvdb::FloatGrid;
 
-constexpr const char* kGridNames[4] = {"phi", "u", "v", "w"};
-constexpr const char* kTemperature = "temperature";
+// The first four are in every state.
+constexpr int kAlways = 4;
+constexpr std::pair<const char*, FloatGrid::Ptr State::*> kGrids[] = {
+    {"phi", &State::phi}, {"u", &State::u},   {"v", &State::v},   {"w", &State::w},
+    {"au", &State::au},   {"av", &State::av}, {"aw", &State::aw}, {"temperature", &State::temperature}};
 
 // A block as bytes: origin, number of markers, markers.
 void append(std::string& bytes, const MarkerBlock& block) {
@@ -57,18 +61,12 @@ void writeMarkers(const Markers& markers, openvdb::MetaMap& metadata) {
 }  // namespace
 
 void writeState(const State& state, const std::filesystem::path& file) {
-  const FloatGrid::Ptr grids[4] = {state.phi, state.u, state.v, state.w};
   openvdb::GridCPtrVec out;
-  for (int n = 0; n < 4; ++n) {
+  for (const auto& [name, member] : kGrids) {
+    if (state.*member == nullptr) continue;
     // A shallow copy: its own name and settings, the same tree.
-    const auto grid = grids[n]->copy();
-    grid->setName(kGridNames[n]);
-    grid->setSaveFloatAsHalf(false);
-    out.push_back(grid);
-  }
-  if (state.temperature) {
-    const auto grid = state.temperature->copy();
-    grid->setName(kTemperature);
+    const auto grid = (state.*member)->copy();
+    grid->setName(name);
     grid->setSaveFloatAsHalf(false);
     out.push_back(grid);
   }
@@ -105,14 +103,12 @@ State readState(const std::filesystem::path& file) {
     for (const char digit : metadata->metaValue<std::string>("poured")) state.poured.push_back(digit == '1');
     for (int part = 0; part < metadata->metaValue<std::int32_t>("marker_parts"); ++part)
       extract(metadata->metaValue<std::string>(partName(part)), state.markers);
-    FloatGrid::Ptr* grids[4] = {&state.phi, &state.u, &state.v, &state.w};
-    for (int n = 0; n < 4; ++n) {
-      *grids[n] = openvdb::gridPtrCast<FloatGrid>(vdb.readGrid(kGridNames[n]));
-      if (!*grids[n]) throw openvdb::TypeError(std::string("grid ") + kGridNames[n] + " is not of floats");
-    }
-    if (vdb.hasGrid(kTemperature)) {
-      state.temperature = openvdb::gridPtrCast<FloatGrid>(vdb.readGrid(kTemperature));
-      if (!state.temperature) throw openvdb::TypeError("grid temperature is not of floats");
+    for (int n = 0; n < static_cast<int>(std::size(kGrids)); ++n) {
+      const auto& [name, member] = kGrids[n];
+      if (n >= kAlways && !vdb.hasGrid(name)) continue;
+      state.*member = openvdb::gridPtrCast<FloatGrid>(vdb.readGrid(name));
+      if (state.*member == nullptr)
+        throw openvdb::TypeError(std::string("grid ") + name + " is not of floats");
     }
   } catch (const std::exception& error) {
     // A file cut short fails in many ways (no memory, unknown types); for the caller it is one.

@@ -1,5 +1,6 @@
 #include "sim/step.h"
 
+#include "sim/acceleration.h"
 #include "sim/advect_velocity.h"
 #include "sim/extrapolate.h"
 #include "sim/heat.h"
@@ -125,6 +126,16 @@ void setSourceTemperature(FloatGrid& temperature, const RunningFlows& flows) {
   }
 }
 
+// Carries the velocity over into `next`, whose surface and leaves are known. Forces act along the path, half
+// of them those of its start; what follows in the step adds them as they are at its end. Half the difference
+// makes the step second order in time.
+void carryVelocity(const Liquid& liquid, Liquid& next, double dt) {
+  const bool before = liquid.acceleration.component[0] != nullptr;
+  const Velocity carried = before ? plus(liquid.velocity, liquid.acceleration, 0.5 * dt) : liquid.velocity;
+  advectVelocity(liquid.velocity, carried, next.velocity, *liquid.phi, *next.phi, dt);
+  if (before) next.velocity = plus(next.velocity, liquid.acceleration, -0.5 * dt);
+}
+
 // Carries the temperature over into `next`, whose surface and leaves are known, and conducts it. False where
 // that fails.
 bool moveHeat(const Liquid& liquid, Liquid& next, const SolidField& solid, const RunningFlows& flows,
@@ -145,9 +156,10 @@ double expansionOf(const Liquid& liquid, const SolidField& solid) {
   return volume > 0.0 ? std::clamp((liquid.due / volume - 1.0) / kTime, -kMost, kMost) : 0.0;
 }
 
-// viscous: whether friction is felt, so that liquid can stick to walls.
+// viscous: whether friction is felt, so that liquid can stick to walls. arrived: the velocity before
+// friction, where the acceleration is wanted.
 bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& options, bool viscous,
-             StepReport* report) {
+             const Velocity* arrived, StepReport* report) {
   PressureOptions pressure;
   if (options.keepVolume && liquid.due > 0.0) pressure.expansion = expansionOf(liquid, solid);
   pressure.suction = 0.1 * options.density * options.gravity.length() * voxelSize(liquid);
@@ -160,6 +172,11 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& 
   u->topologyUnion(*w);
   v->topologyUnion(*u);
   w->topologyUnion(*u);
+  liquid.acceleration = {};
+  if (arrived != nullptr) {
+    liquid.acceleration = accelerationBy(*arrived, liquid.velocity, projection.valid, dt);
+    extrapolate(liquid.acceleration, projection.valid, *liquid.phi, *solid.phi);
+  }
   extrapolate(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
   constrainToSolids(*u, *v, *w, *liquid.phi, solid, projection.valid, *projection.separating);
   if (viscous) stickToWalls(liquid.velocity, solid, projection.valid);
@@ -212,15 +229,16 @@ bool isEmpty(const Liquid& liquid) {
 std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, double nextDt,
                            const Options& options, StepReport* report, const RunningFlows& flows) {
   const double kick = std::max(0.0, dt - liquid.ahead + 0.5 * nextDt);
-  Liquid next{liquid.phi->deepCopy(),   {},        liquid.markers, liquid.steps + 1,
-              liquid.ahead - dt + kick, liquid.due};
+  Liquid next{
+      liquid.phi->deepCopy(), {}, liquid.markers, liquid.steps + 1, liquid.ahead - dt + kick, liquid.due, {}};
   moveSurface(*next.phi, next.markers, liquid.velocity, *solid.phi, dt,
               static_cast<std::uint64_t>(next.steps), flows);
   dropBeyond(next.markers, solid);
 
   next.velocity = velocityFor(*next.phi, solid);
-  advectVelocity(liquid.velocity, next.velocity, *liquid.phi, *next.phi, dt);
+  carryVelocity(liquid, next, dt);
   addGravity(next.velocity, options.gravity * kick);
+  const Velocity arrived = copyOf(next.velocity);
   const SolidField around = withFlows(solid, flows, *next.phi, liquid.velocity, options.gravity, dt);
   StepReport solves;
   solves.pressure.converged = true;
@@ -235,7 +253,7 @@ std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double
   }
   if (report != nullptr) *report = solves;
   if (!solves.heatConverged || !solves.viscosity.converged) return std::nullopt;
-  if (!project(next, around, dt, options, !solves.viscosity.skipped, report)) return std::nullopt;
+  if (!project(next, around, dt, options, !solves.viscosity.skipped, &arrived, report)) return std::nullopt;
   if (!anyInside(*next.phi)) {
     // What is left of the band has no surface that could renew it.
     next.phi->clear();
@@ -335,7 +353,7 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   const double dt = 1.0 / options.frameRate;
   const bool viscous = liquid.temperature != nullptr ||
                        !isNegligible(options.viscosity, dt, options.density, voxelSize(liquid));
-  return project(liquid, around, dt, options, viscous, report);
+  return project(liquid, around, dt, options, viscous, nullptr, report);
 }
 
 }  // namespace fluidtex::sim

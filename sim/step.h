@@ -23,6 +23,9 @@ struct Liquid {
   std::int64_t steps = 0;  // taken so far: the seed of the markers to come
   double ahead = 0.0;      // s: the velocity is that of so much later than phi
   double due = 0.0;        // m3: the volume that has been put in
+  // m/s2 at the velocity's faces, extrapolated: what pressure and friction did in the last step; null grids
+  // where there was none.
+  Velocity acceleration;
   // K at cell centres of the velocity's leaves, extended into air and solids; null where heat is not
   // simulated.
   FloatGrid::Ptr temperature = nullptr;

@@ -19,6 +19,7 @@ sim::Solver startedWith(const sim::Options& options, const std::function<Vec3d(c
     for (auto it = (*grid)->beginValueOn(); it; ++it)
       it.setValue(static_cast<float>(velocity((*grid)->indexToWorld(it.getCoord()))[axis]));
   }
+  state.ahead = 0.0;
   return sim::Solver(options, std::move(state));
 }
 

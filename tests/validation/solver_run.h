@@ -8,7 +8,8 @@
 namespace fluidtex::validation {
 
 // A solver whose first frame has been made, with this velocity (m/s, at world positions) given to every
-// active face then. Nothing is projected: the field should be free of divergence on the faces.
+// active face at that time. Later velocities are those of State::ahead after the frame's time. Nothing is
+// projected: the field should be free of divergence on the faces.
 sim::Solver startedWith(const sim::Options& options,
                         const std::function<sim::Vec3d(const sim::Vec3d&)>& velocity);
 

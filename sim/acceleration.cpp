@@ -1,0 +1,46 @@
+#include "sim/acceleration.h"
+
+#include "sim/leaf_table.h"
+
+#include <tbb/parallel_for.h>
+
+namespace fluidtex::sim {
+
+Velocity plus(const Velocity& u, const Velocity& a, double time) {
+  const float factor = static_cast<float>(time);
+  Velocity sum = copyOf(u);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto leaves = leavesOf(sum.component[axis]->tree());
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      const FloatLeaf* from = a.component[axis]->constTree().probeConstLeaf(leaves[n]->origin());
+      if (from == nullptr) return;
+      float* to = leaves[n]->buffer().data();
+      const float* add = from->buffer().data();
+      for (int i = 0; i < kLeafSize; ++i) to[i] += factor * add[i];
+    });
+  }
+  return sum;
+}
+
+Velocity accelerationBy(const Velocity& before, const Velocity& after, const FaceMasks& valid, double dt) {
+  const openvdb::MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
+  Velocity result = makeVelocity(after.component[0]->voxelSize()[0], after.component[0]->constTree());
+  const float rate = static_cast<float>(1.0 / dt);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto leaves = leavesOf(result.component[axis]->tree());
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      const Coord& origin = leaves[n]->origin();
+      const auto* mask = masks[axis]->constTree().probeConstLeaf(origin);
+      if (mask == nullptr) return;
+      float beforeScratch[kLeafSize], afterScratch[kLeafSize];
+      const float* was = leafValues(before.component[axis]->constTree(), origin, beforeScratch);
+      const float* is = leafValues(after.component[axis]->constTree(), origin, afterScratch);
+      float* out = leaves[n]->buffer().data();
+      for (auto face = mask->cbeginValueOn(); face; ++face)
+        out[face.pos()] = (is[face.pos()] - was[face.pos()]) * rate;
+    });
+  }
+  return result;
+}
+
+}  // namespace fluidtex::sim
