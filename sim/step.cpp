@@ -156,6 +156,17 @@ double expansionOf(const Liquid& liquid, const SolidField& solid) {
   return volume > 0.0 ? std::clamp((liquid.due / volume - 1.0) / kTime, -kMost, kMost) : 0.0;
 }
 
+// Faces whose velocity is not given, whatever the forces.
+FaceMasks withoutGiven(const FaceMasks& valid, const SolidField& solid) {
+  if (solid.givenU == nullptr) return valid;
+  const auto without = [](const openvdb::MaskGrid::Ptr& mask, const FloatGrid::Ptr& given) {
+    const openvdb::MaskGrid::Ptr free = mask->deepCopy();
+    free->tree().topologyDifference(given->constTree());
+    return free;
+  };
+  return {without(valid.u, solid.givenU), without(valid.v, solid.givenV), without(valid.w, solid.givenW)};
+}
+
 // viscous: whether friction is felt, so that liquid can stick to walls. arrived: the velocity before
 // friction, where the acceleration is wanted.
 bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& options, bool viscous,
@@ -174,8 +185,9 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& 
   w->topologyUnion(*u);
   liquid.acceleration = {};
   if (arrived != nullptr) {
-    liquid.acceleration = accelerationBy(*arrived, liquid.velocity, projection.valid, dt);
-    extrapolate(liquid.acceleration, projection.valid, *liquid.phi, *solid.phi);
+    const FaceMasks free = withoutGiven(projection.valid, solid);
+    liquid.acceleration = accelerationBy(*arrived, liquid.velocity, free, dt);
+    extrapolate(liquid.acceleration, free, *liquid.phi, *solid.phi);
   }
   extrapolate(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
   constrainToSolids(*u, *v, *w, *liquid.phi, solid, projection.valid, *projection.separating);
