@@ -2,6 +2,7 @@
 
 #include "sim/acceleration.h"
 #include "sim/advect_velocity.h"
+#include "sim/air_layers.h"
 #include "sim/extrapolate.h"
 #include "sim/heat.h"
 #include "sim/leaf_table.h"
@@ -190,6 +191,7 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& 
     extrapolate(liquid.acceleration, free, *liquid.phi, *solid.phi);
   }
   extrapolate(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
+  balanceAirLayers(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
   constrainToSolids(*u, *v, *w, *liquid.phi, solid, projection.valid, *projection.separating);
   if (viscous) stickToWalls(liquid.velocity, solid, projection.valid);
   openGaps(liquid, solid, *projection.separating, options.gravity * dt);

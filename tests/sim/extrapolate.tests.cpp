@@ -1,4 +1,5 @@
 #include "sim/extrapolate.h"
+#include "sim/air_layers.h"
 #include "sim/leaf_table.h"
 
 #include <catch2/catch.hpp>
@@ -112,4 +113,69 @@ TEST_CASE("extrapolate: without a valid face all is zero") {
   for (auto it = f.velocity.component[1]->beginValueOn(); it; ++it) it.setValue(5.0f);
   extrapolate(f.velocity, f.valid, *f.phi, *f.solidPhi);
   CHECK(maxAbs(f.velocity) == 0.0);
+}
+
+TEST_CASE("air layers: beyond a spreading ball the velocity is free of divergence") {
+  // A sink inside would be right for u = x / |x|^3; what is given beyond is constant along the radius.
+  Fixture f(0.05, 24, [](const Vec3d& x) { return x.length() - 0.6; });
+  const auto source = [](const Vec3d& x, int a) { return 0.36 * x[a] / std::pow(x.length(), 3); };
+  f.setValid(source);
+  extrapolate(f.velocity, f.valid, *f.phi, *f.solidPhi);
+  const auto divergence = [&](const Coord& c) {
+    double sum = 0.0;
+    for (int a = 0; a < 3; ++a) {
+      Coord up = c;
+      up[a] += 1;
+      sum += f.velocity.component[a]->tree().getValue(up) - f.velocity.component[a]->tree().getValue(c);
+    }
+    return sum / f.h;
+  };
+  const auto meanAt = [&](double from, double to) {
+    double sum = 0.0;
+    int count = 0;
+    for (auto it = f.phi->cbeginValueOn(); it; ++it) {
+      if (*it < from * f.h || *it >= to * f.h) continue;
+      sum += divergence(it.getCoord());
+      ++count;
+    }
+    return sum / count;
+  };
+  const Velocity before = copyOf(f.velocity);
+  const double near = meanAt(0.0, 1.0), second = meanAt(1.0, 1.6);
+  CHECK(near > 2.0);
+  CHECK(second > 2.0);
+  balanceAirLayers(f.velocity, f.valid, *f.phi, *f.solidPhi);
+  CHECK(std::abs(meanAt(0.0, 1.0)) < 0.1 * near);
+  // Some of these lie three cells from the liquid.
+  CHECK(std::abs(meanAt(1.0, 1.6)) < 0.7 * second);
+  const std::array<openvdb::MaskGrid*, 3> masks{f.valid.u.get(), f.valid.v.get(), f.valid.w.get()};
+  bool same = true;
+  for (int a = 0; a < 3; ++a) {
+    for (auto it = masks[a]->cbeginValueOn(); it; ++it)
+      same = same && f.velocity.component[a]->tree().getValue(it.getCoord()) ==
+                         before.component[a]->tree().getValue(it.getCoord());
+  }
+  CHECK(same);
+}
+
+TEST_CASE("air layers: nothing gets faster than half as fast again, and solids keep their faces") {
+  // Two bodies of liquid that meet: all air between them has to leave sideways.
+  Fixture f(0.1, 16, [](const Vec3d& x) { return 0.25 - std::abs(x[0]); });
+  f.setValid([](const Vec3d& x, int a) { return a == 0 ? (x[0] > 0.0 ? -1.0 : 1.0) : 0.0; });
+  extrapolate(f.velocity, f.valid, *f.phi, *f.solidPhi);
+  balanceAirLayers(f.velocity, f.valid, *f.phi, *f.solidPhi);
+  CHECK(maxAbs(f.velocity) <= 1.5f);
+
+  Fixture wall(0.1, 16, [](const Vec3d& x) { return x[2] + 0.05; });
+  for (auto it = wall.phi->cbeginValueOn(); it; ++it)
+    wall.solidPhi->tree().setValue(it.getCoord(),
+                                   static_cast<float>(0.2 - wall.phi->indexToWorld(it.getCoord())[2]));
+  wall.setValid([](const Vec3d& x, int a) { return a == 0 ? x[0] : 0.0; });
+  extrapolate(wall.velocity, wall.valid, *wall.phi, *wall.solidPhi);
+  const Velocity before = copyOf(wall.velocity);
+  balanceAirLayers(wall.velocity, wall.valid, *wall.phi, *wall.solidPhi);
+  // The face between the last open cell and the wall, at z = 0.2, and one in the open.
+  CHECK(wall.velocity.component[2]->tree().getValue(Coord(0, 0, 2)) ==
+        before.component[2]->tree().getValue(Coord(0, 0, 2)));
+  CHECK(wall.velocity.component[2]->tree().getValue(Coord(0, 0, 1)) < -0.05f);
 }

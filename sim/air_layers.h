@@ -1,0 +1,19 @@
+// The velocity just beyond the surface.
+#pragma once
+
+#include "sim/mac_grid.h"
+#include "sim/solids.h"
+
+namespace fluidtex::sim {
+
+// Takes the divergence out of the first two layers of air cells, by the faces that lie farther from the
+// liquid: what moves the surface there then keeps volume, as the liquid's own velocity does, which a velocity
+// that is constant along the surface's normal does not (a wave is slowed by half a cell of it, a jet that
+// spreads swells). Faces of `valid` and those of solids stay. No component gets larger than one and a half
+// times the largest around its cell, so that air squeezed out between two bodies of liquid does not shoot
+// away. velocity: extrapolated, m/s; phi and solidPhi in metres. Source: the conditions for faces at the
+// surface of Harlow and Welch, 1965.
+void balanceAirLayers(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi,
+                      const FloatGrid& solidPhi);
+
+}  // namespace fluidtex::sim
