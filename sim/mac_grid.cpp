@@ -158,15 +158,24 @@ void gather(const FloatTree& tree, const Coord& origin, int halo, float* out, bo
     }
   }
   switch (halo) {
-    case 0: return copyBox<0>(block, out, crossOnly);
-    case 1: return copyBox<1>(block, out, crossOnly);
-    case 2: return copyBox<2>(block, out, crossOnly);
-    case 3: return copyBox<3>(block, out, crossOnly);
-    case 4: return copyBox<4>(block, out, crossOnly);
-    case 5: return copyBox<5>(block, out, crossOnly);
-    case 6: return copyBox<6>(block, out, crossOnly);
-    case 7: return copyBox<7>(block, out, crossOnly);
-    default: return copyBox<8>(block, out, crossOnly);
+    case 0:
+      return copyBox<0>(block, out, crossOnly);
+    case 1:
+      return copyBox<1>(block, out, crossOnly);
+    case 2:
+      return copyBox<2>(block, out, crossOnly);
+    case 3:
+      return copyBox<3>(block, out, crossOnly);
+    case 4:
+      return copyBox<4>(block, out, crossOnly);
+    case 5:
+      return copyBox<5>(block, out, crossOnly);
+    case 6:
+      return copyBox<6>(block, out, crossOnly);
+    case 7:
+      return copyBox<7>(block, out, crossOnly);
+    default:
+      return copyBox<8>(block, out, crossOnly);
   }
 }
 

@@ -1,5 +1,7 @@
 #include "sim/surface_distance.h"
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +15,7 @@ constexpr int kHalo = kReach + 3;            // and two more for the interpolati
 constexpr int kSide = kLeafDim + 2 * kHalo;  // 20
 constexpr int kStride[3] = {kSide * kSide, kSide, 1};
 constexpr int kMaxIterations = 12;
-constexpr double kTolerance = 1e-6;  // cells
+constexpr double kTolerance = 1e-3;  // cells: of the last step
 // Second differences above this share of the slope are corners, or the middle of a film or a gap.
 constexpr double kSharp = 0.7;
 
@@ -59,23 +61,30 @@ struct Block {
     const float* at = corner(x, t);
     if (at == nullptr) return false;
     for (int a = 0; a < 3; ++a) lagrange(t[a], w[a], dw[a]);
-    phi = 0.0;
-    gradient = Vec3(0.0);
+    // Sums over the stencil's rows along z, four values side by side.
+    __m256d sum = _mm256_setzero_pd(), slopeX = sum, slopeY = sum;
     for (int i = 0; i < 4; ++i) {
-      double plane = 0.0, planeY = 0.0, planeZ = 0.0;
+      __m256d plane = _mm256_setzero_pd(), planeY = plane;
       for (int j = 0; j < 4; ++j) {
-        const float* row = at + (i - 1) * kStride[0] + (j - 1) * kStride[1] - 1;
-        const double line = w[2][0] * row[0] + w[2][1] * row[1] + w[2][2] * row[2] + w[2][3] * row[3];
-        const double lineZ = dw[2][0] * row[0] + dw[2][1] * row[1] + dw[2][2] * row[2] + dw[2][3] * row[3];
-        plane += w[1][j] * line;
-        planeY += dw[1][j] * line;
-        planeZ += w[1][j] * lineZ;
+        const __m256d row =
+            _mm256_cvtps_pd(_mm_loadu_ps(at + (i - 1) * kStride[0] + (j - 1) * kStride[1] - 1));
+        plane += _mm256_set1_pd(w[1][j]) * row;
+        planeY += _mm256_set1_pd(dw[1][j]) * row;
       }
-      phi += w[0][i] * plane;
-      gradient[0] += dw[0][i] * plane;
-      gradient[1] += w[0][i] * planeY;
-      gradient[2] += w[0][i] * planeZ;
+      sum += _mm256_set1_pd(w[0][i]) * plane;
+      slopeX += _mm256_set1_pd(dw[0][i]) * plane;
+      slopeY += _mm256_set1_pd(w[0][i]) * planeY;
     }
+    const __m256d wz = _mm256_loadu_pd(w[2]), dwz = _mm256_loadu_pd(dw[2]);
+    // Four sums of four at once.
+    const __m256d pairs = _mm256_hadd_pd(sum * wz, slopeX * wz);
+    const __m256d others = _mm256_hadd_pd(slopeY * wz, sum * dwz);
+    const __m256d sums =
+        _mm256_permute2f128_pd(pairs, others, 0x20) + _mm256_permute2f128_pd(pairs, others, 0x31);
+    alignas(32) double result[4];
+    _mm256_store_pd(result, sums);
+    phi = result[0];
+    gradient = Vec3(result[1], result[2], result[3]);
     return true;
   }
 
@@ -84,22 +93,59 @@ struct Block {
     double t[3];
     const float* at = corner(x, t);
     if (at == nullptr) return false;
-    const float bar = static_cast<float>(kSharp * slope);
-    for (int axis = 0; axis < 3; ++axis) {
-      const int along = kStride[axis], b = kStride[(axis + 1) % 3], c = kStride[(axis + 2) % 3];
-      for (int j = -1; j < 3; ++j) {
-        for (int k = -1; k < 3; ++k) {
-          const float* p = at + j * b + k * c;
-          if (std::abs(p[-along] - 2.0f * p[0] + p[along]) > bar) return false;
-          if (std::abs(p[0] - 2.0f * p[along] + p[2 * along]) > bar) return false;
-        }
+    // The largest second difference of the stencil's lines along each axis, four lines side by side.
+    const __m128 two = _mm_set1_ps(2.0f), sign = _mm_set1_ps(-0.0f);
+    __m128 largest = _mm_setzero_ps();
+    const auto bend = [&](__m128 a, __m128 b, __m128 c) {
+      largest = _mm_max_ps(largest, _mm_andnot_ps(sign, a - two * b + c));
+    };
+    const float* first = at - kStride[0] - kStride[1] - 1;
+    for (int j = 0; j < 4; ++j) {
+      __m128 alongX[4], alongY[4], alongZ[4];
+      for (int k = 0; k < 4; ++k) {
+        alongX[k] = _mm_loadu_ps(first + k * kStride[0] + j * kStride[1]);
+        alongY[k] = alongZ[k] = _mm_loadu_ps(first + j * kStride[0] + k * kStride[1]);
+      }
+      _MM_TRANSPOSE4_PS(alongZ[0], alongZ[1], alongZ[2], alongZ[3]);
+      for (const auto* line : {alongX, alongY, alongZ}) {
+        bend(line[0], line[1], line[2]);
+        bend(line[1], line[2], line[3]);
       }
     }
-    return true;
+    return _mm_movemask_ps(_mm_cmpgt_ps(largest, _mm_set1_ps(static_cast<float>(kSharp * slope)))) == 0;
   }
 
-  // The nearest change of sign along an axis, linear between cell centres.
-  std::optional<Vec3> crossing(int offset) const {
+  // By row along z, bit k: whether the sign changes at most kReach cells from cell k. False where it never
+  // does.
+  bool nearCells(std::array<std::uint8_t, 64>& near) const {
+    // Bit k: whether the value at z = k is negative.
+    std::array<std::uint32_t, kSide * kSide> inside;
+    bool any = false, all = true;
+    for (int row = 0; row < kSide * kSide; ++row) {
+      std::uint32_t bits = 0;
+      for (int k = 0; k < kSide; ++k) bits |= std::uint32_t(value[row * kSide + k] < 0.0f) << k;
+      inside[row] = bits;
+      any = any || bits != 0;
+      all = all && bits == (1u << kSide) - 1;
+    }
+    if (!any || all) return false;
+    bool found = false;
+    for (int row = 0; row < 64; ++row) {
+      const std::uint32_t* own = inside.data() + ((row >> 3) + kHalo) * kSide + (row & 7) + kHalo;
+      std::uint32_t changes = 0;
+      for (int n = 1; n <= kReach; ++n) {
+        changes |= (*own ^ *own >> n) | (*own ^ *own << n);
+        changes |= (*own ^ own[n]) | (*own ^ own[-n]) | (*own ^ own[n * kSide]) | (*own ^ own[-n * kSide]);
+      }
+      near[row] = static_cast<std::uint8_t>(changes >> kHalo);
+      found = found || near[row] != 0;
+    }
+    return found;
+  }
+
+  // The nearest change of sign along an axis, linear between cell centres; there is one at most kReach cells
+  // away.
+  Vec3 crossing(int offset) const {
     const float* p = cell(offset);
     double best = kReach + 1.0;
     int bestAxis = 0;
@@ -117,7 +163,6 @@ struct Block {
         }
       }
     }
-    if (std::abs(best) > kReach) return std::nullopt;
     Vec3 x(offset >> 6, (offset >> 3) & 7, offset & 7);
     x[bestAxis] += best;
     return x;
@@ -131,19 +176,30 @@ struct Block {
       if (!evaluate(point, phi, gradient)) return std::nullopt;
       const double square = gradient.lengthSqr();
       if (square < 1e-12) return std::nullopt;
-      const Vec3 toSurface = -phi / square * gradient;
       const Vec3 away = x - point;
-      const Vec3 along = away - away.dot(gradient) / square * gradient;
-      Vec3 step = toSurface + along;
-      const double length = step.length();
-      if (length < kTolerance) {
-        if (!smooth(point, std::sqrt(square))) return std::nullopt;
-        return (x - point).length();
+      const double height = away.dot(gradient);
+      Vec3 step = away - (phi + height) / square * gradient;
+      const double length = step.lengthSqr();
+      if (length < kTolerance * kTolerance) {
+        const double slope = std::sqrt(square);
+        if (!smooth(point, slope)) return std::nullopt;
+        // To the tangent plane, which differs from the surface by half the curvature times the step squared.
+        return std::abs(phi + height) / slope;
       }
-      if (length > 1.0) step /= length;
+      if (length > 1.0) step /= std::sqrt(length);
       point += step;
     }
     return std::nullopt;
+  }
+
+  // Where the surface would be if phi were a distance already; `crossing` where that leads too far.
+  Vec3 guess(int offset, const Vec3& crossing) const {
+    const float* p = cell(offset);
+    const Vec3 slope(0.5 * (p[kStride[0]] - p[-kStride[0]]), 0.5 * (p[kStride[1]] - p[-kStride[1]]),
+                     0.5 * (p[kStride[2]] - p[-kStride[2]]));
+    const double square = slope.lengthSqr();
+    if (square < 0.5 || square > 2.0 || std::abs(p[0]) > kReach) return crossing;
+    return Vec3(offset >> 6, (offset >> 3) & 7, offset & 7) - p[0] / square * slope;
   }
 };
 
@@ -152,16 +208,14 @@ struct Block {
 std::vector<CellDistance> surfaceDistances(const FloatTree& phi, const Coord& origin, float h) {
   thread_local Block block;
   gather(phi, origin, kHalo, block.value.data());
+  std::array<std::uint8_t, 64> near;
   std::vector<CellDistance> distances;
-  bool scaled = false;
+  if (!block.nearCells(near)) return distances;
+  for (float& value : block.value) value /= h;
   for (std::int16_t offset = 0; offset < kLeafSize; ++offset) {
-    const auto guess = block.crossing(offset);
-    if (!guess) continue;
-    if (!scaled) {
-      for (float& value : block.value) value /= h;
-      scaled = true;
-    }
-    const auto distance = block.distance(Vec3(offset >> 6, (offset >> 3) & 7, offset & 7), *guess);
+    if ((near[std::size_t(offset >> 3)] >> (offset & 7) & 1) == 0) continue;
+    const Vec3 x(offset >> 6, (offset >> 3) & 7, offset & 7);
+    const auto distance = block.distance(x, block.guess(offset, block.crossing(offset)));
     if (!distance || *distance > kReach) continue;
     // Never 0: the sign is the cell's side.
     const float away = std::max(static_cast<float>(*distance), 1e-6f);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/mac_grid.h"
+#include "sim/trilinear.h"
 
 #include <algorithm>
 #include <memory>
@@ -43,11 +44,7 @@ struct Window {
   float at(const Vec3f& x) const {
     float t[3];
     const float* p = locate(x, t);
-    const int dx = side * side, dy = side;
-    const auto mix = [](float a, float b, float w) { return a + w * (b - a); };
-    const float x0 = mix(mix(p[0], p[1], t[2]), mix(p[dy], p[dy + 1], t[2]), t[1]);
-    const float x1 = mix(mix(p[dx], p[dx + 1], t[2]), mix(p[dx + dy], p[dx + dy + 1], t[2]), t[1]);
-    return mix(x0, x1, t[0]);
+    return trilinear(p, side * side, side, t[0], t[1], t[2]);
   }
 
   // Smallest and largest of the eight samples around x.
@@ -76,15 +73,32 @@ struct VelocityWindow {
     v.load(velocity.component[1]->constTree(), origin);
     w.load(velocity.component[2]->constTree(), origin);
   }
-  Vec3f at(const Vec3f& x) const { return Vec3f(u.at(x), v.at(x), w.at(x)); }
   const Window& component(int axis) const { return axis == 0 ? u : (axis == 1 ? v : w); }
+
+  // All three components; as Window::at.
+  Vec3f at(const Vec3f& x) const {
+    const Lanes velocity = sample(lanes(x[0], x[1], x[2]));
+    return Vec3f(lane0(velocity), lane1(velocity), lane2(velocity));
+  }
 
   // Where x gets to along the velocity; step: dt / h, negative to trace back.
   Vec3f trace(const Vec3f& x, float step) const {
-    const Vec3f k1 = at(x);
-    const Vec3f k2 = at(x + 0.5f * step * k1);
-    const Vec3f k3 = at(x + 0.75f * step * k2);
-    return x + step * (2.0f * k1 + 3.0f * k2 + 4.0f * k3) * (1.0f / 9.0f);
+    const Lanes from = lanes(x[0], x[1], x[2]);
+    const Lanes k1 = sample(from);
+    const Lanes k2 = sample(from + lanes(0.5f * step) * k1);
+    const Lanes k3 = sample(from + lanes(0.75f * step) * k2);
+    const Lanes to =
+        from + lanes(step * (1.0f / 9.0f)) * (lanes(2.0f) * k1 + lanes(3.0f) * k2 + lanes(4.0f) * k3);
+    return Vec3f(lane0(to), lane1(to), lane2(to));
+  }
+
+ private:
+  Lanes sample(Lanes x) const {
+    const auto halo = static_cast<float>(u.halo);
+    const Lanes inside = _mm_min_ps(_mm_max_ps(x + lanes(halo - 0.5f), lanes(0.0f)),
+                                    lanes(static_cast<float>(u.side) - 1.501f));
+    const StaggeredBlocks blocks{{u.values.get(), v.values.get(), w.values.get()}, u.side};
+    return blocks.at(inside);
   }
 };
 
