@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 namespace fluidtex::sim {
 namespace {
@@ -21,18 +21,31 @@ constexpr double kSharp = 0.7;
 
 using Vec3 = openvdb::Vec3d;
 
-// Cubic Lagrange weights of the values at -1, 0, 1, 2 for a place t in [0, 1], and their derivatives.
-void lagrange(double t, double* w, double* dw) {
-  const double a = t + 1.0, b = t, c = t - 1.0, d = t - 2.0;
-  w[0] = -b * c * d / 6.0;
-  w[1] = a * c * d / 2.0;
-  w[2] = -a * b * d / 2.0;
-  w[3] = a * b * c / 6.0;
-  dw[0] = -(b * c + b * d + c * d) / 6.0;
-  dw[1] = (a * c + a * d + c * d) / 2.0;
-  dw[2] = -(a * b + a * d + b * d) / 2.0;
-  dw[3] = (a * b + a * c + b * c) / 6.0;
-}
+// For each axis the cubic Lagrange weights of the values at -1, 0, 1, 2 for a place t in [0, 1], and their
+// derivatives.
+struct Weights {
+  alignas(32) double value[4][4], slope[4][4];
+
+  explicit Weights(__m256d t) {
+    const __m256d one = _mm256_set1_pd(1.0), two = _mm256_set1_pd(2.0);
+    const __m256d sixth = _mm256_set1_pd(1.0 / 6.0), half = _mm256_set1_pd(0.5);
+    const __m256d a = t + one, b = t, c = t - one, d = t - two;
+    const __m256d ab = a * b, ac = a * c, ad = a * d, bc = b * c, bd = b * d, cd = c * d;
+    store(-sixth * (b * cd), half * (a * cd), -half * (ab * d), sixth * (ab * c), value);
+    store(-sixth * (bc + bd + cd), half * (ac + ad + cd), -half * (ab + ad + bd), sixth * (ab + ac + bc),
+          slope);
+  }
+
+ private:
+  // From one weight of all axes to all weights of one axis.
+  static void store(__m256d w0, __m256d w1, __m256d w2, __m256d w3, double (*to)[4]) {
+    const __m256d low01 = _mm256_unpacklo_pd(w0, w1), high01 = _mm256_unpackhi_pd(w0, w1);
+    const __m256d low23 = _mm256_unpacklo_pd(w2, w3), high23 = _mm256_unpackhi_pd(w2, w3);
+    _mm256_store_pd(to[0], _mm256_permute2f128_pd(low01, low23, 0x20));
+    _mm256_store_pd(to[1], _mm256_permute2f128_pd(high01, high23, 0x20));
+    _mm256_store_pd(to[2], _mm256_permute2f128_pd(low01, low23, 0x31));
+  }
+};
 
 // phi / h around one leaf; positions in cells from the leaf's first cell centre.
 struct Block {
@@ -55,12 +68,13 @@ struct Block {
     return value.data() + at[0] * kStride[0] + at[1] * kStride[1] + at[2];
   }
 
-  // Value and gradient of the interpolation at x. False where the stencil would leave the block.
-  bool evaluate(const Vec3& x, double& phi, Vec3& gradient) const {
-    double t[3], w[3][4], dw[3][4];
+  // Gradient of the interpolation at x, and its value in the fourth place. False where the stencil would
+  // leave the block.
+  bool evaluate(const Vec3& x, double* result) const {
+    double t[4] = {};
     const float* at = corner(x, t);
     if (at == nullptr) return false;
-    for (int a = 0; a < 3; ++a) lagrange(t[a], w[a], dw[a]);
+    const Weights w(_mm256_loadu_pd(t));
     // Sums over the stencil's rows along z, four values side by side.
     __m256d sum = _mm256_setzero_pd(), slopeX = sum, slopeY = sum;
     for (int i = 0; i < 4; ++i) {
@@ -68,23 +82,19 @@ struct Block {
       for (int j = 0; j < 4; ++j) {
         const __m256d row =
             _mm256_cvtps_pd(_mm_loadu_ps(at + (i - 1) * kStride[0] + (j - 1) * kStride[1] - 1));
-        plane += _mm256_set1_pd(w[1][j]) * row;
-        planeY += _mm256_set1_pd(dw[1][j]) * row;
+        plane += _mm256_set1_pd(w.value[1][j]) * row;
+        planeY += _mm256_set1_pd(w.slope[1][j]) * row;
       }
-      sum += _mm256_set1_pd(w[0][i]) * plane;
-      slopeX += _mm256_set1_pd(dw[0][i]) * plane;
-      slopeY += _mm256_set1_pd(w[0][i]) * planeY;
+      sum += _mm256_set1_pd(w.value[0][i]) * plane;
+      slopeX += _mm256_set1_pd(w.slope[0][i]) * plane;
+      slopeY += _mm256_set1_pd(w.value[0][i]) * planeY;
     }
-    const __m256d wz = _mm256_loadu_pd(w[2]), dwz = _mm256_loadu_pd(dw[2]);
+    const __m256d wz = _mm256_load_pd(w.value[2]), dwz = _mm256_load_pd(w.slope[2]);
     // Four sums of four at once.
-    const __m256d pairs = _mm256_hadd_pd(sum * wz, slopeX * wz);
-    const __m256d others = _mm256_hadd_pd(slopeY * wz, sum * dwz);
-    const __m256d sums =
-        _mm256_permute2f128_pd(pairs, others, 0x20) + _mm256_permute2f128_pd(pairs, others, 0x31);
-    alignas(32) double result[4];
-    _mm256_store_pd(result, sums);
-    phi = result[0];
-    gradient = Vec3(result[1], result[2], result[3]);
+    const __m256d pairs = _mm256_hadd_pd(slopeX * wz, slopeY * wz);
+    const __m256d others = _mm256_hadd_pd(sum * dwz, sum * wz);
+    _mm256_storeu_pd(
+        result, _mm256_permute2f128_pd(pairs, others, 0x20) + _mm256_permute2f128_pd(pairs, others, 0x31));
     return true;
   }
 
@@ -168,30 +178,6 @@ struct Block {
     return x;
   }
 
-  // Distance from x to the surface, from a guess of the closest point.
-  std::optional<double> distance(const Vec3& x, Vec3 point) const {
-    for (int n = 0; n < kMaxIterations; ++n) {
-      double phi;
-      Vec3 gradient;
-      if (!evaluate(point, phi, gradient)) return std::nullopt;
-      const double square = gradient.lengthSqr();
-      if (square < 1e-12) return std::nullopt;
-      const Vec3 away = x - point;
-      const double height = away.dot(gradient);
-      Vec3 step = away - (phi + height) / square * gradient;
-      const double length = step.lengthSqr();
-      if (length < kTolerance * kTolerance) {
-        const double slope = std::sqrt(square);
-        if (!smooth(point, slope)) return std::nullopt;
-        // To the tangent plane, which differs from the surface by half the curvature times the step squared.
-        return std::abs(phi + height) / slope;
-      }
-      if (length > 1.0) step /= std::sqrt(length);
-      point += step;
-    }
-    return std::nullopt;
-  }
-
   // Where the surface would be if phi were a distance already; `crossing` where that leads too far.
   Vec3 guess(int offset, const Vec3& crossing) const {
     const float* p = cell(offset);
@@ -203,23 +189,67 @@ struct Block {
   }
 };
 
+// The search for the point of the surface that is closest to a cell.
+struct Search {
+  Vec3 cell, point;
+  double phi[4];  // gradient and value at the point
+  std::int16_t offset;
+  bool inBlock;
+};
+
+// One step of Newton's method, to the closest point of the tangent plane. True when the search has ended;
+// `distance` is then that to the surface, or infinite where it ends nowhere.
+bool advance(Search& search, const Block& block, double& distance) {
+  distance = std::numeric_limits<double>::infinity();
+  if (!search.inBlock) return true;
+  const double phi = search.phi[3];
+  const Vec3 gradient(search.phi[0], search.phi[1], search.phi[2]);
+  const double square = gradient.lengthSqr();
+  if (square < 1e-12) return true;
+  const Vec3 away = search.cell - search.point;
+  const double height = away.dot(gradient);
+  Vec3 step = away - (phi + height) / square * gradient;
+  const double length = step.lengthSqr();
+  if (length < kTolerance * kTolerance) {
+    const double slope = std::sqrt(square);
+    // To the tangent plane, which differs from the surface by half the curvature times the step squared.
+    if (block.smooth(search.point, slope)) distance = std::abs(phi + height) / slope;
+    return true;
+  }
+  if (length > 1.0) step /= std::sqrt(length);
+  search.point += step;
+  return false;
+}
+
 }  // namespace
 
 std::vector<CellDistance> surfaceDistances(const FloatTree& phi, const Coord& origin, float h) {
   thread_local Block block;
+  thread_local std::vector<Search> searches;
   gather(phi, origin, kHalo, block.value.data());
   std::array<std::uint8_t, 64> near;
   std::vector<CellDistance> distances;
   if (!block.nearCells(near)) return distances;
-  for (float& value : block.value) value /= h;
+  const float inverse = 1.0f / h;
+  for (float& value : block.value) value *= inverse;
+  searches.clear();
   for (std::int16_t offset = 0; offset < kLeafSize; ++offset) {
     if ((near[std::size_t(offset >> 3)] >> (offset & 7) & 1) == 0) continue;
-    const Vec3 x(offset >> 6, (offset >> 3) & 7, offset & 7);
-    const auto distance = block.distance(x, block.guess(offset, block.crossing(offset)));
-    if (!distance || *distance > kReach) continue;
-    // Never 0: the sign is the cell's side.
-    const float away = std::max(static_cast<float>(*distance), 1e-6f);
-    distances.push_back({offset, *block.cell(offset) < 0.0f ? -away : away});
+    const Vec3 cell(offset >> 6, (offset >> 3) & 7, offset & 7);
+    searches.push_back({cell, block.guess(offset, block.crossing(offset)), {}, offset, true});
+  }
+  // All cells take their steps together: the evaluations do not wait for each other then.
+  for (int n = 0; n < kMaxIterations && !searches.empty(); ++n) {
+    for (Search& search : searches) search.inBlock = block.evaluate(search.point, search.phi);
+    std::erase_if(searches, [&](Search& search) {
+      double distance;
+      if (!advance(search, block, distance)) return false;
+      // Never 0: the sign is the cell's side.
+      const float away = std::max(static_cast<float>(distance), 1e-6f);
+      if (distance <= kReach)
+        distances.push_back({search.offset, *block.cell(search.offset) < 0.0f ? -away : away});
+      return true;
+    });
   }
   return distances;
 }
