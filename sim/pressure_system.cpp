@@ -32,8 +32,8 @@ PoissonSystem pressureSystem(const LiquidCells& liquid, const std::vector<char>&
       for (int s = 0; s < kSides; ++s) {
         const int neighbor = system.numbering.at(neighborOf(place, s));
         const bool linked = cell.open[s] > 0.0f && neighbor >= 0;
-        system.rows[i].neighbor[s] = linked ? neighbor : n;
-        system.rows[i].link[s] = linked ? cell.open[s] : 0.0f;
+        system.rows.neighbor[i][s] = linked ? neighbor : n;
+        system.rows.link[i][s] = linked ? cell.open[s] : 0.0f;
         if (cell.open[s] > 0.0f && !linked) {
           // The surface, or a detached cell with pressure 0 at its centre.
           system.anchor[i] +=

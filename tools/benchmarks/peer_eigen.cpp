@@ -16,7 +16,8 @@ Solved solveEigen(const PoissonProblem& problem) {
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd b(n);
   for (int i = 0; i < n; ++i) {
-    const auto& [neighbor, link] = system.rows[order[i]];
+    const auto& neighbor = system.rows.neighbor[order[i]];
+    const auto& link = system.rows.link[order[i]];
     double diagonal = system.anchor[order[i]];
     for (int s = 0; s < sim::kSides; ++s) {
       if (link[s] <= 0.0f) continue;

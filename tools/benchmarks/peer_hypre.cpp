@@ -36,7 +36,7 @@ Solved solveHypre(const PoissonProblem& problem) {
   HYPRE_StructMatrixInitialize(matrix);
   std::vector<double> entries(4 * order.size()), b(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto& link = system.rows[order[i]].link;
+    const auto& link = system.rows.link[order[i]];
     double diagonal = system.anchor[order[i]];
     for (const float l : link) diagonal += double(l);
     entries[4 * i] = diagonal;

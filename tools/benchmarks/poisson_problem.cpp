@@ -37,8 +37,8 @@ PoissonProblem boxProblem(int n) {
     const Coord& cell = system.numbering.cells()[i];
     for (int s = 0; s < sim::kSides; ++s) {
       const int neighbor = system.numbering.at(sim::neighborOf(cell, s));
-      system.rows[i].neighbor[s] = neighbor < 0 ? size : neighbor;
-      system.rows[i].link[s] = neighbor < 0 ? 0.0f : 1.0f;
+      system.rows.neighbor[i][s] = neighbor < 0 ? size : neighbor;
+      system.rows.link[i][s] = neighbor < 0 ? 0.0f : 1.0f;
     }
     if (cell[2] == problem.box[2] - 1) {
       system.anchor[i] = 1.0;
@@ -85,8 +85,8 @@ double residualOf(const PoissonProblem& problem, const std::vector<double>& x) {
   for (std::size_t i = 0; i < x.size(); ++i) {
     double r = problem.b[i] - problem.system.anchor[i] * x[i];
     for (int s = 0; s < sim::kSides; ++s) {
-      const float link = problem.system.rows[i].link[s];
-      if (link > 0.0f) r -= double(link) * (x[i] - x[problem.system.rows[i].neighbor[s]]);
+      const float link = problem.system.rows.link[i][s];
+      if (link > 0.0f) r -= double(link) * (x[i] - x[problem.system.rows.neighbor[i][s]]);
     }
     left += r * r;
     all += problem.b[i] * problem.b[i];
