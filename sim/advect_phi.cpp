@@ -28,7 +28,9 @@ inline float weno5(float v1, float v2, float v3, float v4, float v5) {
   // phi is divided by h before, so that differences are near 1 and one epsilon fits every grid.
   constexpr float kEpsilon = 1e-6f;
   const float e1 = kEpsilon + s1, e2 = kEpsilon + s2, e3 = kEpsilon + s3;
-  const float w1 = 0.1f / (e1 * e1), w2 = 0.6f / (e2 * e2), w3 = 0.3f / (e3 * e3);
+  // 0.1 / e1^2 : 0.6 / e2^2 : 0.3 / e3^2, with one division below instead of four.
+  const float e12 = e1 * e2, e13 = e1 * e3, e23 = e2 * e3;
+  const float w1 = 0.1f * e23 * e23, w2 = 0.6f * e13 * e13, w3 = 0.3f * e12 * e12;
   const float p1 = v1 * (1.0f / 3.0f) - v2 * (7.0f / 6.0f) + v3 * (11.0f / 6.0f);
   const float p2 = -v2 * (1.0f / 6.0f) + v3 * (5.0f / 6.0f) + v4 * (1.0f / 3.0f);
   const float p3 = v3 * (1.0f / 3.0f) + v4 * (5.0f / 6.0f) - v5 * (1.0f / 6.0f);
@@ -79,6 +81,25 @@ std::vector<float> cellVelocity(const std::vector<FloatLeaf*>& leaves, const Vel
   return centred;
 }
 
+// Whether all that a leaf's stencils reach has one value: beyond the band, where nothing moves.
+bool isFlat(const float* block) {
+  const float value = block[(kHalo * kSide + kHalo) * kSide + kHalo];
+  const auto rowIsFlat = [&](int i, int j, int first, int last) {
+    const float* row = block + (i * kSide + j) * kSide;
+    bool flat = true;
+    for (int k = first; k < last; ++k) flat &= row[k] == value;
+    return flat;
+  };
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; j < kSide; ++j) {
+      const int off = int(i < kHalo || i >= kHalo + kLeafDim) + int(j < kHalo || j >= kHalo + kLeafDim);
+      if (off == 2) continue;  // crossOnly: not gathered
+      if (!rowIsFlat(i, j, off == 0 ? 0 : kHalo, off == 0 ? kSide : kHalo + kLeafDim)) return false;
+    }
+  }
+  return true;
+}
+
 // One Runge-Kutta stage on every leaf: to = a * base + b * (from + dt L(from)), clamped to the band.
 // `speed` is velocity * dt / h. base may be `to`.
 void stage(const FloatTree& from, const std::vector<FloatLeaf*>& base, const std::vector<FloatLeaf*>& to,
@@ -86,13 +107,16 @@ void stage(const FloatTree& from, const std::vector<FloatLeaf*>& base, const std
   tbb::parallel_for(std::size_t{0}, to.size(), [&](std::size_t n) {
     float block[kBlock] = {};
     gather(from, to[n]->origin(), kHalo, block, true);
+    const bool flat = isFlat(block);
     const float inverse = 1.0f / h;
     for (float& value : block) value *= inverse;
     float change[kLeafSize] = {};
     const float* s = speed.data() + 3 * n * kLeafSize;
-    addAdvection(block, kSide * kSide, s, change);
-    addAdvection(block, kSide, s + kLeafSize, change);
-    addAdvection(block, 1, s + 2 * kLeafSize, change);
+    if (!flat) {
+      addAdvection(block, kSide * kSide, s, change);
+      addAdvection(block, kSide, s + kLeafSize, change);
+      addAdvection(block, 1, s + 2 * kLeafSize, change);
+    }
     const float* was = base[n]->buffer().data();
     float* out = to[n]->buffer().data();
     for (int i = 0; i < kLeafDim; ++i) {

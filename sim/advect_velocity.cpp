@@ -29,12 +29,6 @@ struct LeafPass {
 // Samples this deep in the liquid (in cells) have only liquid's velocities around them.
 constexpr float kWellInside = -1.5f;
 
-Vec3f facePosition(int offset, int axis) {
-  return Vec3f(static_cast<float>(offset >> 6), static_cast<float>((offset >> 3) & 7),
-               static_cast<float>(offset & 7)) +
-         faceShift(axis);
-}
-
 }  // namespace
 
 void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to, const FloatGrid& phiFrom,
@@ -78,8 +72,7 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
               const float* p =
                   begin + (((i >> 6) + 1) * after.side + ((i >> 3) & 7) + 1) * after.side + (i & 7) + 1;
               if (!target[axis][n]->isValueOn(i) || (p[0] >= 0.0f && p[-below] >= 0.0f)) continue;
-              const Vec3f x = facePosition(i, axis);
-              const Vec3f origin3 = window.trace(x, -step);
+              const Vec3f origin3 = window.traceFace(i, axis, -step);
               out[i] = own.at(origin3);
               pass.flags[axis][i] = kWanted;
               if (std::max(p[0], p[-below]) < inside && before.at(origin3) < inside) {
@@ -110,8 +103,7 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
               if ((pass.flags[axis][i] & kWanted) == 0) continue;
               out[i] = first[i];
               if ((pass.flags[axis][i] & kCorrect) == 0) continue;
-              const Vec3f x = facePosition(i, axis);
-              const Vec3f goal = window.trace(x, step);
+              const Vec3f goal = window.traceFace(i, axis, step);
               if (after.at(goal) >= inside) continue;
               const float back = ahead.component(axis).at(goal);
               const float corrected = first[i] + 0.5f * (content.component(axis).values[i] - back);

@@ -1,32 +1,43 @@
 // Velocity that does not run into solids, where the pressure has had no say: Houston, Bond, Wiebe, "A unified
 // approach for modeling complex occlusions in fluid simulations", 2003; Batty, Bertails, Bridson, 2007,
 // section 4.4.
+#include "sim/leaf_table.h"
 #include "sim/mac_grid.h"
 #include "sim/solids.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace fluidtex::sim {
 
 namespace {
 
 using Range = tbb::blocked_range<std::size_t>;
-using FloatAccessor = openvdb::tree::ValueAccessor<const FloatTree>;
 using MaskAccessor = openvdb::tree::ValueAccessor<const openvdb::MaskGrid::TreeType>;
+
+// A leaf's values and one more layer around them.
+constexpr int kSide = kLeafDim + 2;
+constexpr int kStride[3] = {kSide * kSide, kSide, 1};
+using Block = std::array<float, kSide * kSide * kSide>;
+
+int blockIndex(int offset) {
+  return ((offset >> 6) + 1) * kStride[0] + (((offset >> 3) & 7) + 1) * kStride[1] + (offset & 7) + 1;
+}
+
+// Component `other` at a face normal to `axis`: the mean of the four faces around it.
+float across(const float* other, int axis, int otherAxis) {
+  const float* low = other - kStride[axis];
+  return 0.25f * (other[0] + other[kStride[otherAxis]] + low[0] + low[kStride[otherAxis]]);
+}
 
 Coord shifted(Coord c, int axis, int by) {
   c[axis] += by;
   return c;
-}
-
-// Component `other` at face (c, axis): the mean of the four faces around it.
-float across(const FloatAccessor& other, const Coord& c, int axis, int otherAxis) {
-  const Coord low = shifted(c, axis, -1);
-  return 0.25f * (other.getValue(c) + other.getValue(shifted(c, otherAxis, 1)) + other.getValue(low) +
-                  other.getValue(shifted(low, otherAxis, 1)));
 }
 
 // Whether a face lies beyond a side of the domain that is no wall.
@@ -47,11 +58,8 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
   const FloatGrid* const open[3] = {solid.openU.get(), solid.openV.get(), solid.openW.get()};
   const openvdb::MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
 
-  const bool moving = solid.speedU != nullptr;
-  const FloatGrid::Ptr atRest = FloatGrid::create(0.0f);
-  const FloatGrid* const solidSpeed[3] = {moving ? solid.speedU.get() : atRest.get(),
-                                          moving ? solid.speedV.get() : atRest.get(),
-                                          moving ? solid.speedW.get() : atRest.get()};
+  const bool moving = solid.speedU != nullptr, anyLeaving = !separating.empty();
+  const FloatGrid* const solidSpeed[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};
 
   // All new values are found from the old ones before any is written.
   struct Change {
@@ -65,38 +73,47 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
     const std::size_t first = changes.size();
     changes.resize(first + leaves.size());
     tbb::parallel_for(Range(0, leaves.size()), [&](const Range& range) {
-      const FloatAccessor speed[3] = {FloatAccessor(u.constTree()), FloatAccessor(v.constTree()),
-                                      FloatAccessor(w.constTree())};
-      const FloatAccessor openness(open[axis]->constTree()), distance(solid.phi->constTree()),
-          liquid(phi.constTree());
-      const FloatAccessor push[3] = {FloatAccessor(solidSpeed[0]->constTree()),
-                                     FloatAccessor(solidSpeed[1]->constTree()),
-                                     FloatAccessor(solidSpeed[2]->constTree())};
       const MaskAccessor known(masks[axis]->constTree()), leaving(separating.constTree());
+      Block distance, liquid, speed[3], push[3];
+      float scratch[kLeafSize];
       for (std::size_t n = range.begin(); n < range.end(); ++n) {
+        const Coord origin = leaves[n]->origin();
+        const float* openness = leafValues(open[axis]->constTree(), origin, scratch);
+        if (std::all_of(openness, openness + kLeafSize, [](float share) { return share > 0.0f; })) continue;
+        gather(solid.phi->constTree(), origin, 1, distance.data());
+        // Deep inside a solid the distance is cut off.
+        const auto [least, most] = std::minmax_element(distance.begin(), distance.end());
+        if (*most - *least < 1e-3f * static_cast<float>(solid.voxelSize)) continue;
+        gather(phi.constTree(), origin, 1, liquid.data());
+        for (int a = 0; a < 3; ++a) {
+          gather(grids[a]->constTree(), origin, 1, speed[a].data());
+          if (moving) gather(solidSpeed[a]->constTree(), origin, 1, push[a].data());
+        }
         for (auto it = leaves[n]->beginValueOn(); it; ++it) {
+          if (openness[it.pos()] > 0.0f) continue;
           const Coord c = it.getCoord();
-          if (openness.getValue(c) > 0.0f || known.isValueOn(c) || beyondOpening(solid, c, axis)) continue;
-          const Coord low = shifted(c, axis, -1);
+          if (known.isValueOn(c) || beyondOpening(solid, c, axis)) continue;
+          const int at = blockIndex(static_cast<int>(it.pos()));
+          const float *here = distance.data() + at, *below = here - kStride[axis];
           openvdb::Vec3f normal(0.0f), velocity(0.0f);
           for (int a = 0; a < 3; ++a) {
-            normal[a] = a == axis ? distance.getValue(c) - distance.getValue(low)
-                                  : 0.25f * (distance.getValue(shifted(c, a, 1)) -
-                                             distance.getValue(shifted(c, a, -1)) +
-                                             distance.getValue(shifted(low, a, 1)) -
-                                             distance.getValue(shifted(low, a, -1)));
-            velocity[a] = a == axis ? *it : across(speed[a], c, axis, a);
-            if (moving) velocity[a] -= a == axis ? push[a].getValue(c) : across(push[a], c, axis, a);
+            normal[a] =
+                a == axis
+                    ? here[0] - below[0]
+                    : 0.25f * (here[kStride[a]] - here[-kStride[a]] + below[kStride[a]] - below[-kStride[a]]);
+            velocity[a] = a == axis ? *it : across(speed[a].data() + at, axis, a);
+            if (moving) velocity[a] -= a == axis ? push[a][at] : across(push[a].data() + at, axis, a);
           }
-          // Deep inside a solid the distance is cut off and there is no normal: nothing reads the velocity
-          // there.
+          // Deep inside a solid there is no normal: nothing reads the velocity there.
           const float length = normal.length();
           if (length < 0.5f * static_cast<float>(solid.voxelSize)) continue;
           normal /= length;
           const float outward = velocity.dot(normal);
-          const bool wet = liquid.getValue(c) < 0.0f || liquid.getValue(low) < 0.0f;
-          const bool free = !wet || leaving.isValueOn(c) || leaving.isValueOn(low);
-          if (outward >= 0.0f && free) continue;
+          if (outward >= 0.0f) {
+            const bool wet = liquid[at] < 0.0f || liquid[at - kStride[axis]] < 0.0f;
+            if (!wet || (anyLeaving && (leaving.isValueOn(c) || leaving.isValueOn(shifted(c, axis, -1)))))
+              continue;
+          }
           changes[first + n].push_back({leaves[n], static_cast<int>(it.pos()), *it - outward * normal[axis]});
         }
       }

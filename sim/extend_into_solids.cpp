@@ -2,9 +2,9 @@
 // (constant and linear extension), solved upwind in the order of depth instead of in artificial time.
 #include "sim/leaf_table.h"
 #include "sim/level_set.h"
+#include "sim/sort_by_distance.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -94,14 +94,6 @@ struct Extension {
   }
 };
 
-struct Entry {
-  float depth;
-  std::int64_t cell;
-  bool operator<(const Entry& other) const {
-    return depth != other.depth ? depth < other.depth : cell < other.cell;
-  }
-};
-
 }  // namespace
 
 void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo) {
@@ -114,22 +106,22 @@ void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& le
                       sampleOn(table, solidPhi.constTree()),
                       std::vector<float>(table.voxels()),
                       std::vector<std::uint8_t>(table.voxels())};
-  std::vector<Entry> order;
+  std::vector<FarVoxel> order;
   for (std::size_t n = 0; n < table.voxels(); ++n) {
     extension.depth[n] = -extension.depth[n];
     if (extension.depth[n] > kDeepInSolid * h) {
-      order.push_back({extension.depth[n], static_cast<std::int64_t>(n)});
+      order.push_back({sortKey(extension.depth[n]), static_cast<std::uint32_t>(n)});
     } else {
       extension.known[n] = 1;
     }
   }
   if (order.empty()) return;
-  tbb::parallel_sort(order.begin(), order.end());
+  sortByDistance(order);
 
   // Where the solid's distance ends, layers of equal depth wait for each other.
   std::vector<std::int64_t> waiting;
-  for (const Entry& e : order) {
-    if (!extension.extend(e.cell)) waiting.push_back(e.cell);
+  for (const FarVoxel& e : order) {
+    if (!extension.extend(e.voxel)) waiting.push_back(e.voxel);
   }
   for (bool progress = true; progress && !waiting.empty();) {
     std::vector<std::int64_t> still;

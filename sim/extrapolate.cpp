@@ -4,11 +4,9 @@
 #include "sim/extrapolate.h"
 
 #include "sim/leaf_table.h"
+#include "sim/sort_by_distance.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
-
-#include <tuple>
 
 namespace fluidtex::sim {
 namespace {
@@ -50,16 +48,6 @@ struct Component {
   }
 };
 
-// Faces in solids come after those in the air, so that both sides of a contact line are known first.
-struct Entry {
-  bool inSolid;
-  float distance;
-  std::int64_t voxel;
-  bool operator<(const Entry& other) const {
-    return std::tie(inSolid, distance, voxel) < std::tie(other.inSolid, other.distance, other.voxel);
-  }
-};
-
 // Mean of a cell-centred field over the two cells of each face normal to `axis`.
 std::vector<float> atFaces(const LeafTable& table, const std::vector<float>& cells, int axis) {
   std::vector<float> faces(cells.size());
@@ -78,7 +66,8 @@ void extrapolateComponent(FloatGrid& grid, const openvdb::MaskGrid& valid, int a
   Component c{table, sampleOn(table, grid.constTree()), std::vector<std::uint8_t>(table.voxels()),
               atFaces(table, phi, axis), atFaces(table, depth, axis)};
   const auto leaves = leavesOf(grid.tree());
-  std::vector<Entry> order;
+  // Faces in solids come after those in the air, so that both sides of a contact line are known first.
+  std::vector<FarVoxel> order;
   for (std::size_t n = 0; n < leaves.size(); ++n) {
     const auto* validLeaf = valid.constTree().probeConstLeaf(leaves[n]->origin());
     const bool validTile = validLeaf == nullptr && valid.constTree().isValueOn(leaves[n]->origin());
@@ -89,15 +78,16 @@ void extrapolateComponent(FloatGrid& grid, const openvdb::MaskGrid& valid, int a
         c.known[voxel] = 1;
       } else {
         const bool inSolid = c.solidDepth[voxel] > 0.0f;
-        order.push_back({inSolid, inSolid ? c.solidDepth[voxel] : c.airDistance[voxel], voxel});
+        order.push_back({sortKey(inSolid ? c.solidDepth[voxel] : c.airDistance[voxel], inSolid),
+                         static_cast<std::uint32_t>(voxel)});
       }
     }
   }
-  tbb::parallel_sort(order.begin(), order.end());
+  sortByDistance(order);
 
   // One pass does nearly all; local minima of the distance that hold no valid face wait for their neighbours.
   std::vector<std::int64_t> waiting;
-  for (const Entry& e : order) {
+  for (const FarVoxel& e : order) {
     if (!c.fill(e.voxel)) waiting.push_back(e.voxel);
   }
   while (!waiting.empty()) {

@@ -171,8 +171,8 @@ bool conductHeat(FloatGrid& temperature, const FloatGrid& phi, const SolidField&
         wall += 1.0 - share;
         const int neighbor = system.numbering.at(beside);
         const bool linked = neighbor >= 0 && share > 0.0f;
-        system.rows[i].neighbor[side] = linked ? neighbor : n;
-        system.rows[i].link[side] = linked ? static_cast<float>(conduction * share) : 0.0f;
+        system.rows.neighbor[i][side] = linked ? neighbor : n;
+        system.rows.link[i][side] = linked ? static_cast<float>(conduction * share) : 0.0f;
         // The faces of cells towards the air are larger than the surface by 1 / |normal|, one axis with the
         // other.
         if (neighbor < 0 && share > 0.0f && liquid.getValue(beside) >= 0.0f)

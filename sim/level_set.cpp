@@ -95,6 +95,28 @@ void setBand(FloatTree& tree, const FloatTree* solidPhi, float h) {
   openvdb::tools::prune(tree);
 }
 
+// Calls add(box) for the tiles below 0 of all nodes of one level that reach into the box.
+template <class Node, class Add>
+void addTilesOf(const FloatTree& tree, const openvdb::CoordBBox& within, const Add& add) {
+  constexpr int kTile = Node::ChildNodeType::DIM;
+  std::vector<const Node*> nodes;
+  tree.getNodes(nodes);
+  for (const Node* node : nodes) {
+    openvdb::CoordBBox box = node->getNodeBoundingBox();
+    box.intersect(within);
+    if (box.empty()) continue;
+    for (int i = box.min().x() & ~(kTile - 1); i <= box.max().x(); i += kTile) {
+      for (int j = box.min().y() & ~(kTile - 1); j <= box.max().y(); j += kTile) {
+        for (int k = box.min().z() & ~(kTile - 1); k <= box.max().z(); k += kTile) {
+          const openvdb::Index at = Node::coordToOffset(Coord(i, j, k));
+          if (!node->isChildMaskOn(at) && node->getTable()[at].getValue() < 0.0f)
+            add(openvdb::CoordBBox::createCube(Coord(i, j, k), kTile));
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Coord> wetLeaves(const FloatGrid& phi, const Coord& cells, int margin) {
@@ -107,19 +129,24 @@ std::vector<Coord> wetLeaves(const FloatGrid& phi, const Coord& cells, int margi
   for (const FloatLeaf* leaf : leavesOf(phi.constTree()))
     if (inBox(leaf->origin())) origins.push_back(leaf->origin());
   // Tiles of liquid, cut into blocks; those of a level set are inactive.
-  auto tile = phi.constTree().cbeginValueAll();
-  tile.setMaxDepth(FloatTree::ValueAllCIter::LEAF_DEPTH - 1);
-  for (; tile; ++tile) {
-    if (*tile >= 0.0f) continue;
-    openvdb::CoordBBox box;
-    tile.getBoundingBox(box);
+  const auto addTile = [&](openvdb::CoordBBox box) {
     box.intersect({low, high});
-    if (box.empty()) continue;
+    if (box.empty()) return;
     for (int i = box.min().x() & ~(kLeafDim - 1); i <= box.max().x(); i += kLeafDim)
       for (int j = box.min().y() & ~(kLeafDim - 1); j <= box.max().y(); j += kLeafDim)
         for (int k = box.min().z() & ~(kLeafDim - 1); k <= box.max().z(); k += kLeafDim)
           origins.emplace_back(i, j, k);
+  };
+  auto tile = phi.constTree().cbeginValueAll();
+  tile.setMaxDepth(0);
+  for (; tile; ++tile) {
+    if (*tile < 0.0f) addTile(tile.getBoundingBox());
   }
+  // Nodes have thousands of tiles: only those in the box are looked at.
+  using Upper = FloatTree::RootNodeType::ChildNodeType;
+  using Lower = Upper::ChildNodeType;
+  addTilesOf<Upper>(phi.constTree(), {low, high}, addTile);
+  addTilesOf<Lower>(phi.constTree(), {low, high}, addTile);
   std::sort(origins.begin(), origins.end());
   return origins;
 }

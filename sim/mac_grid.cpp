@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
 
 namespace fluidtex::sim {
 
@@ -81,9 +82,60 @@ std::vector<const FloatLeaf*> leavesOf(const FloatTree& tree) {
   return leaves;
 }
 
+namespace {
+
+// Halo and width are known when compiled, so that each row is a few moves.
+template <int kHalo>
+void copyBox(const float* const* block, float* out, bool crossOnly) {
+  constexpr int kSide = kLeafDim + 2 * kHalo;
+  for (int i = -kHalo; i < kLeafDim + kHalo; ++i) {
+    const int di = i < 0 ? 0 : (i < kLeafDim ? 1 : 2);
+    for (int j = -kHalo; j < kLeafDim + kHalo; ++j) {
+      const int dj = j < 0 ? 0 : (j < kLeafDim ? 1 : 2);
+      if (crossOnly && di != 1 && dj != 1) continue;
+      const float* const* rows = block + 9 * di + 3 * dj;
+      const int from = 64 * (i & 7) + 8 * (j & 7);
+      float* to = out + ((i + kHalo) * kSide + j + kHalo) * kSide;
+      if (kHalo > 0 && (!crossOnly || (di == 1 && dj == 1))) {
+        std::memcpy(to, rows[0] + from + kLeafDim - kHalo, sizeof(float) * kHalo);
+        std::memcpy(to + kHalo + kLeafDim, rows[2] + from, sizeof(float) * kHalo);
+      }
+      std::memcpy(to + kHalo, rows[1] + from, sizeof(float) * kLeafDim);
+    }
+  }
+}
+
+}  // namespace
+
 void gather(const FloatTree& tree, const Coord& origin, int halo, float* out, bool crossOnly) {
-  const openvdb::tree::ValueAccessor<const FloatTree> accessor(tree);
-  const int side = kLeafDim + 2 * halo;
+  // What stands in for leaves that are missing: blocks of one value. Few trees have more than two of them
+  // side by side; where one does, a block is filled again for the next leaf.
+  constexpr int kFills = 4;
+  struct Fill {
+    std::array<float, kLeafSize> value;
+    bool filled = false;
+  };
+  thread_local std::array<Fill, kFills> fills;
+  std::array<bool, kFills> used{};
+  const auto filledWith = [&](float value) -> const float* {
+    for (int n = 0; n < kFills; ++n) {
+      if (!fills[n].filled || std::memcmp(fills[n].value.data(), &value, sizeof(float)) != 0) continue;
+      used[n] = true;
+      return fills[n].value.data();
+    }
+    for (int n = 0; n < kFills; ++n) {
+      if (used[n]) continue;
+      fills[n].value.fill(value);
+      fills[n].filled = used[n] = true;
+      return fills[n].value.data();
+    }
+    return nullptr;
+  };
+
+  const openvdb::tree::ValueAccessor<const FloatTree, false> accessor(tree);
+  const float* block[27];
+  // More than kFills different tiles around one leaf.
+  std::vector<std::unique_ptr<std::array<float, kLeafSize>>> more;
   const int reach = halo > 0 ? 1 : 0;
   for (int di = -reach; di <= reach; ++di) {
     for (int dj = -reach; dj <= reach; ++dj) {
@@ -91,25 +143,39 @@ void gather(const FloatTree& tree, const Coord& origin, int halo, float* out, bo
         if (crossOnly && std::abs(di) + std::abs(dj) + std::abs(dk) > 1) continue;
         const Coord corner = origin.offsetBy(kLeafDim * di, kLeafDim * dj, kLeafDim * dk);
         const FloatLeaf* leaf = accessor.probeConstLeaf(corner);
-        const float* data = leaf != nullptr ? leaf->buffer().data() : nullptr;
-        const float fill = leaf != nullptr ? 0.0f : accessor.getValue(corner);
-        // The part of this leaf inside the box, in the leaf's own indices.
-        const auto first = [&](int d) { return d < 0 ? kLeafDim - halo : 0; };
-        const auto last = [&](int d) { return d > 0 ? halo : kLeafDim; };
-        const int k0 = first(dk), count = last(dk) - k0;
-        for (int i = first(di); i < last(di); ++i) {
-          for (int j = first(dj); j < last(dj); ++j) {
-            float* to = out + ((i + kLeafDim * di + halo) * side + j + kLeafDim * dj + halo) * side + k0 +
-                        kLeafDim * dk + halo;
-            if (data != nullptr) {
-              std::memcpy(to, data + 64 * i + 8 * j + k0, sizeof(float) * count);
-            } else {
-              std::fill_n(to, count, fill);
-            }
-          }
+        const float*& values = block[9 * (di + 1) + 3 * (dj + 1) + dk + 1];
+        if (leaf != nullptr) {
+          values = leaf->buffer().data();
+          continue;
         }
+        const float value = accessor.getValue(corner);
+        values = filledWith(value);
+        if (values != nullptr) continue;
+        more.push_back(std::make_unique<std::array<float, kLeafSize>>());
+        more.back()->fill(value);
+        values = more.back()->data();
       }
     }
+  }
+  switch (halo) {
+    case 0:
+      return copyBox<0>(block, out, crossOnly);
+    case 1:
+      return copyBox<1>(block, out, crossOnly);
+    case 2:
+      return copyBox<2>(block, out, crossOnly);
+    case 3:
+      return copyBox<3>(block, out, crossOnly);
+    case 4:
+      return copyBox<4>(block, out, crossOnly);
+    case 5:
+      return copyBox<5>(block, out, crossOnly);
+    case 6:
+      return copyBox<6>(block, out, crossOnly);
+    case 7:
+      return copyBox<7>(block, out, crossOnly);
+    default:
+      return copyBox<8>(block, out, crossOnly);
   }
 }
 
@@ -121,10 +187,21 @@ double maxAbs(const Velocity& velocity) {
         tbb::blocked_range<std::size_t>(0, leaves.size(), 16), largest,
         [&](const tbb::blocked_range<std::size_t>& range, double most) {
           for (std::size_t n = range.begin(); n != range.end(); ++n) {
-            for (auto it = leaves[n]->cbeginValueOn(); it; ++it) {
-              const double value = std::abs(static_cast<double>(*it));
-              most = std::isfinite(value) ? std::max(most, value) : std::numeric_limits<double>::infinity();
+            const auto& active = leaves[n]->getValueMask();
+            const float* values = leaves[n]->buffer().data();
+            // By rows of eight; what is not finite is infinity or NaN, and 0 times it is NaN.
+            float zero = 0.0f, highest = 0.0f;
+            for (int row = 0; row < kLeafSize / kLeafDim; ++row) {
+              const auto on = active.getWord<std::uint8_t>(static_cast<openvdb::Index>(row));
+              const float* p = values + row * kLeafDim;
+              for (int k = 0; k < kLeafDim; ++k) {
+                const float value = (on >> k & 1) != 0 ? std::abs(p[k]) : 0.0f;
+                highest = value > highest ? value : highest;
+                zero += 0.0f * value;
+              }
             }
+            if (zero != 0.0f || !std::isfinite(highest)) highest = std::numeric_limits<float>::infinity();
+            most = std::max(most, static_cast<double>(highest));
           }
           return most;
         },

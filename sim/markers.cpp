@@ -1,10 +1,13 @@
 #include "sim/markers.h"
 
+#include "sim/trilinear.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace fluidtex::sim {
 namespace {
@@ -30,26 +33,62 @@ struct Samples {
 
   void load(const FloatTree& tree, const Coord& origin) { gather(tree, origin, halo, value.data()); }
 
+  // The sample at i, j, k.
+  const float* sample(int i, int j, int k) const {
+    return value.data() + ((i + halo) * side + j + halo) * std::ptrdiff_t(side) + k + halo;
+  }
+
+  // Places lie `halo` cells outside the block at most.
   float at(float x, float y, float z) const {
-    const float fx = std::floor(x), fy = std::floor(y), fz = std::floor(z);
-    const float tx = x - fx, ty = y - fy, tz = z - fz;
-    const float* p =
-        value.data() + ((int(fx) + halo) * side + int(fy) + halo) * std::ptrdiff_t(side) + int(fz) + halo;
-    const std::ptrdiff_t dx = std::ptrdiff_t(side) * side, dy = side;
-    const auto along = [&](std::ptrdiff_t at) { return p[at] + tz * (p[at + 1] - p[at]); };
-    const float low = along(0) + ty * (along(dy) - along(0));
-    const float high = along(dx) + ty * (along(dx + dy) - along(dx));
-    return low + tx * (high - low);
+    const float fromX = x + float(halo), fromY = y + float(halo), fromZ = z + float(halo);
+    const int i = int(fromX), j = int(fromY), k = int(fromZ);
+    const float* p = value.data() + (i * side + j) * std::ptrdiff_t(side) + k;
+    return trilinear(p, std::ptrdiff_t(side) * side, side, fromX - float(i), fromY - float(j),
+                     fromZ - float(k));
   }
 
   // Whether one of the eight values around is negative.
   bool anyNegative(float x, float y, float z) const {
-    const float* p = value.data() +
-                     ((int(std::floor(x)) + halo) * side + int(std::floor(y)) + halo) * std::ptrdiff_t(side) +
-                     int(std::floor(z)) + halo;
+    const float* p = sample(int(std::floor(x)), int(std::floor(y)), int(std::floor(z)));
     for (int n = 0; n < 8; ++n)
       if (p[((n >> 2) * side + ((n >> 1) & 1)) * std::ptrdiff_t(side) + (n & 1)] < 0.0f) return true;
     return false;
+  }
+};
+
+// The range of values at the eight corners of each of a block's cells: what is sampled in it lies between.
+struct CellRanges {
+  std::array<float, kLeafSize> low, high;
+
+  // May be less than a marker's own range by rounding.
+  static constexpr float kRounding = 1e-4f;
+
+  void find(const Samples& samples) {
+    constexpr int kPoints = kLeafDim + 1;
+    // Along z, then y, then x.
+    float lowZ[kPoints][kPoints][kLeafDim], highZ[kPoints][kPoints][kLeafDim];
+    for (int i = 0; i < kPoints; ++i) {
+      for (int j = 0; j < kPoints; ++j) {
+        const float* p = samples.sample(i, j, 0);
+        for (int k = 0; k < kLeafDim; ++k) {
+          lowZ[i][j][k] = p[k] < p[k + 1] ? p[k] : p[k + 1];
+          highZ[i][j][k] = p[k] > p[k + 1] ? p[k] : p[k + 1];
+        }
+      }
+    }
+    const auto least = [](float a, float b) { return a < b ? a : b; };
+    const auto most = [](float a, float b) { return a > b ? a : b; };
+    for (int i = 0; i < kLeafDim; ++i) {
+      for (int j = 0; j < kLeafDim; ++j) {
+        for (int k = 0; k < kLeafDim; ++k) {
+          const int at = 64 * i + 8 * j + k;
+          low[at] =
+              least(least(lowZ[i][j][k], lowZ[i][j + 1][k]), least(lowZ[i + 1][j][k], lowZ[i + 1][j + 1][k]));
+          high[at] = most(most(highZ[i][j][k], highZ[i][j + 1][k]),
+                          most(highZ[i + 1][j][k], highZ[i + 1][j + 1][k]));
+        }
+      }
+    }
   }
 };
 
@@ -84,28 +123,44 @@ int wrap(float& x) {
   return 0;
 }
 
-void trace(Marker& m, const std::array<Samples, 3>& speed) {
-  const auto velocity = [&](float x, float y, float z) {
-    return openvdb::Vec3f(speed[0].at(x + 0.5f, y, z), speed[1].at(x, y + 0.5f, z),
-                          speed[2].at(x, y, z + 0.5f));
-  };
-  const openvdb::Vec3f x(m.x, m.y, m.z);
-  const openvdb::Vec3f k1 = velocity(x[0], x[1], x[2]);
-  const openvdb::Vec3f a = x + 0.5f * k1;
-  const openvdb::Vec3f k2 = velocity(a[0], a[1], a[2]);
-  const openvdb::Vec3f b = x + 0.75f * k2;
-  const openvdb::Vec3f k3 = velocity(b[0], b[1], b[2]);
-  const openvdb::Vec3f to = x + (2.0f * k1 + 3.0f * k2 + 4.0f * k3) * (1.0f / 9.0f);
-  m.x = to[0], m.y = to[1], m.z = to[2];
-}
+// Velocities around a block in cells per step, and how far they press a cell's volume out of it.
+struct Motion {
+  std::array<Samples, 3> speed{Samples(2), Samples(2), Samples(2)};
+  Samples squeeze{1};
+  bool anySqueeze = false;  // over kMaxSqueeze anywhere in the block
 
-// The share of a cell's volume that the flow presses out of it here in a step.
-float squeeze(const Marker& m, const std::array<Samples, 3>& speed) {
-  const float divergence = speed[0].at(m.x + 1.0f, m.y, m.z) - speed[0].at(m.x, m.y, m.z) +
-                           speed[1].at(m.x, m.y + 1.0f, m.z) - speed[1].at(m.x, m.y, m.z) +
-                           speed[2].at(m.x, m.y, m.z + 1.0f) - speed[2].at(m.x, m.y, m.z);
-  return -divergence;
-}
+  void load(const Velocity& velocity, const Coord& origin, int halo, float scale) {
+    for (int a = 0; a < 3; ++a) {
+      if (speed[a].halo != halo) speed[a] = Samples(halo);
+      speed[a].load(velocity.component[a]->constTree(), origin);
+      for (float& value : speed[a].value) value *= scale;
+    }
+    const std::ptrdiff_t side = speed[0].side;
+    anySqueeze = false;
+    for (int i = 0; i <= kLeafDim; ++i) {
+      for (int j = 0; j <= kLeafDim; ++j) {
+        const float *u = speed[0].sample(i, j, 0), *v = speed[1].sample(i, j, 0),
+                    *w = speed[2].sample(i, j, 0);
+        float* out = squeeze.value.data() + ((i + 1) * squeeze.side + j + 1) * squeeze.side + 1;
+        for (int k = 0; k <= kLeafDim; ++k) {
+          out[k] = -(u[k + side * side] - u[k] + v[k + side] - v[k] + w[k + 1] - w[k]);
+          anySqueeze = anySqueeze || out[k] > kMaxSqueeze;
+        }
+      }
+    }
+  }
+
+  void trace(Marker& m) const {
+    const StaggeredBlocks blocks{{speed[0].value.data(), speed[1].value.data(), speed[2].value.data()},
+                                 speed[0].side};
+    const Lanes x = _mm_loadu_ps(&m.x) + lanes(float(speed[0].halo));
+    const Lanes k1 = blocks.at(x);
+    const Lanes k2 = blocks.at(x + lanes(0.5f) * k1);
+    const Lanes k3 = blocks.at(x + lanes(0.75f) * k2);
+    const Lanes move = (lanes(2.0f) * k1 + lanes(3.0f) * k2 + lanes(4.0f) * k3) * lanes(1.0f / 9.0f);
+    m.x += lane0(move), m.y += lane1(move), m.z += lane2(move);
+  }
+};
 
 // Counter-based: the same for any order of cells.
 float unitRandom(std::uint64_t seed, const Coord& cell, std::uint32_t n) {
@@ -153,28 +208,35 @@ Markers advectMarkers(const Markers& markers, const Velocity& velocity, double d
   const double h = velocity.component[0]->voxelSize()[0];
   const float scale = static_cast<float>(dt / h);
   const int halo = static_cast<int>(std::ceil(dt / h * maxAbs(velocity))) + 2;
-  // By block, its markers by the neighbour they end in.
-  std::vector<std::array<std::vector<Marker>, 27>> sent(markers.size());
+  // Of a block: its markers by the neighbour they end in, and where the part of each neighbour begins.
+  struct Sent {
+    std::array<std::int32_t, 28> start{};
+    std::vector<Marker> markers;
+  };
+  std::vector<Sent> sent(markers.size());
   tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
-    thread_local std::array<Samples, 3> speed{Samples(2), Samples(2), Samples(2)};
-    for (int a = 0; a < 3; ++a) {
-      if (speed[a].halo != halo) speed[a] = Samples(halo);
-      speed[a].load(velocity.component[a]->constTree(), markers[n].origin);
-      for (float& value : speed[a].value) value *= scale;
-    }
-    sent[n][13].reserve(markers[n].markers.size());
+    thread_local Motion motion;
+    thread_local std::vector<std::pair<int, Marker>> moved;
+    motion.load(velocity, markers[n].origin, halo, scale);
+    moved.clear();
+    std::array<std::int32_t, 28>& start = sent[n].start;
     for (Marker m : markers[n].markers) {
-      if (m.radius > 0.0f && squeeze(m, speed) > kMaxSqueeze) continue;
-      trace(m, speed);
-      const int di = wrap(m.x), dj = wrap(m.y), dk = wrap(m.z);
-      sent[n][neighborNumber(di, dj, dk)].push_back(m);
+      if (motion.anySqueeze && m.radius > 0.0f && motion.squeeze.at(m.x, m.y, m.z) > kMaxSqueeze) continue;
+      motion.trace(m);
+      const int di = wrap(m.x), dj = wrap(m.y), dk = wrap(m.z), to = neighborNumber(di, dj, dk);
+      ++start[to + 1];
+      moved.emplace_back(to, m);
     }
+    for (int to = 0; to < 27; ++to) start[to + 1] += start[to];
+    std::array<std::int32_t, 28> next = start;
+    sent[n].markers.resize(moved.size());
+    for (const auto& [to, m] : moved) sent[n].markers[next[to]++] = m;
   });
 
   std::vector<Coord> origins;
   for (std::size_t n = 0; n < markers.size(); ++n) {
     for (int to = 0; to < 27; ++to) {
-      if (!sent[n][to].empty()) origins.push_back(markers[n].origin + neighborShift(to));
+      if (sent[n].start[to + 1] > sent[n].start[to]) origins.push_back(markers[n].origin + neighborShift(to));
     }
   }
   std::sort(origins.begin(), origins.end());
@@ -182,12 +244,18 @@ Markers advectMarkers(const Markers& markers, const Velocity& velocity, double d
   Markers moved(origins.size());
   tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
     moved[n].origin = origins[n];
+    std::array<std::pair<const Marker*, const Marker*>, 27> parts{};
+    std::size_t count = 0;
     for (int from = 0; from < 27; ++from) {
       const MarkerBlock* source = find(markers, origins[n] + neighborShift(from));
       if (source == nullptr) continue;
-      const std::vector<Marker>& part = sent[std::size_t(source - markers.data())][26 - from];
-      moved[n].markers.insert(moved[n].markers.end(), part.begin(), part.end());
+      const Sent& all = sent[std::size_t(source - markers.data())];
+      const Marker* first = all.markers.data();
+      parts[from] = {first + all.start[26 - from], first + all.start[27 - from]};
+      count += std::size_t(parts[from].second - parts[from].first);
     }
+    moved[n].markers.reserve(count);
+    for (const auto& [first, last] : parts) moved[n].markers.insert(moved[n].markers.end(), first, last);
   });
   return moved;
 }
@@ -197,9 +265,14 @@ void correctPhi(FloatGrid& phi, const Markers& markers) {
   Markers out(markers.size());  // those that have escaped
   tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
     thread_local Samples distance(1);
+    thread_local CellRanges range;
     distance.load(phi.constTree(), markers[n].origin);
+    range.find(distance);
     out[n].origin = markers[n].origin;
+    const float wrong = (kSmallest - CellRanges::kRounding) * h;
     for (const Marker& m : markers[n].markers) {
+      const auto cell = std::size_t(cellOf(m));
+      if (m.radius < 0.0f ? range.high[cell] < wrong : range.low[cell] > -wrong) continue;
       if (escaped(m, distance.at(m.x, m.y, m.z) / h)) out[n].markers.push_back(m);
     }
   });
@@ -261,23 +334,41 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
   Markers next(origins.size());
   tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
     thread_local Samples distance(2), solid(2);
+    thread_local CellRanges range, wallRange;
     distance.load(phi.constTree(), origins[n]);
     solid.load(solidPhi.constTree(), origins[n]);
+    range.find(distance);
+    wallRange.find(solid);
     next[n].origin = origins[n];
     std::vector<Marker>& kept = next[n].markers;
     std::array<int, kLeafSize> count{};
     if (const MarkerBlock* block = find(markers, origins[n])) {
       kept.reserve(block->markers.size());
+      constexpr float kRounding = CellRanges::kRounding;
       for (Marker m : block->markers) {
+        const auto cell = std::size_t(cellOf(m));
+        int& there = count[cell];
+        const bool open = wallRange.low[cell] > (kRounding - 1.0f) * h;
+        // Most markers are known to have the largest radius.
+        const float least = (m.radius < 0.0f ? -range.high[cell] : range.low[cell]) / h,
+                    most = (m.radius < 0.0f ? -range.low[cell] : range.high[cell]) / h;
+        if (open && least > kLargest + kRounding && most < kBand - kRounding) {
+          if (there >= 2 * kPerCell) continue;
+          ++there;
+          m.radius = side(m) * kLargest;
+          kept.push_back(m);
+          continue;
+        }
         const float here = distance.at(m.x, m.y, m.z) / h;
         const bool out = escaped(m, here);
         if (side(m) * here > kBand) continue;
         if (out && m.radius > 0.0f && -here > kDeepestAir) continue;
-        const float wall = solid.at(m.x, m.y, m.z);
-        if (wall < -h) continue;
-        // What is left of a film at a wall, with no cell of liquid: nothing would move it any more.
-        if (out && wall < h && liesOnWall(m, distance, solid, h)) continue;
-        int& there = count[std::size_t(cellOf(m))];
+        if (!open || out) {
+          const float wall = solid.at(m.x, m.y, m.z);
+          if (wall < -h) continue;
+          // What is left of a film at a wall, with no cell of liquid: nothing would move it any more.
+          if (out && wall < h && liesOnWall(m, distance, solid, h)) continue;
+        }
         if (!out && there >= 2 * kPerCell) continue;
         ++there;
         measure(m, here);

@@ -69,97 +69,104 @@ std::vector<CellBlock> coarseBlocks(const CellNumbering& fine, const Coord& exte
 
 }  // namespace
 
-Multigrid::Multigrid(const PoissonSystem& system) {
-  m_levels.emplace_back();
-  Level& finest = m_levels.back();
-  finest.numbering = system.numbering;
+Multigrid::Multigrid(const PoissonSystem& system, const EvenRows& even) {
+  m_levels.push_back(std::make_unique<Level>());
+  Level& finest = *m_levels.back();
+  finest.numbering = &system.numbering;
   finest.rows = &system.rows;
-  finest.anchor = system.anchor;
-  finest.anchoredSides = system.anchoredSides;
+  finest.even = even;
+  finest.anchor = &system.anchor;
+  finest.anchoredSides = &system.anchoredSides;
 
   for (int depth = 0;; ++depth) {
-    Level& level = m_levels.back();
-    const int n = level.numbering.size();
+    Level& level = *m_levels.back();
+    const int n = level.numbering->size();
     level.inverseDiagonal.resize(n);
     forEach(0, n, [&](int i) {
-      double diagonal = level.anchor[i];
-      for (const float link : (*level.rows)[i].link) diagonal += link;
+      double diagonal = (*level.anchor)[i];
+      for (const float link : level.rows->link[i]) diagonal += link;
       level.inverseDiagonal[i] = diagonal > 0.0 ? static_cast<float>(1.0 / diagonal) : 0.0f;
     });
-    if (n <= kCoarsestCells) break;
-    Level coarse = coarsen(level, depth);
-    connect(level, coarse, depth);
-    m_levels.push_back(std::move(coarse));
-    m_levels.back().rows = &m_levels.back().ownRows;
-  }
-  for (Level& level : m_levels) {
-    level.rows = &level == &m_levels.front() ? &system.rows : &level.ownRows;
-    const std::size_t size = level.numbering.size() + 1;
-    if (&level != &m_levels.front()) {
-      level.b.assign(size, 0.0f);
-      level.x.assign(size, 0.0f);
+    level.residual.assign(level.numbering->redCount(), 0.0f);
+    if (depth > 0) {
+      level.b.assign(n + 1, 0.0f);
+      level.x.assign(n + 1, 0.0f);
     }
-    level.residual.assign(level.numbering.redCount(), 0.0f);
+    if (n <= kCoarsestCells) break;
+    std::unique_ptr<Level> coarse = coarsen(level, depth);
+    connect(level, *coarse, depth);
+    m_levels.push_back(std::move(coarse));
   }
 }
 
-Multigrid::Level Multigrid::coarsen(const Level& fine, int depth) {
-  const Coord& fineExtent = fine.numbering.extent();
+std::unique_ptr<Multigrid::Level> Multigrid::coarsen(const Level& fine, int depth) {
+  const Coord& fineExtent = fine.numbering->extent();
   const Coord extent((fineExtent[0] + 1) >> 1, (fineExtent[1] + 1) >> 1, (fineExtent[2] + 1) >> 1);
-  Level coarse;
-  coarse.numbering = CellNumbering(coarseBlocks(fine.numbering, extent), extent);
-  const int n = coarse.numbering.size();
+  auto level = std::make_unique<Level>();
+  Level& coarse = *level;
+  coarse.ownNumbering = CellNumbering(coarseBlocks(*fine.numbering, extent), extent);
+  coarse.numbering = &coarse.ownNumbering;
+  coarse.rows = &coarse.ownRows;
+  coarse.anchor = &coarse.ownAnchor;
+  coarse.anchoredSides = &coarse.ownAnchoredSides;
+  const int n = coarse.numbering->size();
   coarse.ownRows.resize(n);
-  coarse.anchor.resize(n);
-  coarse.anchoredSides.resize(n);
+  coarse.ownAnchor.resize(n);
+  coarse.ownAnchoredSides.resize(n);
   // The link of a fully open face grows by two with each level.
   const double openLink = std::ldexp(1.0, depth);
   forEach(0, n, [&](int i) {
-    const Coord cell = coarse.numbering.cells()[i];
-    PoissonRow row;
+    const Coord cell = coarse.numbering->cells()[i];
+    std::array<int, kSides>& neighbors = coarse.ownRows.neighbor[i];
+    std::array<float, kSides>& links = coarse.ownRows.link[i];
     for (int s = 0; s < kSides; ++s) {
       Coord beside = cell;
       beside[s >> 1] += (s & 1) ? 1 : -1;
-      const int neighbor = coarse.numbering.at(beside);
-      row.neighbor[s] = neighbor < 0 ? n : neighbor;
-      row.link[s] = 0.0f;
+      const int neighbor = coarse.numbering->at(beside);
+      neighbors[s] = neighbor < 0 ? n : neighbor;
+      links[s] = 0.0f;
     }
     double anchor = 0.0;
     int sides = 0;
+    // The children of a cell lie in one block.
+    const Coord first = cell << 1;
+    const int* numbers = fine.numbering->block(first);
+    const int at = ((first[0] & 7) << 6) | ((first[1] & 7) << 3) | (first[2] & 7);
     for (int child = 0; child < 8; ++child) {
-      const Coord place = (cell << 1) + Coord((child >> 2) & 1, (child >> 1) & 1, child & 1);
-      const int f = fine.numbering.at(place);
+      const Coord place = first + Coord((child >> 2) & 1, (child >> 1) & 1, child & 1);
+      const int f = numbers[at + ((child >> 2) & 1) * 64 + ((child >> 1) & 1) * 8 + (child & 1)];
       if (f < 0) continue;
       for (int axis = 0; axis < 3; ++axis) {
         const int s = outwardSide(place, axis);
-        row.link[s] += 0.5f * (*fine.rows)[f].link[s];
+        links[s] += 0.5f * fine.rows->link[f][s];
       }
       // The centre of the coarse cell lies half a fine cell further from the surface.
-      if (fine.anchor[f] > 0.0) anchor += 1.0 / (1.0 / fine.anchor[f] + 0.5 / openLink);
-      sides |= fine.anchoredSides[f];
+      const double fineAnchor = (*fine.anchor)[f];
+      if (fineAnchor > 0.0) anchor += 1.0 / (1.0 / fineAnchor + 0.5 / openLink);
+      sides |= (*fine.anchoredSides)[f];
     }
-    coarse.ownRows[i] = row;
-    coarse.anchor[i] = anchor;
-    coarse.anchoredSides[i] = static_cast<std::uint8_t>(sides);
+    coarse.ownAnchor[i] = anchor;
+    coarse.ownAnchoredSides[i] = static_cast<std::uint8_t>(sides);
   });
-  return coarse;
+  coarse.even = EvenRows(coarse.ownRows, coarse.ownAnchor);
+  return level;
 }
 
 void Multigrid::connect(Level& fine, const Level& coarse, int depth) {
-  const int none = coarse.numbering.size();
-  const auto& cells = fine.numbering.cells();
+  const int none = coarse.numbering->size();
+  const auto& cells = fine.numbering->cells();
   const float weak = kWeakLink * std::ldexp(1.0f, depth);
-  fine.interpolation.resize(fine.numbering.redCount());
-  forEach(0, fine.numbering.redCount(), [&](int f) {
+  fine.interpolation.resize(fine.numbering->redCount());
+  forEach(0, fine.numbering->redCount(), [&](int f) {
     const Coord cell = cells[f];
     Interpolation& to = fine.interpolation[f];
-    to.coarse = {coarse.numbering.at(cell >> 1), none, none, none};
+    to.coarse = {coarse.numbering->at(cell >> 1), none, none, none};
     to.own = 0.25f;
     for (int axis = 0; axis < 3; ++axis) {
       const int s = outwardSide(cell, axis);
-      if ((*fine.rows)[f].link[s] > weak) {
-        to.coarse[axis + 1] = coarse.ownRows[to.coarse[0]].neighbor[s];
-      } else if ((fine.anchoredSides[f] >> s & 1) == 0) {
+      if (fine.rows->link[f][s] > weak) {
+        to.coarse[axis + 1] = coarse.ownRows.neighbor[to.coarse[0]][s];
+      } else if (((*fine.anchoredSides)[f] >> s & 1) == 0) {
         to.own += 0.25f;  // a wall, or nearly: no change across it
       }                   // else the surface, where the value is 0
     }
@@ -167,13 +174,13 @@ void Multigrid::connect(Level& fine, const Level& coarse, int depth) {
 
   // The same weights, listed for each coarse cell: from its red children, and from red cells beside it.
   const auto forEntries = [&](int c, const auto& body) {
-    const Coord first = coarse.numbering.cells()[c] << 1;
+    const Coord first = coarse.numbering->cells()[c] << 1;
     for (int i = -1; i < 3; ++i) {
       for (int j = -1; j < 3; ++j) {
         for (int k = -1; k < 3; ++k) {
           const bool outside[3] = {i < 0 || i > 1, j < 0 || j > 1, k < 0 || k > 1};
           if (((i + j + k) & 1) != 0 || outside[0] + outside[1] + outside[2] > 1) continue;
-          const int f = fine.numbering.at(first.offsetBy(i, j, k));
+          const int f = fine.numbering->at(first.offsetBy(i, j, k));
           if (f < 0) continue;
           const Interpolation& from = fine.interpolation[f];
           if (from.coarse[0] == c) {
@@ -201,37 +208,55 @@ void Multigrid::apply(const std::vector<float>& b, std::vector<float>& x) {
 }
 
 void Multigrid::cycle(std::size_t depth, const std::vector<float>& b, std::vector<float>& x) {
-  Level& level = m_levels[depth];
-  const int n = level.numbering.size(), red = level.numbering.redCount();
-  const PoissonRow* rows = level.rows->data();
+  Level& level = *m_levels[depth];
+  const int n = level.numbering->size(), red = level.numbering->redCount();
+  const auto* neighbors = level.rows->neighbor.data();
+  const auto* links = level.rows->link.data();
   const float* inverse = level.inverseDiagonal.data();
-  const auto neighborSum = [&](int i) {
-    const auto& [neighbor, link] = rows[i];
-    float value = 0.0f;
-    for (int s = 0; s < kSides; ++s) value += link[s] * x[neighbor[s]];
-    return value;
+  // Calls put(i, sum over the neighbours of cell i).
+  const auto forSums = [&](int begin, int end, const auto& put) {
+    tbb::parallel_for(Range(begin, end, kGrain), [&](const Range& range) {
+      level.even.forParts(
+          range.begin(), range.end(),
+          [&](int first, int last, float link) {
+            for (int i = first; i < last; ++i) {
+              float value = 0.0f;
+              for (const int neighbor : neighbors[i]) value += x[neighbor];
+              put(i, link * value);
+            }
+          },
+          [&](int first, int last) {
+            for (int i = first; i < last; ++i) {
+              float value = 0.0f;
+              for (int s = 0; s < kSides; ++s) value += links[i][s] * x[neighbors[i][s]];
+              put(i, value);
+            }
+          });
+    });
   };
-  const auto relax = [&](int i) { x[i] = (b[i] + neighborSum(i)) * inverse[i]; };
+  const auto relax = [&](int begin, int end) {
+    forSums(begin, end, [&](int i, float sum) { x[i] = (b[i] + sum) * inverse[i]; });
+  };
 
   forEach(0, red, [&](int i) { x[i] = b[i] * inverse[i]; });
-  forEach(red, n, relax);
+  relax(red, n);
 
   if (depth + 1 == m_levels.size()) {
     for (int sweep = 1; sweep < kCoarsestSweeps; ++sweep) {
-      forEach(0, red, relax);
-      forEach(red, n, relax);
+      relax(0, red);
+      relax(red, n);
     }
     for (int sweep = 0; sweep < kCoarsestSweeps; ++sweep) {
-      forEach(red, n, relax);
-      forEach(0, red, relax);
+      relax(red, n);
+      relax(0, red);
     }
     return;
   }
 
   // Black cells have no residual; that of the red ones is what the black neighbours have added since.
-  Level& coarse = m_levels[depth + 1];
-  forEach(0, red, [&](int i) { level.residual[i] = neighborSum(i); });
-  forEach(0, coarse.numbering.size(), [&](int c) {
+  Level& coarse = *m_levels[depth + 1];
+  forSums(0, red, [&](int i, float sum) { level.residual[i] = sum; });
+  forEach(0, coarse.numbering->size(), [&](int c) {
     float value = 0.0f;
     for (int e = level.entryStart[c]; e < level.entryStart[c + 1]; ++e) {
       value += level.entries[e].weight * level.residual[level.entries[e].fine];
@@ -244,8 +269,8 @@ void Multigrid::cycle(std::size_t depth, const std::vector<float>& b, std::vecto
     const auto& [from, own] = level.interpolation[i];
     x[i] += own * coarse.x[from[0]] + 0.25f * (coarse.x[from[1]] + coarse.x[from[2]] + coarse.x[from[3]]);
   });
-  forEach(red, n, relax);
-  forEach(0, red, relax);
+  relax(red, n);
+  relax(0, red);
 }
 
 }  // namespace fluidtex::sim

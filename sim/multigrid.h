@@ -3,14 +3,15 @@
 
 #include "sim/poisson.h"
 
+#include <memory>
 #include <vector>
 
 namespace fluidtex::sim {
 
 class Multigrid {
  public:
-  // Builds the coarse levels. The system must outlive the object.
-  explicit Multigrid(const PoissonSystem& system);
+  // Builds the coarse levels. The system must outlive the object. even: of its rows.
+  Multigrid(const PoissonSystem& system, const EvenRows& even);
 
   // x = M b with M symmetric and about the inverse of the system's matrix. Single precision; b of magnitude
   // about 1. Both hold size() + 1 values, the last one 0.
@@ -28,23 +29,28 @@ class Multigrid {
     float weight;
   };
   struct Level {
-    CellNumbering numbering;
-    std::vector<PoissonRow> ownRows;
-    const std::vector<PoissonRow>* rows = nullptr;  // ownRows, or the system's on the finest level
+    CellNumbering ownNumbering;
+    PoissonRows ownRows;
+    // Its own, or the system's on the finest level.
+    const CellNumbering* numbering = nullptr;
+    const PoissonRows* rows = nullptr;
+    EvenRows even;
     std::vector<float> inverseDiagonal;
-    std::vector<double> anchor;
-    std::vector<std::uint8_t> anchoredSides;
+    std::vector<double> ownAnchor;
+    std::vector<std::uint8_t> ownAnchoredSides;
+    const std::vector<double>* anchor = nullptr;
+    const std::vector<std::uint8_t>* anchoredSides = nullptr;
     std::vector<Interpolation> interpolation;  // of red cells
     std::vector<int> entryStart;               // the transpose, for the cells of the next coarser level
     std::vector<Entry> entries;
     std::vector<float> b, x, residual;  // b, x unused on the finest level
   };
 
-  static Level coarsen(const Level& fine, int depth);
+  static std::unique_ptr<Level> coarsen(const Level& fine, int depth);
   static void connect(Level& fine, const Level& coarse, int depth);
   void cycle(std::size_t depth, const std::vector<float>& b, std::vector<float>& x);
 
-  std::vector<Level> m_levels;
+  std::vector<std::unique_ptr<Level>> m_levels;
 };
 
 }  // namespace fluidtex::sim

@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace fluidtex::sim {
 
@@ -87,7 +89,56 @@ CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks, const Coord& 
   });
 }
 
+EvenRows::EvenRows(const PoissonRows& rows, const std::vector<double>& anchor)
+    : m_link((rows.size() + (1u << kShift) - 1) >> kShift) {
+  const int n = static_cast<int>(rows.size());
+  tbb::parallel_for(Range(0, static_cast<int>(m_link.size()), 64), [&](const Range& range) {
+    for (int part = range.begin(); part < range.end(); ++part) {
+      const int first = part << kShift, last = std::min(n, first + (1 << kShift));
+      const float link = rows.link[first][0];
+      bool alike = true;
+      for (int i = first; i < last; ++i) {
+        alike = alike && anchor[i] == 0.0;
+        for (const float other : rows.link[i]) alike = alike && other == link;
+      }
+      m_link[part] = alike ? link : 0.0f;
+    }
+  });
+}
+
+namespace {
+
+// Whether each connected part has an anchor: cells are merged with their lower neighbours in the order in
+// which they lie in memory.
+bool allAnchored(const PoissonSystem& system) {
+  const int n = system.numbering.size();
+  std::vector<int> above(n);  // another cell of the part, itself for one cell of each part
+  std::iota(above.begin(), above.end(), 0);
+  const auto rootOf = [&](int i) {
+    while (above[i] != i) i = above[i] = above[above[i]];
+    return i;
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int s = 0; s < kSides; s += 2) {
+      if (system.rows.link[i][s] <= 0.0f) continue;
+      const int a = rootOf(i), b = rootOf(system.rows.neighbor[i][s]);
+      above[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::vector<char> anchored(n, 0);
+  for (int i = 0; i < n; ++i) {
+    if (system.anchor[i] > 0.0) anchored[rootOf(i)] = 1;
+  }
+  for (int i = 0; i < n; ++i) {
+    if (above[i] == i && !anchored[i]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 std::vector<std::vector<int>> singularParts(const PoissonSystem& system) {
+  if (allAnchored(system)) return {};
   const int n = system.numbering.size();
   std::vector<char> seen(n, 0);
   std::vector<int> front;
@@ -99,8 +150,8 @@ std::vector<std::vector<int>> singularParts(const PoissonSystem& system) {
   }
   const auto visitNeighbors = [&](int i) {
     for (int s = 0; s < kSides; ++s) {
-      const int j = system.rows[i].neighbor[s];
-      if (j < n && system.rows[i].link[s] > 0.0f && !seen[j]) {
+      const int j = system.rows.neighbor[i][s];
+      if (j < n && system.rows.link[i][s] > 0.0f && !seen[j]) {
         seen[j] = 1;
         front.push_back(j);
       }
@@ -138,26 +189,47 @@ PoissonReport solvePoisson(const PoissonSystem& system, const std::vector<std::v
   std::vector<float> scaled(n + 1, 0.0f), z(n + 1, 0.0f);
   tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
     for (int i = range.begin(); i < range.end(); ++i) {
-      const auto& link = system.rows[i].link;
+      const auto& link = system.rows.link[i];
       diagonal[i] = system.anchor[i] + (double(link[0]) + link[1] + link[2] + link[3] + link[4] + link[5]);
       p[i] = x[i];
     }
   });
-  const auto multiply = [&](int i) {
-    const auto& [neighbor, link] = system.rows[i];
-    double value = diagonal[i] * p[i];
-    for (int s = 0; s < kSides; ++s) value -= link[s] * p[neighbor[s]];
-    return value;
+  const EvenRows even(system.rows, system.anchor);
+  // The sum of what body(i, row i times p) gives.
+  const auto sumOfProducts = [&](const auto& body) {
+    return tbb::parallel_deterministic_reduce(
+        Range(0, n, kGrain), 0.0,
+        [&](const Range& range, double total) {
+          even.forParts(
+              range.begin(), range.end(),
+              [&](int first, int last, double link) {
+                for (int i = first; i < last; ++i) {
+                  double value = 6.0 * link * p[i];
+                  for (const int neighbor : system.rows.neighbor[i]) value -= link * p[neighbor];
+                  total += body(i, value);
+                }
+              },
+              [&](int first, int last) {
+                for (int i = first; i < last; ++i) {
+                  double value = diagonal[i] * p[i];
+                  for (int s = 0; s < kSides; ++s)
+                    value -= system.rows.link[i][s] * p[system.rows.neighbor[i][s]];
+                  total += body(i, value);
+                }
+              });
+          return total;
+        },
+        std::plus<double>());
   };
-  double normR = std::sqrt(sum(n, [&](int i, Sums& s) {
-                             r[i] -= multiply(i);
-                             s.first += r[i] * r[i];
-                           }).first);
+  double normR = std::sqrt(sumOfProducts([&](int i, double product) {
+    r[i] -= product;
+    return r[i] * r[i];
+  }));
   report.residual = normR / normB;
   report.converged = report.residual <= tolerance;
   if (report.converged) return report;
 
-  Multigrid preconditioner(system);
+  Multigrid preconditioner(system, even);
   double rz = 0.0, alpha = 0.0;
   while (!report.converged && report.iterations < maxIterations && std::isfinite(report.residual)) {
     // The preconditioner works on values of about 1, whatever is left of the residual.
@@ -180,10 +252,10 @@ PoissonReport solvePoisson(const PoissonSystem& system, const std::vector<std::v
       for (int i = range.begin(); i < range.end(); ++i)
         p[i] = report.iterations == 0 ? z[i] : z[i] + beta * p[i];
     });
-    const double pq = sum(n, [&](int i, Sums& s) {
-                        q[i] = multiply(i);
-                        s.first += p[i] * q[i];
-                      }).first;
+    const double pq = sumOfProducts([&](int i, double product) {
+      q[i] = product;
+      return p[i] * product;
+    });
     if (!(pq > 0.0) || !(rz > 0.0)) break;  // rounding is all that is left
     alpha = rz / pq;
     normR = std::sqrt(sum(n, [&](int i, Sums& s) {

@@ -4,6 +4,7 @@
 
 #include <openvdb/math/Coord.h>
 
+#include <algorithm>
 #include <array>
 #include <bitset>
 #include <cstdint>
@@ -62,17 +63,50 @@ class CellNumbering {
   std::vector<int> m_numbers;
 };
 
-// One row of the matrix:  (sum of links + anchor) x_i - sum over sides of link x_neighbor.
-struct PoissonRow {
-  std::array<int, kSides> neighbor;  // size() of the numbering where there is none, its link 0
-  std::array<float, kSides> link;    // not negative; the same seen from both cells
+// The rows of the matrix:  (sum of links + anchor) x_i - sum over sides of link x_neighbor.
+struct PoissonRows {
+  std::vector<std::array<int, kSides>> neighbor;  // size() of the numbering where there is none, its link 0
+  std::vector<std::array<float, kSides>> link;    // not negative; the same seen from both cells
+
+  std::size_t size() const { return neighbor.size(); }
+  void resize(std::size_t n) {
+    neighbor.resize(n);
+    link.resize(n);
+  }
+};
+
+// Rows in the liquid's middle are all alike: those of 32 successive cells whose links are all of one value,
+// and which have no anchor. Sums over their neighbours need not read the links, which is half of all there is
+// to read.
+class EvenRows {
+ public:
+  EvenRows() = default;
+  EvenRows(const PoissonRows& rows, const std::vector<double>& anchor);
+
+  // Calls even(first, last, link) and mixed(first, last) for the parts of [begin, end).
+  template <class Even, class Mixed>
+  void forParts(int begin, int end, const Even& even, const Mixed& mixed) const {
+    while (begin < end) {
+      const int part = begin >> kShift, last = std::min(end, (part + 1) << kShift);
+      if (m_link[part] > 0.0f) {
+        even(begin, last, m_link[part]);
+      } else {
+        mixed(begin, last);
+      }
+      begin = last;
+    }
+  }
+
+ private:
+  static constexpr int kShift = 5;
+  std::vector<float> m_link;  // of 32 cells; 0 where they are not alike
 };
 
 // Symmetric, positive (semi)definite. Anchors tie cells to the value 0; a connected part without one is
 // singular, and is solved for the right-hand side and the unknowns less their means over that part.
 struct PoissonSystem {
   CellNumbering numbering;
-  std::vector<PoissonRow> rows;
+  PoissonRows rows;
   std::vector<double> anchor;
   std::vector<std::uint8_t> anchoredSides;  // bit s: part of the anchor is on side s
 };

@@ -7,6 +7,7 @@
 #include "sim/liquid_cells.h"
 #include "sim/mac_grid.h"
 #include "sim/poisson.h"
+#include "sim/pressure_system.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -41,46 +42,6 @@ bool shutEdges(LiquidCells& liquid, const std::vector<double>& q) {
     cell.open[edge.side] = cell.theta[edge.side] = 0.0f;
   }
   return any;
-}
-
-// The system of the cells that are not detached; `liquidOf` gets each unknown's number as a liquid cell.
-PoissonSystem assemble(const LiquidCells& liquid, const std::vector<char>& detached,
-                       std::vector<int>& liquidOf) {
-  PoissonSystem system;
-  std::vector<CellBlock> blocks = liquid.blocks;
-  for (CellBlock& block : blocks) {
-    const int* numbers = liquid.numbering.block(block.origin);
-    for (int c = 0; c < kLeafSize; ++c) {
-      if (numbers[c] >= 0 && detached[numbers[c]]) block.cells.reset(c);
-    }
-  }
-  std::erase_if(blocks, [](const CellBlock& block) { return block.cells.none(); });
-  system.numbering = CellNumbering(blocks, liquid.numbering.extent());
-  const int n = system.numbering.size();
-  system.rows.resize(n);
-  system.anchor.assign(n, 0.0);
-  system.anchoredSides.assign(n, 0);
-  liquidOf.resize(n);
-  tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
-    for (int i = range.begin(); i < range.end(); ++i) {
-      const Coord& place = system.numbering.cells()[i];
-      liquidOf[i] = liquid.numbering.at(place);
-      const LiquidCell& cell = liquid.cells[liquidOf[i]];
-      for (int s = 0; s < kSides; ++s) {
-        const int neighbor = system.numbering.at(neighborOf(place, s));
-        const bool linked = cell.open[s] > 0.0f && neighbor >= 0;
-        system.rows[i].neighbor[s] = linked ? neighbor : n;
-        system.rows[i].link[s] = linked ? cell.open[s] : 0.0f;
-        if (cell.open[s] > 0.0f && !linked) {
-          // The surface, or a detached cell with pressure 0 at its centre.
-          system.anchor[i] +=
-              static_cast<double>(cell.open[s]) / (cell.theta[s] > 0.0f ? cell.theta[s] : 1.0f);
-          system.anchoredSides[i] |= static_cast<std::uint8_t>(1 << s);
-        }
-      }
-    }
-  });
-  return system;
 }
 
 // What flows out of a cell's open faces once the pressure has acted.
@@ -240,7 +201,7 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   std::vector<char> detached(n, 0);
   for (int pass = 0; n > 0; ++pass) {
     std::vector<int> liquidOf;
-    const PoissonSystem system = assemble(liquid, detached, liquidOf);
+    const PoissonSystem system = pressureSystem(liquid, detached, liquidOf);
     const auto singular = singularParts(system);
     std::vector<char> enclosed(n, 0);
     for (const auto& part : singular) {

@@ -1,9 +1,11 @@
 #include "sim/surface_distance.h"
 
+#include <immintrin.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 namespace fluidtex::sim {
 namespace {
@@ -13,24 +15,37 @@ constexpr int kHalo = kReach + 3;            // and two more for the interpolati
 constexpr int kSide = kLeafDim + 2 * kHalo;  // 20
 constexpr int kStride[3] = {kSide * kSide, kSide, 1};
 constexpr int kMaxIterations = 12;
-constexpr double kTolerance = 1e-6;  // cells
+constexpr double kTolerance = 1e-3;  // cells: of the last step
 // Second differences above this share of the slope are corners, or the middle of a film or a gap.
 constexpr double kSharp = 0.7;
 
 using Vec3 = openvdb::Vec3d;
 
-// Cubic Lagrange weights of the values at -1, 0, 1, 2 for a place t in [0, 1], and their derivatives.
-void lagrange(double t, double* w, double* dw) {
-  const double a = t + 1.0, b = t, c = t - 1.0, d = t - 2.0;
-  w[0] = -b * c * d / 6.0;
-  w[1] = a * c * d / 2.0;
-  w[2] = -a * b * d / 2.0;
-  w[3] = a * b * c / 6.0;
-  dw[0] = -(b * c + b * d + c * d) / 6.0;
-  dw[1] = (a * c + a * d + c * d) / 2.0;
-  dw[2] = -(a * b + a * d + b * d) / 2.0;
-  dw[3] = (a * b + a * c + b * c) / 6.0;
-}
+// For each axis the cubic Lagrange weights of the values at -1, 0, 1, 2 for a place t in [0, 1], and their
+// derivatives.
+struct Weights {
+  alignas(32) double value[4][4], slope[4][4];
+
+  explicit Weights(__m256d t) {
+    const __m256d one = _mm256_set1_pd(1.0), two = _mm256_set1_pd(2.0);
+    const __m256d sixth = _mm256_set1_pd(1.0 / 6.0), half = _mm256_set1_pd(0.5);
+    const __m256d a = t + one, b = t, c = t - one, d = t - two;
+    const __m256d ab = a * b, ac = a * c, ad = a * d, bc = b * c, bd = b * d, cd = c * d;
+    store(-sixth * (b * cd), half * (a * cd), -half * (ab * d), sixth * (ab * c), value);
+    store(-sixth * (bc + bd + cd), half * (ac + ad + cd), -half * (ab + ad + bd), sixth * (ab + ac + bc),
+          slope);
+  }
+
+ private:
+  // From one weight of all axes to all weights of one axis.
+  static void store(__m256d w0, __m256d w1, __m256d w2, __m256d w3, double (*to)[4]) {
+    const __m256d low01 = _mm256_unpacklo_pd(w0, w1), high01 = _mm256_unpackhi_pd(w0, w1);
+    const __m256d low23 = _mm256_unpacklo_pd(w2, w3), high23 = _mm256_unpackhi_pd(w2, w3);
+    _mm256_store_pd(to[0], _mm256_permute2f128_pd(low01, low23, 0x20));
+    _mm256_store_pd(to[1], _mm256_permute2f128_pd(high01, high23, 0x20));
+    _mm256_store_pd(to[2], _mm256_permute2f128_pd(low01, low23, 0x31));
+  }
+};
 
 // phi / h around one leaf; positions in cells from the leaf's first cell centre.
 struct Block {
@@ -53,29 +68,33 @@ struct Block {
     return value.data() + at[0] * kStride[0] + at[1] * kStride[1] + at[2];
   }
 
-  // Value and gradient of the interpolation at x. False where the stencil would leave the block.
-  bool evaluate(const Vec3& x, double& phi, Vec3& gradient) const {
-    double t[3], w[3][4], dw[3][4];
+  // Gradient of the interpolation at x, and its value in the fourth place. False where the stencil would
+  // leave the block.
+  bool evaluate(const Vec3& x, double* result) const {
+    double t[4] = {};
     const float* at = corner(x, t);
     if (at == nullptr) return false;
-    for (int a = 0; a < 3; ++a) lagrange(t[a], w[a], dw[a]);
-    phi = 0.0;
-    gradient = Vec3(0.0);
+    const Weights w(_mm256_loadu_pd(t));
+    // Sums over the stencil's rows along z, four values side by side.
+    __m256d sum = _mm256_setzero_pd(), slopeX = sum, slopeY = sum;
     for (int i = 0; i < 4; ++i) {
-      double plane = 0.0, planeY = 0.0, planeZ = 0.0;
+      __m256d plane = _mm256_setzero_pd(), planeY = plane;
       for (int j = 0; j < 4; ++j) {
-        const float* row = at + (i - 1) * kStride[0] + (j - 1) * kStride[1] - 1;
-        const double line = w[2][0] * row[0] + w[2][1] * row[1] + w[2][2] * row[2] + w[2][3] * row[3];
-        const double lineZ = dw[2][0] * row[0] + dw[2][1] * row[1] + dw[2][2] * row[2] + dw[2][3] * row[3];
-        plane += w[1][j] * line;
-        planeY += dw[1][j] * line;
-        planeZ += w[1][j] * lineZ;
+        const __m256d row =
+            _mm256_cvtps_pd(_mm_loadu_ps(at + (i - 1) * kStride[0] + (j - 1) * kStride[1] - 1));
+        plane += _mm256_set1_pd(w.value[1][j]) * row;
+        planeY += _mm256_set1_pd(w.slope[1][j]) * row;
       }
-      phi += w[0][i] * plane;
-      gradient[0] += dw[0][i] * plane;
-      gradient[1] += w[0][i] * planeY;
-      gradient[2] += w[0][i] * planeZ;
+      sum += _mm256_set1_pd(w.value[0][i]) * plane;
+      slopeX += _mm256_set1_pd(w.slope[0][i]) * plane;
+      slopeY += _mm256_set1_pd(w.value[0][i]) * planeY;
     }
+    const __m256d wz = _mm256_load_pd(w.value[2]), dwz = _mm256_load_pd(w.slope[2]);
+    // Four sums of four at once.
+    const __m256d pairs = _mm256_hadd_pd(slopeX * wz, slopeY * wz);
+    const __m256d others = _mm256_hadd_pd(sum * dwz, sum * wz);
+    _mm256_storeu_pd(
+        result, _mm256_permute2f128_pd(pairs, others, 0x20) + _mm256_permute2f128_pd(pairs, others, 0x31));
     return true;
   }
 
@@ -84,22 +103,59 @@ struct Block {
     double t[3];
     const float* at = corner(x, t);
     if (at == nullptr) return false;
-    const float bar = static_cast<float>(kSharp * slope);
-    for (int axis = 0; axis < 3; ++axis) {
-      const int along = kStride[axis], b = kStride[(axis + 1) % 3], c = kStride[(axis + 2) % 3];
-      for (int j = -1; j < 3; ++j) {
-        for (int k = -1; k < 3; ++k) {
-          const float* p = at + j * b + k * c;
-          if (std::abs(p[-along] - 2.0f * p[0] + p[along]) > bar) return false;
-          if (std::abs(p[0] - 2.0f * p[along] + p[2 * along]) > bar) return false;
-        }
+    // The largest second difference of the stencil's lines along each axis, four lines side by side.
+    const __m128 two = _mm_set1_ps(2.0f), sign = _mm_set1_ps(-0.0f);
+    __m128 largest = _mm_setzero_ps();
+    const auto bend = [&](__m128 a, __m128 b, __m128 c) {
+      largest = _mm_max_ps(largest, _mm_andnot_ps(sign, a - two * b + c));
+    };
+    const float* first = at - kStride[0] - kStride[1] - 1;
+    for (int j = 0; j < 4; ++j) {
+      __m128 alongX[4], alongY[4], alongZ[4];
+      for (int k = 0; k < 4; ++k) {
+        alongX[k] = _mm_loadu_ps(first + k * kStride[0] + j * kStride[1]);
+        alongY[k] = alongZ[k] = _mm_loadu_ps(first + j * kStride[0] + k * kStride[1]);
+      }
+      _MM_TRANSPOSE4_PS(alongZ[0], alongZ[1], alongZ[2], alongZ[3]);
+      for (const auto* line : {alongX, alongY, alongZ}) {
+        bend(line[0], line[1], line[2]);
+        bend(line[1], line[2], line[3]);
       }
     }
-    return true;
+    return _mm_movemask_ps(_mm_cmpgt_ps(largest, _mm_set1_ps(static_cast<float>(kSharp * slope)))) == 0;
   }
 
-  // The nearest change of sign along an axis, linear between cell centres.
-  std::optional<Vec3> crossing(int offset) const {
+  // By row along z, bit k: whether the sign changes at most kReach cells from cell k. False where it never
+  // does.
+  bool nearCells(std::array<std::uint8_t, 64>& near) const {
+    // Bit k: whether the value at z = k is negative.
+    std::array<std::uint32_t, kSide * kSide> inside;
+    bool any = false, all = true;
+    for (int row = 0; row < kSide * kSide; ++row) {
+      std::uint32_t bits = 0;
+      for (int k = 0; k < kSide; ++k) bits |= std::uint32_t(value[row * kSide + k] < 0.0f) << k;
+      inside[row] = bits;
+      any = any || bits != 0;
+      all = all && bits == (1u << kSide) - 1;
+    }
+    if (!any || all) return false;
+    bool found = false;
+    for (int row = 0; row < 64; ++row) {
+      const std::uint32_t* own = inside.data() + ((row >> 3) + kHalo) * kSide + (row & 7) + kHalo;
+      std::uint32_t changes = 0;
+      for (int n = 1; n <= kReach; ++n) {
+        changes |= (*own ^ *own >> n) | (*own ^ *own << n);
+        changes |= (*own ^ own[n]) | (*own ^ own[-n]) | (*own ^ own[n * kSide]) | (*own ^ own[-n * kSide]);
+      }
+      near[row] = static_cast<std::uint8_t>(changes >> kHalo);
+      found = found || near[row] != 0;
+    }
+    return found;
+  }
+
+  // The nearest change of sign along an axis, linear between cell centres; there is one at most kReach cells
+  // away.
+  Vec3 crossing(int offset) const {
     const float* p = cell(offset);
     double best = kReach + 1.0;
     int bestAxis = 0;
@@ -117,55 +173,83 @@ struct Block {
         }
       }
     }
-    if (std::abs(best) > kReach) return std::nullopt;
     Vec3 x(offset >> 6, (offset >> 3) & 7, offset & 7);
     x[bestAxis] += best;
     return x;
   }
 
-  // Distance from x to the surface, from a guess of the closest point.
-  std::optional<double> distance(const Vec3& x, Vec3 point) const {
-    for (int n = 0; n < kMaxIterations; ++n) {
-      double phi;
-      Vec3 gradient;
-      if (!evaluate(point, phi, gradient)) return std::nullopt;
-      const double square = gradient.lengthSqr();
-      if (square < 1e-12) return std::nullopt;
-      const Vec3 toSurface = -phi / square * gradient;
-      const Vec3 away = x - point;
-      const Vec3 along = away - away.dot(gradient) / square * gradient;
-      Vec3 step = toSurface + along;
-      const double length = step.length();
-      if (length < kTolerance) {
-        if (!smooth(point, std::sqrt(square))) return std::nullopt;
-        return (x - point).length();
-      }
-      if (length > 1.0) step /= length;
-      point += step;
-    }
-    return std::nullopt;
+  // Where the surface would be if phi were a distance already; `crossing` where that leads too far.
+  Vec3 guess(int offset, const Vec3& crossing) const {
+    const float* p = cell(offset);
+    const Vec3 slope(0.5 * (p[kStride[0]] - p[-kStride[0]]), 0.5 * (p[kStride[1]] - p[-kStride[1]]),
+                     0.5 * (p[kStride[2]] - p[-kStride[2]]));
+    const double square = slope.lengthSqr();
+    if (square < 0.5 || square > 2.0 || std::abs(p[0]) > kReach) return crossing;
+    return Vec3(offset >> 6, (offset >> 3) & 7, offset & 7) - p[0] / square * slope;
   }
 };
+
+// The search for the point of the surface that is closest to a cell.
+struct Search {
+  Vec3 cell, point;
+  double phi[4];  // gradient and value at the point
+  std::int16_t offset;
+  bool inBlock;
+};
+
+// One step of Newton's method, to the closest point of the tangent plane. True when the search has ended;
+// `distance` is then that to the surface, or infinite where it ends nowhere.
+bool advance(Search& search, const Block& block, double& distance) {
+  distance = std::numeric_limits<double>::infinity();
+  if (!search.inBlock) return true;
+  const double phi = search.phi[3];
+  const Vec3 gradient(search.phi[0], search.phi[1], search.phi[2]);
+  const double square = gradient.lengthSqr();
+  if (square < 1e-12) return true;
+  const Vec3 away = search.cell - search.point;
+  const double height = away.dot(gradient);
+  Vec3 step = away - (phi + height) / square * gradient;
+  const double length = step.lengthSqr();
+  if (length < kTolerance * kTolerance) {
+    const double slope = std::sqrt(square);
+    // To the tangent plane, which differs from the surface by half the curvature times the step squared.
+    if (block.smooth(search.point, slope)) distance = std::abs(phi + height) / slope;
+    return true;
+  }
+  if (length > 1.0) step /= std::sqrt(length);
+  search.point += step;
+  return false;
+}
 
 }  // namespace
 
 std::vector<CellDistance> surfaceDistances(const FloatTree& phi, const Coord& origin, float h) {
   thread_local Block block;
+  thread_local std::vector<Search> searches;
   gather(phi, origin, kHalo, block.value.data());
+  std::array<std::uint8_t, 64> near;
   std::vector<CellDistance> distances;
-  bool scaled = false;
+  if (!block.nearCells(near)) return distances;
+  const float inverse = 1.0f / h;
+  for (float& value : block.value) value *= inverse;
+  searches.clear();
   for (std::int16_t offset = 0; offset < kLeafSize; ++offset) {
-    const auto guess = block.crossing(offset);
-    if (!guess) continue;
-    if (!scaled) {
-      for (float& value : block.value) value /= h;
-      scaled = true;
-    }
-    const auto distance = block.distance(Vec3(offset >> 6, (offset >> 3) & 7, offset & 7), *guess);
-    if (!distance || *distance > kReach) continue;
-    // Never 0: the sign is the cell's side.
-    const float away = std::max(static_cast<float>(*distance), 1e-6f);
-    distances.push_back({offset, *block.cell(offset) < 0.0f ? -away : away});
+    if ((near[std::size_t(offset >> 3)] >> (offset & 7) & 1) == 0) continue;
+    const Vec3 cell(offset >> 6, (offset >> 3) & 7, offset & 7);
+    searches.push_back({cell, block.guess(offset, block.crossing(offset)), {}, offset, true});
+  }
+  // All cells take their steps together: the evaluations do not wait for each other then.
+  for (int n = 0; n < kMaxIterations && !searches.empty(); ++n) {
+    for (Search& search : searches) search.inBlock = block.evaluate(search.point, search.phi);
+    std::erase_if(searches, [&](Search& search) {
+      double distance;
+      if (!advance(search, block, distance)) return false;
+      // Never 0: the sign is the cell's side.
+      const float away = std::max(static_cast<float>(distance), 1e-6f);
+      if (distance <= kReach)
+        distances.push_back({search.offset, *block.cell(search.offset) < 0.0f ? -away : away});
+      return true;
+    });
   }
   return distances;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/mac_grid.h"
+#include "sim/trilinear.h"
 
 #include <algorithm>
 #include <memory>
@@ -27,37 +28,37 @@ struct Window {
 
   void load(const FloatTree& tree, const Coord& origin) { gather(tree, origin, halo, values.get()); }
 
-  // Index of the lower corner of the box of samples around x, and the place in it. Positions beyond the
-  // window are taken at its edge.
-  const float* locate(const Vec3f& x, float* t) const {
-    int index[3];
-    for (int a = 0; a < 3; ++a) {
-      const float p =
-          std::clamp(x[a] - shift[a] + static_cast<float>(halo), 0.0f, static_cast<float>(side) - 1.001f);
-      index[a] = static_cast<int>(p);
-      t[a] = p - static_cast<float>(index[a]);
-    }
-    return values.get() + (index[0] * side + index[1]) * side + index[2];
-  }
-
   float at(const Vec3f& x) const {
-    float t[3];
-    const float* p = locate(x, t);
-    const int dx = side * side, dy = side;
-    const auto mix = [](float a, float b, float w) { return a + w * (b - a); };
-    const float x0 = mix(mix(p[0], p[1], t[2]), mix(p[dy], p[dy + 1], t[2]), t[1]);
-    const float x1 = mix(mix(p[dx], p[dx + 1], t[2]), mix(p[dx + dy], p[dx + dy + 1], t[2]), t[1]);
-    return mix(x0, x1, t[0]);
+    const Place place = locate(x);
+    const Lanes& t = place.t;
+    return trilinear(place.low, side * side, side, lane0(t), lane1(t), lane2(t));
   }
 
   // Smallest and largest of the eight samples around x.
   std::pair<float, float> range(const Vec3f& x) const {
-    float t[3];
-    const float* p = locate(x, t);
-    const int dx = side * side, dy = side;
-    const auto [low, high] =
-        std::minmax({p[0], p[1], p[dy], p[dy + 1], p[dx], p[dx + 1], p[dx + dy], p[dx + dy + 1]});
-    return {low, high};
+    const float* p = locate(x).low;
+    const Lanes near = facePoints(p, side), far = facePoints(p + side * side, side);
+    Lanes low = _mm_min_ps(near, far), high = _mm_max_ps(near, far);
+    low = _mm_min_ps(low, _mm_movehl_ps(low, low));
+    high = _mm_max_ps(high, _mm_movehl_ps(high, high));
+    return {std::min(lane0(low), lane1(low)), std::max(lane0(high), lane1(high))};
+  }
+
+ private:
+  // The lowest of the eight samples around x, and where x is between them. Positions beyond the window are
+  // taken at its edge.
+  struct Place {
+    const float* low;
+    Lanes t;
+  };
+  Place locate(const Vec3f& x) const {
+    const Lanes from =
+        lanes(x[0], x[1], x[2]) + (lanes(static_cast<float>(halo)) - lanes(shift[0], shift[1], shift[2]));
+    const Lanes p = _mm_min_ps(_mm_max_ps(from, lanes(0.0f)), lanes(static_cast<float>(side) - 1.001f));
+    const __m128i cell = _mm_cvttps_epi32(p);
+    const std::ptrdiff_t i = _mm_cvtsi128_si32(cell), j = _mm_extract_epi32(cell, 1),
+                         k = _mm_extract_epi32(cell, 2);
+    return {values.get() + (i * side + j) * side + k, p - _mm_cvtepi32_ps(cell)};
   }
 };
 
@@ -76,15 +77,55 @@ struct VelocityWindow {
     v.load(velocity.component[1]->constTree(), origin);
     w.load(velocity.component[2]->constTree(), origin);
   }
-  Vec3f at(const Vec3f& x) const { return Vec3f(u.at(x), v.at(x), w.at(x)); }
   const Window& component(int axis) const { return axis == 0 ? u : (axis == 1 ? v : w); }
+
+  // All three components; as Window::at.
+  Vec3f at(const Vec3f& x) const {
+    const Lanes velocity = sample(lanes(x[0], x[1], x[2]));
+    return Vec3f(lane0(velocity), lane1(velocity), lane2(velocity));
+  }
 
   // Where x gets to along the velocity; step: dt / h, negative to trace back.
   Vec3f trace(const Vec3f& x, float step) const {
-    const Vec3f k1 = at(x);
-    const Vec3f k2 = at(x + 0.5f * step * k1);
-    const Vec3f k3 = at(x + 0.75f * step * k2);
-    return x + step * (2.0f * k1 + 3.0f * k2 + 4.0f * k3) * (1.0f / 9.0f);
+    const Lanes from = lanes(x[0], x[1], x[2]);
+    return traceOn(from, sample(from), step);
+  }
+
+  // The same from the lower face, normal to `axis`, of the leaf's voxel `offset`: the first of the three
+  // velocities is a mean of samples.
+  Vec3f traceFace(int offset, int axis, float step) const {
+    const std::ptrdiff_t side = u.side;
+    const std::ptrdiff_t stride[3] = {side * side, side, 1};
+    const int local[3] = {offset >> 6, (offset >> 3) & 7, offset & 7};
+    std::ptrdiff_t at = 0;
+    float from[3], first[3];
+    for (int a = 0; a < 3; ++a) {
+      at += (local[a] + u.halo) * stride[a];
+      from[a] = static_cast<float>(local[a]) + (a == axis ? 0.0f : 0.5f);
+    }
+    for (int a = 0; a < 3; ++a) {
+      const float* p = component(a).values.get() + at;
+      const float* below = p - stride[axis];
+      first[a] = a == axis ? p[0] : 0.25f * (p[0] + p[stride[a]] + below[0] + below[stride[a]]);
+    }
+    return traceOn(lanes(from[0], from[1], from[2]), lanes(first[0], first[1], first[2]), step);
+  }
+
+ private:
+  Vec3f traceOn(Lanes from, Lanes k1, float step) const {
+    const Lanes k2 = sample(from + lanes(0.5f * step) * k1);
+    const Lanes k3 = sample(from + lanes(0.75f * step) * k2);
+    const Lanes to =
+        from + lanes(step * (1.0f / 9.0f)) * (lanes(2.0f) * k1 + lanes(3.0f) * k2 + lanes(4.0f) * k3);
+    return Vec3f(lane0(to), lane1(to), lane2(to));
+  }
+
+  Lanes sample(Lanes x) const {
+    const auto halo = static_cast<float>(u.halo);
+    const Lanes inside = _mm_min_ps(_mm_max_ps(x + lanes(halo - 0.5f), lanes(0.0f)),
+                                    lanes(static_cast<float>(u.side) - 1.501f));
+    const StaggeredBlocks blocks{{u.values.get(), v.values.get(), w.values.get()}, u.side};
+    return blocks.at(inside);
   }
 };
 

@@ -42,13 +42,13 @@ PoissonSystem systemOf(int n, bool (*inside)(const Coord&), bool anchored = true
       Coord beside = system.numbering.cells()[i];
       beside[s >> 1] += (s & 1) ? 1 : -1;
       const int neighbor = system.numbering.at(beside);
-      system.rows[i].neighbor[s] = neighbor < 0 ? size : neighbor;
+      system.rows.neighbor[i][s] = neighbor < 0 ? size : neighbor;
       if (neighbor < 0) {
-        system.rows[i].link[s] = 0.0f;
+        system.rows.link[i][s] = 0.0f;
       } else if (neighbor > i) {
-        system.rows[i].link[s] = openness(random);
+        system.rows.link[i][s] = openness(random);
       } else {
-        system.rows[i].link[s] = system.rows[neighbor].link[s ^ 1];
+        system.rows.link[i][s] = system.rows.link[neighbor][s ^ 1];
       }
     }
     if (anchored && system.numbering.cells()[i][2] == n - 1) {
@@ -64,8 +64,8 @@ std::vector<double> multiplied(const PoissonSystem& system, const std::vector<do
   for (std::size_t i = 0; i < x.size(); ++i) {
     y[i] = system.anchor[i] * x[i];
     for (int s = 0; s < kSides; ++s) {
-      if (system.rows[i].link[s] > 0.0f) {
-        y[i] += system.rows[i].link[s] * (x[i] - x[system.rows[i].neighbor[s]]);
+      if (system.rows.link[i][s] > 0.0f) {
+        y[i] += system.rows.link[i][s] * (x[i] - x[system.rows.neighbor[i][s]]);
       }
     }
   }
@@ -145,7 +145,7 @@ TEST_CASE("poisson: parts without an anchor are found, and solved with mean 0", 
 TEST_CASE("multigrid: symmetric and positive", "[sim]") {
   const PoissonSystem system = systemOf(21, twoRooms);
   const int n = system.numbering.size();
-  Multigrid multigrid(system);
+  Multigrid multigrid(system, EvenRows(system.rows, system.anchor));
   std::mt19937 random(2);
   std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
   std::vector<float> a(n + 1, 0.0f), b(n + 1, 0.0f), ma(n + 1, 0.0f), mb(n + 1, 0.0f);

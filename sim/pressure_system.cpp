@@ -1,0 +1,49 @@
+#include "sim/pressure_system.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace fluidtex::sim {
+
+using Range = tbb::blocked_range<int>;
+
+PoissonSystem pressureSystem(const LiquidCells& liquid, const std::vector<char>& detached,
+                             std::vector<int>& liquidOf) {
+  PoissonSystem system;
+  std::vector<CellBlock> blocks = liquid.blocks;
+  for (CellBlock& block : blocks) {
+    const int* numbers = liquid.numbering.block(block.origin);
+    for (int c = 0; c < kLeafSize; ++c) {
+      if (numbers[c] >= 0 && detached[numbers[c]]) block.cells.reset(c);
+    }
+  }
+  std::erase_if(blocks, [](const CellBlock& block) { return block.cells.none(); });
+  system.numbering = CellNumbering(blocks, liquid.numbering.extent());
+  const int n = system.numbering.size();
+  system.rows.resize(n);
+  system.anchor.assign(n, 0.0);
+  system.anchoredSides.assign(n, 0);
+  liquidOf.resize(n);
+  tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
+    for (int i = range.begin(); i < range.end(); ++i) {
+      const Coord& place = system.numbering.cells()[i];
+      liquidOf[i] = liquid.numbering.at(place);
+      const LiquidCell& cell = liquid.cells[liquidOf[i]];
+      for (int s = 0; s < kSides; ++s) {
+        const int neighbor = system.numbering.at(neighborOf(place, s));
+        const bool linked = cell.open[s] > 0.0f && neighbor >= 0;
+        system.rows.neighbor[i][s] = linked ? neighbor : n;
+        system.rows.link[i][s] = linked ? cell.open[s] : 0.0f;
+        if (cell.open[s] > 0.0f && !linked) {
+          // The surface, or a detached cell with pressure 0 at its centre.
+          system.anchor[i] +=
+              static_cast<double>(cell.open[s]) / (cell.theta[s] > 0.0f ? cell.theta[s] : 1.0f);
+          system.anchoredSides[i] |= static_cast<std::uint8_t>(1 << s);
+        }
+      }
+    }
+  });
+  return system;
+}
+
+}  // namespace fluidtex::sim

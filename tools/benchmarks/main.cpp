@@ -1,0 +1,16 @@
+// The benchmarks: Google Benchmark's program, with ratios to the peers at the end. See docs/benchmarks.md.
+#include "tools/benchmarks/measure.h"
+
+int main(int argc, char** argv) {
+  using namespace fluidtex::benchmarks;
+  if (answerSelf(argc, argv)) return 0;
+  registerPressure();
+  registerDamBreak();
+  registerMemory();
+  registerScaling();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  printRatios();
+  return 0;
+}

@@ -1,0 +1,39 @@
+// What the benchmarks share: clocks, memory, and figures kept until the end, when peers are compared.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+#include <vector>
+
+namespace fluidtex::benchmarks {
+
+// Processor time of this process, all threads together; of a thread that waits, nothing. Seconds.
+double processorSeconds();
+double wallSeconds();
+
+// The most memory this process has held so far, bytes.
+double peakBytes();
+
+double median(std::vector<double> values);
+
+// Keeps `value` (less is better) of a row for printRatios: name is that of a benchmark, a peer's ends in
+// /peer:NAME.
+void keep(const std::string& name, const std::string& quantity, double value);
+
+// For each row of ours that ran beside peers: how many times as much they need.
+void printRatios();
+
+// Runs this very program with these arguments and gives what it prints; empty where it fails.
+std::string runSelf(const std::string& arguments);
+
+// Called with the arguments that runSelf was given; false when they are none of its own. See memory.cpp.
+bool answerSelf(int argc, char** argv);
+
+// Each file's benchmarks.
+void registerDamBreak();
+void registerPressure();
+void registerMemory();
+void registerScaling();
+
+}  // namespace fluidtex::benchmarks
