@@ -2,6 +2,7 @@
 
 #include "tests/validation/dam_break_cases.h"
 #include "tests/validation/level_set_cases.h"
+#include "tests/validation/pressure_cases.h"
 #include "tests/validation/reinit_cases.h"
 #include "tests/validation/rest_cases.h"
 #include "tests/validation/stream_cases.h"
@@ -20,8 +21,8 @@ bool Row::ok() const {
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> list;
-    for (auto* part : {levelSetCases, reinitCases, waveCases, restCases, damBreakCases, streamCases,
-                       shearCases, viscousFlowCases}) {
+    for (auto* part : {levelSetCases, reinitCases, pressureCases, waveCases, restCases, damBreakCases,
+                       streamCases, shearCases, viscousFlowCases}) {
       for (Case& c : part()) list.push_back(std::move(c));
     }
     return list;
