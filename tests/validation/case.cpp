@@ -5,6 +5,8 @@
 #include "tests/validation/pressure_cases.h"
 #include "tests/validation/reinit_cases.h"
 #include "tests/validation/rest_cases.h"
+#include "tests/validation/shallow_cases.h"
+#include "tests/validation/spread_cases.h"
 #include "tests/validation/stream_cases.h"
 #include "tests/validation/viscous_cases.h"
 #include "tests/validation/wave_cases.h"
@@ -22,7 +24,7 @@ const std::vector<Case>& cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> list;
     for (auto* part : {levelSetCases, reinitCases, pressureCases, waveCases, restCases, damBreakCases,
-                       streamCases, shearCases, viscousFlowCases}) {
+                       streamCases, shallowCases, shearCases, viscousFlowCases, spreadCases}) {
       for (Case& c : part()) list.push_back(std::move(c));
     }
     return list;
