@@ -1,7 +1,9 @@
 #include "tests/validation/case.h"
 
 #include "tests/validation/dam_break_cases.h"
+#include "tests/validation/film_cases.h"
 #include "tests/validation/level_set_cases.h"
+#include "tests/validation/marin_case.h"
 #include "tests/validation/pressure_cases.h"
 #include "tests/validation/reinit_cases.h"
 #include "tests/validation/rest_cases.h"
@@ -23,8 +25,9 @@ bool Row::ok() const {
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> list;
-    for (auto* part : {levelSetCases, reinitCases, pressureCases, waveCases, restCases, damBreakCases,
-                       streamCases, shallowCases, shearCases, viscousFlowCases, spreadCases}) {
+    for (auto* part :
+         {levelSetCases, reinitCases, pressureCases, waveCases, restCases, damBreakCases, marinCases,
+          streamCases, shallowCases, shearCases, viscousFlowCases, filmCases, spreadCases}) {
       for (Case& c : part()) list.push_back(std::move(c));
     }
     return list;
