@@ -13,9 +13,9 @@ namespace {
 
 using Range = tbb::blocked_range<int>;
 
-// A surface nearer to a cell's centre than this share of a cell counts as this far away, in the matrix and in
-// the velocity alike: bounds the matrix' entries.
-constexpr float kMinTheta = 0.01f;
+// A cell counts as at least this deep in the liquid, in cells: bounds the matrix' entries. The depth and not
+// the distance along each axis is bounded, so that the pressure's slope keeps its direction there.
+constexpr float kLeastDepth = 1e-5f;
 
 constexpr int kSide = kLeafDim + 2;  // a leaf's values and one more layer around them
 constexpr int kStride[3] = {kSide * kSide, kSide, 1};
@@ -102,6 +102,7 @@ LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
   liquid.blocks = liquidBlocks(phiGrid, solid);
   liquid.numbering = CellNumbering(liquid.blocks, solid.cells);
   liquid.cells.resize(liquid.numbering.size());
+  const float shallowest = -kLeastDepth * static_cast<float>(solid.voxelSize);
   tbb::parallel_for(Range(0, static_cast<int>(liquid.blocks.size())), [&](const Range& range) {
     for (int b = range.begin(); b < range.end(); ++b) {
       const Coord& origin = liquid.blocks[b].origin;
@@ -138,10 +139,8 @@ LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
             cell.theta[s] = kEdgeTheta;
             continue;
           }
-          const float inside = distance[here], outside = distance[beside];
-          cell.theta[s] = cell.open[s] > 0.0f && outside >= 0.0f
-                              ? std::max(kMinTheta, inside / (inside - outside))
-                              : 0.0f;
+          const float inside = std::min(distance[here], shallowest), outside = distance[beside];
+          cell.theta[s] = cell.open[s] > 0.0f && outside >= 0.0f ? inside / (inside - outside) : 0.0f;
         }
       }
     }

@@ -1,9 +1,14 @@
 #include "tests/validation/case.h"
 
 #include "tests/validation/dam_break_cases.h"
+#include "tests/validation/film_cases.h"
 #include "tests/validation/level_set_cases.h"
+#include "tests/validation/marin_case.h"
+#include "tests/validation/pressure_cases.h"
 #include "tests/validation/reinit_cases.h"
 #include "tests/validation/rest_cases.h"
+#include "tests/validation/shallow_cases.h"
+#include "tests/validation/spread_cases.h"
 #include "tests/validation/stream_cases.h"
 #include "tests/validation/viscous_cases.h"
 #include "tests/validation/wave_cases.h"
@@ -20,8 +25,9 @@ bool Row::ok() const {
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> list;
-    for (auto* part : {levelSetCases, reinitCases, waveCases, restCases, damBreakCases, streamCases,
-                       shearCases, viscousFlowCases}) {
+    for (auto* part :
+         {levelSetCases, reinitCases, pressureCases, waveCases, restCases, damBreakCases, marinCases,
+          streamCases, shallowCases, shearCases, viscousFlowCases, filmCases, spreadCases}) {
       for (Case& c : part()) list.push_back(std::move(c));
     }
     return list;

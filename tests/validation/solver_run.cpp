@@ -48,4 +48,12 @@ double surfaceHeight(const sim::State& state, int i, int j, int cells) {
   return 0.0;
 }
 
+double columnDepth(const sim::State& state, int i, int j, int cells) {
+  const auto phi = state.phi->getConstUnsafeAccessor();
+  const double h = state.phi->voxelSize()[0];
+  double depth = 0.0;
+  for (int k = 0; k < cells; ++k) depth += std::clamp(0.5 * h - phi.getValue(Coord(i, j, k)), 0.0, h);
+  return depth;
+}
+
 }  // namespace fluidtex::validation

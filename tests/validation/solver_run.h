@@ -21,4 +21,7 @@ double farthestFrom(const sim::State& state, const std::function<sim::Vec3d(cons
 // without liquid.
 double surfaceHeight(const sim::State& state, int i, int j, int cells);
 
+// Liquid in the column of cells (i, j, 0 .. cells - 1), in metres of depth.
+double columnDepth(const sim::State& state, int i, int j, int cells);
+
 }  // namespace fluidtex::validation

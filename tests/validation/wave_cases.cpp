@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace fluidtex::validation {
@@ -98,6 +100,23 @@ Result taylorGreen(int resolution, const Progress& progress) {
   return result;
 }
 
+// Liquid at rest in the whole domain below surface(x), which lies near `depth` and is nearly level.
+sim::Solver raised(sim::Options options, double depth, const std::function<double(double)>& surface) {
+  options.liquid = {{{sim::HalfSpace{Vec3d(0.0, 0.0, depth), Vec3d(0.0, 0.0, 1.0)}}}};
+  sim::Solver start(options);
+  start.next();
+  sim::State state = start.state();
+  state.phi = state.phi->deepCopy();
+  for (auto it = state.phi->beginValueOn(); it; ++it) {
+    // The slope is at most 0.03: as good as a distance.
+    const Vec3d x = state.phi->indexToWorld(it.getCoord());
+    it.setValue(static_cast<float>(x[2] - surface(x[0])));
+  }
+  state.markers =
+      sim::seedMarkers(*state.phi, *sim::makePhi(options.voxelSize(), 3.0 * options.voxelSize()), 0);
+  return sim::Solver(options, std::move(state));
+}
+
 // The first standing wave in a basin 1 m long and 0.5 m deep, a hundredth of that high.
 Result standingWave(int resolution, const Progress& progress) {
   constexpr double kDepth = 0.5, kAmplitude = 0.01;
@@ -108,20 +127,9 @@ Result standingWave(int resolution, const Progress& progress) {
   options.resolution = resolution;
   options.viscosity = 0.0;
   options.frameRate = kPerPeriod / period;
-  options.liquid = {{{sim::HalfSpace{Vec3d(0.0, 0.0, kDepth), Vec3d(0.0, 0.0, 1.0)}}}};
-  const auto shape = [](const Vec3d& x) { return x[2] - kDepth - kAmplitude * std::cos(pi * x[0]); };
-  sim::Solver start(options);
-  start.next();
-  sim::State state = start.state();
-  state.phi = state.phi->deepCopy();
-  for (auto it = state.phi->beginValueOn(); it; ++it) {
-    // The slope is at most 0.03: as good as a distance.
-    Vec3d x = state.phi->indexToWorld(it.getCoord());
-    x[0] = std::clamp(x[0], 0.0, 1.0);
-    it.setValue(static_cast<float>(shape(x)));
-  }
-  state.markers = sim::seedMarkers(*state.phi, *sim::makePhi(h, 3.0 * h), 0);
-  sim::Solver solver(options, std::move(state));
+  sim::Solver solver = raised(options, kDepth, [&](double x) {
+    return kDepth + kAmplitude * std::cos(pi * std::clamp(x, 0.0, 1.0));
+  });
   Curve curve{"first mode", {}, Curve::Style::line};
   // The first mode's share of the surface: the second comes and goes, as waves of finite height have it.
   const auto firstMode = [&] {
@@ -180,6 +188,77 @@ Result standingWave(int resolution, const Progress& progress) {
   return result;
 }
 
+// Height of a viscous wave after each half turn: time in inviscid periods, amplitude; the reference's
+// solution of Prosperetti's problem.
+struct ViscousWave {
+  double viscosity;
+  std::array<std::array<double, 2>, 4> extrema;
+};
+
+// Half a wave 1 m long on deep water with viscosity. `resolution`: cells to the whole wave.
+Result viscousWave(const ViscousWave& wave, int resolution, const Progress& progress) {
+  constexpr double kDepth = 0.75, kAmplitude = 0.005;
+  const double h = 1.0 / resolution, k = 2.0 * pi, period = 2.0 * pi / std::sqrt(kGravity * k);
+  constexpr int kPerPeriod = 80;
+  const int frames = static_cast<int>((wave.extrema.back()[0] + 0.15) * kPerPeriod);
+  sim::Options options;
+  options.size = Vec3d(0.5, 8.0 * h, 0.875);
+  options.resolution = static_cast<int>(std::lround(0.875 * resolution));
+  options.viscosity = wave.viscosity * options.density;
+  options.cfl = 1.0;
+  options.frameRate = kPerPeriod / period;
+  const auto surface = [&](double x) { return kDepth + kAmplitude * std::cos(k * std::clamp(x, 0.0, 0.5)); };
+  sim::Solver solver = raised(options, kDepth, surface);
+  // The amplitude of the first mode.
+  const int across = resolution / 2;
+  const auto amplitude = [&] {
+    double sum = 0.0;
+    for (int i = 0; i < across; ++i)
+      sum += (surfaceHeight(solver.state(), i, 4, options.resolution) - kDepth) * std::cos(k * (i + 0.5) * h);
+    return 2.0 * sum / across / kAmplitude;
+  };
+  Curve found{fmt::format("{} cells", resolution), {}, Curve::Style::line},
+      exact{"Prosperetti", {}, Curve::Style::marks};
+  found.points.push_back({0.0, amplitude()});
+  for (int n = 1; n <= frames; ++n) {
+    solver.next();
+    found.points.push_back({double(n) / kPerPeriod, amplitude()});
+    if (progress) progress(double(n) / frames);
+  }
+  exact.points.push_back({0.0, 1.0});
+  double worst = 0.0, late = 0.0;
+  for (const auto& [time, height] : wave.extrema) {
+    exact.points.push_back({time, height});
+    // The extremum near that time, by a parabola through three frames.
+    std::size_t best = 1;
+    double most = 0.0;
+    for (std::size_t n = 1; n + 1 < found.points.size(); ++n) {
+      if (std::abs(found.points[n][0] - time) > 0.2 || std::abs(found.points[n][1]) < most) continue;
+      if (found.points[n][1] * height > 0.0) most = std::abs(found.points[n][1]), best = n;
+    }
+    const double a = found.points[best - 1][1], b = found.points[best][1], c = found.points[best + 1][1];
+    const double bend = a - 2.0 * b + c, shift = bend != 0.0 ? 0.5 * (a - c) / bend : 0.0;
+    worst = std::max(worst, std::abs((b - 0.25 * (a - c) * shift) / height - 1.0));
+    late = (found.points[best][0] + shift / kPerPeriod) / time - 1.0;
+  }
+  const std::string test = "standing_wave_viscous";
+  return {
+      {{test, resolution, "height of four extrema, worst error, %", 100.0 * worst, 2.0, 0.3, false, {}, 0.0},
+       {test, resolution, "time of the fourth, error, %", 100.0 * late, 0.5, 0.05, false, {}, 0.0}},
+      {{fmt::format("{}_{}", test, resolution),
+        "Viscous standing wave",
+        "periods",
+        "amplitudes",
+        false,
+        false,
+        {std::move(found), std::move(exact)}}}};
+}
+
+Result viscousWaves(int resolution, const Progress& progress) {
+  return viscousWave({1e-2, {{{.5062, -.78265}, {1.0145, .59099}, {1.5222, -.45568}, {2.0303, .34582}}}},
+                     resolution, progress);
+}
+
 }  // namespace
 
 std::vector<Case> waveCases() {
@@ -195,6 +274,13 @@ std::vector<Case> waveCases() {
            {32, 64},
            {},
            standingWave,
+           {}},
+          {"standing_wave_viscous",
+           "fluid",
+           "A standing wave with viscosity; cells to the whole wave",
+           {32, 64},
+           {},
+           viscousWaves,
            {}}};
 }
 
