@@ -7,10 +7,17 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace fluidtex::sim {
 namespace {
+
+using Vec3 = openvdb::Vec3f;
+
+// A surface steeper to the wall than this share of its slope runs along the wall: what opens or closes there
+// is a gap or a film, and no surface that the wall cuts.
+constexpr float kAlongWall = 0.71f;
 
 struct Extension {
   const LeafTable& table;
@@ -18,77 +25,86 @@ struct Extension {
   float h;
   std::vector<float> value;         // #voxels: phi
   std::vector<float> depth;         // #voxels: -solidPhi
-  std::vector<float> slope;         // #voxels: d(phi)/dn into the solid, as far as it may be used
+  std::vector<Vec3> gradient;       // #voxels: of phi in solids, as far as it may be used
   std::vector<std::uint8_t> known;  // #voxels
 
-  // Slope of phi towards the solid at a cell in the open, from its neighbours away from the solid.
-  double openSlope(std::int64_t cell) const {
-    double slopeSum = 0.0, normalSquare = 0.0;
+  // Gradient of phi at a cell in the open, from those of its neighbours that are in the open too.
+  Vec3 openGradient(std::int64_t cell) const {
+    Vec3 slope(0.0f);
     for (int axis = 0; axis < 3; ++axis) {
-      const std::int64_t below = table.neighbor(cell, 2 * axis), above = table.neighbor(cell, 2 * axis + 1);
-      if (below < 0 || above < 0) continue;
-      const double normal = static_cast<double>(depth[above]) - depth[below];
-      const std::int64_t away = normal > 0.0 ? below : above;
-      normalSquare += normal * normal;
-      if (depth[away] <= kDeepInSolid * h)
-        slopeSum += std::abs(normal) * (static_cast<double>(value[cell]) - value[away]);
+      float low = value[cell], high = value[cell];
+      int steps = 0;
+      for (int up = 0; up < 2; ++up) {
+        const std::int64_t n = table.neighbor(cell, 2 * axis + up);
+        if (n < 0 || depth[n] > kDeepInSolid * h) continue;
+        (up != 0 ? high : low) = value[n];
+        ++steps;
+      }
+      if (steps > 0) slope[axis] = (high - low) / (static_cast<float>(steps) * h);
     }
-    return normalSquare > 0.0 ? slopeSum / (std::sqrt(normalSquare) * h) : 0.0;
+    const float length = slope.length();
+    return length > 1.0f ? slope / length : slope;
   }
 
-  // What one known neighbour says about a cell in the solid.
+  // What one known neighbour says about a cell in the solid; `normal`: into the solid there.
   struct Guess {
-    double value;    // phi at the neighbour, or here where `slope` is no part of it
-    double slope;    // to be added for this cell
-    double carried;  // to be used by cells still deeper
+    float value;    // phi at the neighbour, or here where `gradient` is no part of it
+    Vec3 gradient;  // leads from there to this cell
+    Vec3 carried;   // to be used by cells still deeper
   };
 
-  Guess ask(std::int64_t cell, std::int64_t from) const {
-    if (depth[from] > kDeepInSolid * h) return {value[from], slope[from], slope[from]};
+  Guess ask(std::int64_t cell, std::int64_t from, const Vec3& normal) const {
+    if (depth[from] > kDeepInSolid * h) return {value[from], gradient[from], gradient[from]};
     const bool liquid = value[from] < 0.0f;
     const bool away = letGo ? letGo(table.coord(from)) : value[cell] >= 0.0f;
     // Air behind the solid's surface, which has moved with the flow since the liquid let go.
-    if (liquid && away) return {std::max(value[cell], depth[cell]), 0.0, 1.0};
-    const double used = !liquid && away ? 0.0 : std::clamp(openSlope(from), -1.0, 0.0);
-    return {value[from], used, used};
+    if (liquid && away) return {std::max(value[cell], depth[cell]), Vec3(0.0f), normal};
+    Vec3 slope = openGradient(from);
+    const float inward = slope.dot(normal);
+    const bool film = !liquid && away && inward < -kAlongWall;
+    if (film || inward > kAlongWall) slope -= inward * normal;
+    return {value[from], slope, slope};
   }
 
   // The cell's value from its known neighbours nearer to the open, each axis weighted by how much nearer;
   // with no such neighbour, from all known ones. False where none is known.
   bool extend(std::int64_t cell) {
-    double weights = 0.0, squares = 0.0, sum = 0.0, slopes = 0.0, carried = 0.0;
-    double plainSum = 0.0, plainCarried = 0.0;
-    int plainCount = 0;
+    std::array<std::int64_t, 3> nearest{-1, -1, -1};
+    Vec3 way(0.0f);  // into the solid, by how much nearer the neighbours are
+    std::array<std::int64_t, 6> all;
+    int count = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      double best = 0.0;
-      Guess bestGuess{};
       for (int up = 0; up < 2; ++up) {
         const std::int64_t n = table.neighbor(cell, 2 * axis + up);
         if (n < 0 || known[n] == 0) continue;
-        const Guess guess = ask(cell, n);
-        plainSum += guess.value;
-        plainCarried += guess.carried;
-        ++plainCount;
-        const double shallower = static_cast<double>(depth[cell]) - depth[n];
-        if (shallower > best) {
-          best = shallower;
-          bestGuess = guess;
-        }
+        all[count++] = n;
+        const float shallower = depth[cell] - depth[n];
+        if (shallower <= std::abs(way[axis])) continue;
+        way[axis] = up != 0 ? -shallower : shallower;
+        nearest[axis] = n;
       }
-      weights += best;
-      squares += best * best;
-      sum += best * bestGuess.value;
-      slopes += best * bestGuess.slope;
-      carried += best * bestGuess.carried;
     }
-    if (plainCount == 0) return false;
-    if (weights > 0.0) {
-      value[cell] = static_cast<float>((sum + slopes / weights * h * std::sqrt(squares)) / weights);
-      slope[cell] = static_cast<float>(carried / weights);
-    } else {
-      value[cell] = static_cast<float>(plainSum / plainCount);
-      slope[cell] = static_cast<float>(plainCarried / plainCount);
+    if (count == 0) return false;
+    const float length = way.length();
+    const Vec3 normal = length > 0.0f ? way / length : Vec3(0.0f);
+    float weights = 0.0f, sum = 0.0f;
+    Vec3 carried(0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (nearest[axis] < 0) continue;
+      const Guess guess = ask(cell, nearest[axis], normal);
+      const float weight = std::abs(way[axis]);
+      weights += weight;
+      sum += weight * guess.value + way[axis] * h * guess.gradient[axis];
+      carried += weight * guess.carried;
     }
+    for (int n = 0; length == 0.0f && n < count; ++n) {
+      const Guess guess = ask(cell, all[n], normal);
+      weights += 1.0f;
+      sum += guess.value;
+      carried += guess.carried;
+    }
+    value[cell] = sum / weights;
+    gradient[cell] = carried / weights;
     known[cell] = 1;
     return true;
   }
@@ -104,7 +120,7 @@ void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& le
                       h,
                       sampleOn(table, phi.constTree()),
                       sampleOn(table, solidPhi.constTree()),
-                      std::vector<float>(table.voxels()),
+                      std::vector<Vec3>(table.voxels(), Vec3(0.0f)),
                       std::vector<std::uint8_t>(table.voxels())};
   std::vector<FarVoxel> order;
   for (std::size_t n = 0; n < table.voxels(); ++n) {
