@@ -17,7 +17,7 @@ using Vec3 = openvdb::Vec3f;
 
 // A surface steeper to the wall than this share of its slope runs along the wall: what opens or closes there
 // is a gap or a film, and no surface that the wall cuts.
-constexpr float kAlongWall = 0.71f;
+constexpr float kAlongWall = 0.55f;
 
 struct Extension {
   const LeafTable& table;
