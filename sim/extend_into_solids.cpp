@@ -59,11 +59,14 @@ struct Extension {
     const bool away = letGo ? letGo(table.coord(from)) : value[cell] >= 0.0f;
     // Air behind the solid's surface, which has moved with the flow since the liquid let go.
     if (liquid && away) return {std::max(value[cell], depth[cell]), Vec3(0.0f), normal};
-    Vec3 slope = openGradient(from);
+    const Vec3 slope = openGradient(from);
     const float inward = slope.dot(normal);
-    const bool film = !liquid && away && inward < -kAlongWall;
-    if (film || inward > kAlongWall) slope -= inward * normal;
-    return {value[from], slope, slope};
+    const Vec3 along = slope - inward * normal;
+    if (inward > kAlongWall) return {value[from], along, along};
+    const auto becomesFilm = [&](float layers) {
+      return !liquid && away && value[from] + layers * h * inward < 0.0f;
+    };
+    return {value[from], becomesFilm(1.0f) ? along : slope, becomesFilm(kSolidLayers) ? along : slope};
   }
 
   // The cell's value from its known neighbours nearer to the open, each axis weighted by how much nearer;

@@ -69,6 +69,9 @@ bool touchesLiquid(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord&
   return false;
 }
 
+// A film that leaves a solid does so faster than at this share of what gravity adds in a step.
+constexpr double kLeaves = 0.05;
+
 // Whether a film thinner than half a cell, so that only the wall's own cell holds it, goes from the wall at
 // this cell. It has no pressure of its own: it goes where the velocity leads away from the solid, `kick`
 // being what gravity adds to it in a step, as it does under a ceiling; and where no liquid feeds it, but on
@@ -78,6 +81,10 @@ bool leavesSolid(const Liquid& liquid, const SolidField& solid, const Coord& cel
   const FloatGrid* const push[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};
   const float deep = -kDeepInSolid * static_cast<float>(solidPhi.voxelSize()[0]);
   bool onFloor = false;
+  // Liquid beside it moves the film with itself, and at rest holds it up.
+  const bool touches = touchesLiquid(*liquid.phi, solidPhi, cell);
+  const Vec3d fall = touches ? Vec3d(0.0) : kick;
+  const double slowest = kLeaves * kick.length();
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2, out = side % 2 == 0 ? 1 : -1;  // away from the solid on that side
     Coord beyond = cell, face = cell;
@@ -88,10 +95,10 @@ bool leavesSolid(const Liquid& liquid, const SolidField& solid, const Coord& cel
     if (outside && solid.sides[side] != Side::wall) return true;  // what is beyond is of no account
     double speed = liquid.velocity.component[axis]->constTree().getValue(face);
     if (push[axis] != nullptr) speed -= push[axis]->constTree().getValue(face);
-    if (out * (speed + kick[axis]) > 0.0) return true;
+    if (out * (speed + fall[axis]) > slowest) return true;
     onFloor = onFloor || out * kick[axis] < -0.5 * kick.length();
   }
-  return !onFloor && !touchesLiquid(*liquid.phi, solidPhi, cell);
+  return !onFloor && !touches;
 }
 
 // From here on the surface knows where liquid has let go of a solid: there a gap opens, elsewhere it is
