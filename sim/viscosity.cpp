@@ -26,16 +26,18 @@ double sum(std::int32_t n, const Term& term) {
       [](double a, double b) { return a + b; }, tbb::simple_partitioner());
 }
 
-// The gradient of the viscous energy: strain gets the weighted strains of x, and out the sum at each face.
-void viscousForce(const ViscousSystem& system, const std::vector<double>& x, std::vector<double>& stress,
-                  std::vector<double>& out) {
+// The gradient of the viscous energy: stress gets the weighted strains of x, and out the sum at each face.
+// whole: with the offsets, that is not only what is linear in x.
+void viscousForce(const ViscousSystem& system, const std::vector<double>& x, bool whole,
+                  std::vector<double>& stress, std::vector<double>& out) {
   const auto samples = static_cast<std::int32_t>(system.samples.size());
   tbb::parallel_for(Range(0, samples, kGrain), [&](const Range& range) {
     for (std::int32_t s = range.begin(); s < range.end(); ++s) {
       const StrainSample& sample = system.samples[s];
       const auto& f = sample.face;
       const double strain = static_cast<double>(sample.a) * (x[f[1]] - x[f[0]]) +
-                            static_cast<double>(sample.b) * (x[f[3]] - x[f[2]]);
+                            static_cast<double>(sample.b) * (x[f[3]] - x[f[2]]) +
+                            (whole ? sample.offset : 0.0f);
       stress[s] = sample.weight * strain;
     }
   });
@@ -77,14 +79,14 @@ ViscosityReport solveViscous(const ViscousSystem& system, std::vector<double>& x
 
   // The right-hand side: the momentum before, and the pull of solids that move.
   std::copy(x.begin() + n, x.end(), p.begin() + n);
-  viscousForce(system, p, stress, q);
+  viscousForce(system, p, true, stress, q);
   const double normB = std::sqrt(sum(n, [&](std::int32_t i) {
     const double b = system.mass[i] * x[i] - q[i];
     return b * b;
   }));
   std::fill(p.begin(), p.end(), 0.0);
 
-  viscousForce(system, x, stress, q);
+  viscousForce(system, x, true, stress, q);
   double normR = std::sqrt(sum(n, [&](std::int32_t i) {
     r[i] = -q[i];
     return r[i] * r[i];
@@ -111,7 +113,7 @@ ViscosityReport solveViscous(const ViscousSystem& system, std::vector<double>& x
     tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
       for (std::int32_t i = range.begin(); i < range.end(); ++i) p[i] = z[i] + beta * p[i];
     });
-    viscousForce(system, p, stress, q);
+    viscousForce(system, p, false, stress, q);
     const double pq = sum(n, [&](std::int32_t i) {
       q[i] += system.mass[i] * p[i];
       return p[i] * q[i];

@@ -103,11 +103,16 @@ struct Walls {
     return share[axis]->constTree().getValue(face) > 0.5f;
   }
 
+  // Of the solid as a whole, also beside it.
+  double motion(const Coord& face, int axis) const {
+    const FloatGrid::Ptr moving[3] = {solid.speedU, solid.speedV, solid.speedW};
+    return moving[axis] ? moving[axis]->constTree().getValue(face) : 0.0f;
+  }
+
   double speed(const Coord& face, int axis) const {
     const FloatGrid::Ptr fixed[3] = {solid.givenU, solid.givenV, solid.givenW};
     if (given(face, axis)) return fixed[axis]->constTree().getValue(face);
-    const FloatGrid::Ptr moving[3] = {solid.speedU, solid.speedV, solid.speedW};
-    double value = moving[axis] ? moving[axis]->constTree().getValue(face) : 0.0f;
+    double value = motion(face, axis);
     if (solid.slide[axis]) value += solid.slide[axis]->constTree().getValue(face);
     return value;
   }
@@ -231,9 +236,12 @@ class Sampler {
       if (t < 3) {
         sample.a = factor(sample.face[0], sample.face[1], patches->wall, at, at + kStride[p], p);
         sample.b = 0.0f;
+        sample.offset = offset(sample.face[0], sample.face[1], sample.a, p);
       } else {
         sample.a = factor(sample.face[0], sample.face[1], patches->wall, at - kStride[q], at, p);
         sample.b = factor(sample.face[2], sample.face[3], patches->wall, at - kStride[p], at, q);
+        sample.offset = offset(sample.face[0], sample.face[1], sample.a, p) +
+                        offset(sample.face[2], sample.face[3], sample.b, q);
       }
       out.push_back(sample);
     }
@@ -258,6 +266,15 @@ class Sampler {
     if (std::abs(wall.cell(givenAt) - wall.cell(givenAt - kStride[axis])) < kSquare * h)
       slip = Walls{m_solid, h}.slip(m_system.coord[firstGiven ? first : second], axis);
     return reachFactor(wall.face(unknownAt, axis), std::min(0.0f, wall.face(givenAt, axis)), slip);
+  }
+
+  // Of the difference second - first, which is multiplied by `factor`: a solid that turns has another speed
+  // at its surface than at the given face, and a motion that liquid and solid share has no strain.
+  float offset(std::int32_t first, std::int32_t second, float factor, int axis) const {
+    if (factor == 1.0f || !m_solid.speedU) return 0.0f;
+    const Walls walls{m_solid, static_cast<float>(m_solid.voxelSize)};
+    return static_cast<float>((1.0f - factor) * (walls.motion(m_system.coord[second], axis) -
+                                                 walls.motion(m_system.coord[first], axis)));
   }
 
   const ViscousSystem& m_system;

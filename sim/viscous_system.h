@@ -1,10 +1,10 @@
 // The viscous energy of a liquid on a staggered grid, as a list of strains, and its minimisation.
 //
 // Minimised over the velocities x of the liquid's faces:  sum of mass (x - before)^2 / 2 + sum over samples
-// of weight e^2 / 2,  e = a (x[face1] - x[face0]) + b (x[face3] - x[face2]).  A sample is one entry of the
-// strain at one place: on the diagonal (at a cell's centre, two faces) or off it (at a cell's edge, four
-// faces). Differences are formed before they are weighted, so that a translation has no strain to the last
-// bit.
+// of weight e^2 / 2,  e = a (x[face1] - x[face0]) + b (x[face3] - x[face2]) + offset.  A sample is one entry
+// of the strain at one place: on the diagonal (at a cell's centre, two faces) or off it (at a cell's edge,
+// four faces). Differences are formed before they are weighted, so that a translation has no strain to the
+// last bit.
 #pragma once
 
 #include "sim/leaf_table.h"
@@ -21,6 +21,7 @@ struct StrainSample {
   std::array<std::int32_t, 4> face;  // numbers of faces; on the diagonal the last two are nowhere()
   float weight = 0.0f;
   float a = 1.0f, b = 1.0f;  // other than 1 where a difference reaches a wall nearer or farther than one cell
+  float offset = 0.0f;       // what the wall's own motion changes between its surface and the given face
 };
 
 // Types of samples: xx, yy, zz, then xy, xz, yz.

@@ -57,6 +57,14 @@ struct Tank {
     solid.slide = walls.component;
   }
 
+  // Gives the solids themselves this velocity.
+  void setSolidVelocity(const Field& speed) {
+    const Velocity solids = velocityField(h, phi->tree(), speed);
+    solid.speedU = solids.component[0];
+    solid.speedV = solids.component[1];
+    solid.speedW = solids.component[2];
+  }
+
   // Largest difference from `exact` over the liquid's open faces with keep(x).
   double error(const Field& exact, const std::function<bool(const Vec3d&)>& keep) const {
     double largest = 0.0;
@@ -282,6 +290,22 @@ TEST_CASE("applyViscosity: between a turning and a resting sphere", "[sim]") {
   CHECK(errors[1] < 0.6 * errors[0]);
   CHECK(errors[2] < 0.6 * errors[1]);
   CHECK(errors[2] < 0.02);
+}
+
+TEST_CASE("applyViscosity: liquid that turns with its walls has no strain", "[sim]") {
+  const Field turning = [](const Vec3d& x) { return Vec3d(0.3, 0.5, 1.0).cross(x - Vec3d(0.5)); };
+  Options options = tankOf(20);
+  options.solids.resize(2);
+  options.solids[0].shape.kind = Sphere{Vec3d(0.5), 0.18};
+  Difference shell;
+  shell.parts = {Shape{Box{Vec3d(-1.0), Vec3d(2.0)}}, Shape{Sphere{Vec3d(0.5), 0.42}}};
+  options.solids[1].shape.kind = shell;
+  for (Solid& solid : options.solids) solid.wall.kind = WallKind::noSlip;
+  Tank tank(
+      options, [](const Vec3d&) { return -1.0; }, turning);
+  tank.setSolidVelocity(turning);
+  CHECK(tank.apply(1e3).converged);
+  CHECK(tank.error(turning, everywhere) < 1e-5);
 }
 
 TEST_CASE("applyViscosity: converges at any viscosity, with sheets, drops and a wall", "[sim]") {

@@ -35,13 +35,13 @@ class Basin {
     velocity = sim::makeVelocity(options.voxelSize(), m_phi->tree());
   }
 
-  void setWalls(const Field& speed) {
-    sim::Velocity walls = sim::makeVelocity(m_solid.voxelSize, m_phi->tree());
-    for (int a = 0; a < 3; ++a) {
-      for (auto it = walls.component[a]->beginValueOn(); it; ++it)
-        it.setValue(static_cast<float>(speed(walls.component[a]->indexToWorld(it.getCoord()))[a]));
-    }
-    m_solid.slide = walls.component;
+  // How the walls' surfaces slide along themselves, and how the solids move as a whole.
+  void setWalls(const Field& speed) { m_solid.slide = fieldOf(speed).component; }
+  void setSolids(const Field& speed) {
+    const sim::Velocity field = fieldOf(speed);
+    m_solid.speedU = field.component[0];
+    m_solid.speedV = field.component[1];
+    m_solid.speedW = field.component[2];
   }
 
   void push(double change) {
@@ -71,6 +71,15 @@ class Basin {
   sim::Velocity velocity;
 
  private:
+  sim::Velocity fieldOf(const Field& speed) const {
+    sim::Velocity field = sim::makeVelocity(m_solid.voxelSize, m_phi->tree());
+    for (int a = 0; a < 3; ++a) {
+      for (auto it = field.component[a]->beginValueOn(); it; ++it)
+        it.setValue(static_cast<float>(speed(field.component[a]->indexToWorld(it.getCoord()))[a]));
+    }
+    return field;
+  }
+
   sim::SolidField m_solid;
   sim::FloatGrid::Ptr m_phi;
 };
@@ -197,8 +206,13 @@ Result cylinders(int resolution, const Progress&) {
     const double length = std::max(r.length(), 1e-9);
     return up.cross(r / length) * around(std::clamp(length, kInner, kOuter));
   };
+  // The inner one turns as a whole.
+  const auto solids = [&](const Vec3d& x) {
+    const Vec3d r(x[0] - middle[0], x[1] - middle[1], 0.0);
+    return r.length() < 0.5 * (kInner + kOuter) ? up.cross(r) : Vec3d(0.0);
+  };
   Basin basin(options);
-  basin.setWalls(exact);
+  basin.setSolids(solids);
   if (!basin.apply(1.0, 1e5)) return {{failed("cylinders", resolution)}, {}};
   double sum = 0.0, largest = 0.0;
   int count = 0;

@@ -45,7 +45,8 @@ struct Spread {
 
 // A block 1 m high and wide; lengths in m, times in those in which g / (3 nu) is 1.
 Result spread(const Spread& flow, int resolution, const Progress& progress) {
-  constexpr double kReynolds = 0.5;  // sqrt(g) / nu: inertia is long gone when the fit begins
+  // sqrt(g) / nu. When the fit begins, inertia is a ten-thousandth of the weight.
+  constexpr double kReynolds = 5.0;
   constexpr int kFrames = 200;
   const double gravity = 1.0, viscosity = std::sqrt(gravity) / kReynolds, unit = 3.0 * viscosity / gravity;
   const double h = 1.0 / resolution, room = 1.15 * flow.law * std::pow(flow.end, flow.power) + 8.0 * h;
