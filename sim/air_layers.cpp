@@ -137,4 +137,38 @@ void balanceAirLayers(Velocity& velocity, const FaceMasks& valid, const FloatGri
   }
 }
 
+void extendLinearly(Velocity& values, const FloatGrid& phi) {
+  const LeafTable table = makeLeafTable(values.component[0]->constTree());
+  const std::vector<float> cellPhi = sampleOn(table, phi.constTree());
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto below = [&](std::int64_t face) {
+      const std::int64_t cell = table.neighbor(face, 2 * axis);
+      return cellPhi[cell < 0 ? face : cell];
+    };
+    const auto touchesLiquid = [&](std::int64_t face) { return cellPhi[face] < 0.0f || below(face) < 0.0f; };
+    const std::vector<float> was = sampleOn(table, values.component[axis]->constTree());
+    const auto leaves = leavesOf(values.component[axis]->tree());
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      float* out = leaves[n]->buffer().data();
+      for (int i = 0; i < kLeafSize; ++i) {
+        const std::int64_t face = static_cast<std::int64_t>(n) * kLeafSize + i;
+        if (touchesLiquid(face)) continue;
+        const float here = cellPhi[face] + below(face);
+        float weights = 0.0f, sum = 0.0f;
+        for (int direction = 0; direction < 6; ++direction) {
+          const std::int64_t near = table.neighbor(face, direction);
+          if (near < 0 || !touchesLiquid(near)) continue;
+          const std::int64_t behind = table.neighbor(near, direction);
+          if (behind < 0 || !touchesLiquid(behind)) continue;
+          const float nearer = here - cellPhi[near] - below(near);
+          if (nearer <= 0.0f) continue;
+          weights += nearer;
+          sum += nearer * (2.0f * was[near] - was[behind]);
+        }
+        if (weights > 0.0f) out[i] = sum / weights;
+      }
+    });
+  }
+}
+
 }  // namespace fluidtex::sim

@@ -139,7 +139,8 @@ void setSourceTemperature(FloatGrid& temperature, const RunningFlows& flows) {
 // makes the step second order in time.
 void carryVelocity(const Liquid& liquid, Liquid& next, double dt) {
   const bool before = liquid.acceleration.component[0] != nullptr;
-  const Velocity carried = before ? plus(liquid.velocity, liquid.acceleration, 0.5 * dt) : liquid.velocity;
+  Velocity carried = before ? plus(liquid.velocity, liquid.acceleration, 0.5 * dt) : copyOf(liquid.velocity);
+  extendLinearly(carried, *liquid.phi);
   advectVelocity(liquid.velocity, carried, next.velocity, *liquid.phi, *next.phi, dt);
   if (before) next.velocity = plus(next.velocity, liquid.acceleration, -0.5 * dt);
 }

@@ -179,3 +179,27 @@ TEST_CASE("air layers: nothing gets faster than half as fast again, and solids k
         before.component[2]->tree().getValue(Coord(0, 0, 2)));
   CHECK(wall.velocity.component[2]->tree().getValue(Coord(0, 0, 1)) < -0.05f);
 }
+
+TEST_CASE("air layers: what is linear in the liquid goes on linearly in the first layer") {
+  Fixture f(0.1, 16, [](const Vec3d& x) { return 0.6 * x[0] + 0.8 * x[2]; });
+  const auto linear = [](const Vec3d& x, int a) { return 1.0 + a + x[0] - 2.0 * x[1] + 3.0 * x[2]; };
+  f.setValid(linear);
+  extrapolate(f.velocity, f.valid, *f.phi, *f.solidPhi);
+  extendLinearly(f.velocity, *f.phi);
+  const std::array<openvdb::MaskGrid*, 3> masks{f.valid.u.get(), f.valid.v.get(), f.valid.w.get()};
+  double worst = 0.0;
+  int checked = 0;
+  for (int a = 0; a < 3; ++a) {
+    const FloatGrid& grid = *f.velocity.component[a];
+    for (auto it = grid.cbeginValueOn(); it; ++it) {
+      const Coord c = it.getCoord();
+      // Away from the box' ends, above a face of the liquid.
+      if (std::max({std::abs(c[0]), std::abs(c[1]), std::abs(c[2])}) > 12) continue;
+      if (masks[a]->tree().isValueOn(c) || !masks[a]->tree().isValueOn(c.offsetBy(0, 0, -1))) continue;
+      worst = std::max(worst, std::abs(*it - linear(grid.indexToWorld(c), a)));
+      ++checked;
+    }
+  }
+  CHECK(checked > 100);
+  CHECK(worst < 1e-4);
+}
