@@ -10,6 +10,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace fluidtex::sim {
@@ -19,6 +20,7 @@ namespace {
 using Range = tbb::blocked_range<int>;
 
 constexpr int kGrain = 4096;
+constexpr int kGroup = 1024;
 // A level this small is swept until it is as good as solved.
 constexpr int kCoarsestCells = 100;
 constexpr int kCoarsestSweeps = 12;
@@ -193,13 +195,23 @@ void Multigrid::connect(Level& fine, const Level& coarse, int depth) {
       }
     }
   };
+  // By groups of coarse cells, which are joined afterwards.
+  const int groups = (none + kGroup - 1) / kGroup;
+  std::vector<std::vector<Entry>> parts(groups);
   fine.entryStart.assign(none + 1, 0);
-  forEach(0, none, [&](int c) { forEntries(c, [&](int, float) { ++fine.entryStart[c + 1]; }); });
+  tbb::parallel_for(0, groups, [&](int group) {
+    for (int c = group * kGroup; c < std::min(none, (group + 1) * kGroup); ++c) {
+      const std::size_t before = parts[group].size();
+      forEntries(c, [&](int f, float weight) { parts[group].push_back({f, weight}); });
+      fine.entryStart[c + 1] = static_cast<int>(parts[group].size() - before);
+    }
+  });
   for (int c = 0; c < none; ++c) fine.entryStart[c + 1] += fine.entryStart[c];
   fine.entries.resize(fine.entryStart[none]);
-  forEach(0, none, [&](int c) {
-    int next = fine.entryStart[c];
-    forEntries(c, [&](int f, float weight) { fine.entries[next++] = {f, weight}; });
+  tbb::parallel_for(0, groups, [&](int group) {
+    std::copy(parts[group].begin(), parts[group].end(),
+              fine.entries.begin() + fine.entryStart[group * kGroup]);
+    parts[group] = {};
   });
 }
 
