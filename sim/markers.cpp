@@ -96,7 +96,8 @@ bool before(const MarkerBlock& block, const Coord& origin) {
   return block.origin < origin;
 }
 
-const MarkerBlock* find(const Markers& markers, const Coord& origin) {
+template <class Blocks>
+auto find(Blocks& markers, const Coord& origin) {
   const auto it = std::lower_bound(markers.begin(), markers.end(), origin, before);
   return it != markers.end() && it->origin == origin ? &*it : nullptr;
 }
@@ -105,6 +106,7 @@ const MarkerBlock* find(const Markers& markers, const Coord& origin) {
 int neighborNumber(int di, int dj, int dk) {
   return (di + 1) * 9 + (dj + 1) * 3 + dk + 1;
 }
+constexpr int kHere = 13;
 Coord neighborShift(int number) {
   return Coord((number / 9 - 1) * kLeafDim, (number / 3 % 3 - 1) * kLeafDim, (number % 3 - 1) * kLeafDim);
 }
@@ -208,54 +210,66 @@ Markers advectMarkers(const Markers& markers, const Velocity& velocity, double d
   const double h = velocity.component[0]->voxelSize()[0];
   const float scale = static_cast<float>(dt / h);
   const int halo = static_cast<int>(std::ceil(dt / h * maxAbs(velocity))) + 2;
-  // Of a block: its markers by the neighbour they end in, and where the part of each neighbour begins.
-  struct Sent {
-    std::array<std::int32_t, 28> start{};
-    std::vector<Marker> markers;
+  // Of a block: the markers that stay in it, and those that leave, by the neighbour they end in.
+  struct Moved {
+    std::vector<Marker> stay, leave;
+    std::array<std::int32_t, 28> start{};  // into `leave`
   };
-  std::vector<Sent> sent(markers.size());
+  std::vector<Moved> parts(markers.size());
   tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
     thread_local Motion motion;
-    thread_local std::vector<std::pair<int, Marker>> moved;
+    thread_local std::vector<Marker> stay;
+    thread_local std::vector<std::pair<int, Marker>> leave;
     motion.load(velocity, markers[n].origin, halo, scale);
-    moved.clear();
-    std::array<std::int32_t, 28>& start = sent[n].start;
+    stay.clear();
+    leave.clear();
+    std::array<std::int32_t, 28>& start = parts[n].start;
     for (Marker m : markers[n].markers) {
       if (motion.anySqueeze && m.radius > 0.0f && motion.squeeze.at(m.x, m.y, m.z) > kMaxSqueeze) continue;
       motion.trace(m);
       const int di = wrap(m.x), dj = wrap(m.y), dk = wrap(m.z), to = neighborNumber(di, dj, dk);
-      ++start[to + 1];
-      moved.emplace_back(to, m);
+      if (to == kHere) {
+        stay.push_back(m);
+      } else {
+        ++start[to + 1];
+        leave.emplace_back(to, m);
+      }
     }
     for (int to = 0; to < 27; ++to) start[to + 1] += start[to];
     std::array<std::int32_t, 28> next = start;
-    sent[n].markers.resize(moved.size());
-    for (const auto& [to, m] : moved) sent[n].markers[next[to]++] = m;
+    parts[n].stay = stay;
+    parts[n].leave.resize(leave.size());
+    for (const auto& [to, m] : leave) parts[n].leave[next[to]++] = m;
   });
 
   std::vector<Coord> origins;
   for (std::size_t n = 0; n < markers.size(); ++n) {
+    const auto& start = parts[n].start;
+    if (!parts[n].stay.empty()) origins.push_back(markers[n].origin);
     for (int to = 0; to < 27; ++to) {
-      if (sent[n].start[to + 1] > sent[n].start[to]) origins.push_back(markers[n].origin + neighborShift(to));
+      if (start[to + 1] > start[to]) origins.push_back(markers[n].origin + neighborShift(to));
     }
   }
   std::sort(origins.begin(), origins.end());
   origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
   Markers moved(origins.size());
   tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
+    thread_local std::vector<Marker> all;
+    all.clear();
     moved[n].origin = origins[n];
-    std::array<std::pair<const Marker*, const Marker*>, 27> parts{};
-    std::size_t count = 0;
     for (int from = 0; from < 27; ++from) {
       const MarkerBlock* source = find(markers, origins[n] + neighborShift(from));
       if (source == nullptr) continue;
-      const Sent& all = sent[std::size_t(source - markers.data())];
-      const Marker* first = all.markers.data();
-      parts[from] = {first + all.start[26 - from], first + all.start[27 - from]};
-      count += std::size_t(parts[from].second - parts[from].first);
+      Moved& part = parts[std::size_t(source - markers.data())];
+      if (from == kHere) {
+        all.insert(all.end(), part.stay.begin(), part.stay.end());
+        part.stay = {};  // nobody else wants them
+      } else {
+        const Marker* first = part.leave.data();
+        all.insert(all.end(), first + part.start[26 - from], first + part.start[27 - from]);
+      }
     }
-    moved[n].markers.reserve(count);
-    for (const auto& [first, last] : parts) moved[n].markers.insert(moved[n].markers.end(), first, last);
+    moved[n].markers = all;
   });
   return moved;
 }
@@ -340,10 +354,10 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
     range.find(distance);
     wallRange.find(solid);
     next[n].origin = origins[n];
-    std::vector<Marker>& kept = next[n].markers;
+    thread_local std::vector<Marker> kept;
+    kept.clear();
     std::array<int, kLeafSize> count{};
-    if (const MarkerBlock* block = find(markers, origins[n])) {
-      kept.reserve(block->markers.size());
+    if (MarkerBlock* block = find(markers, origins[n])) {
       constexpr float kRounding = CellRanges::kRounding;
       for (Marker m : block->markers) {
         const auto cell = std::size_t(cellOf(m));
@@ -374,6 +388,7 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
         measure(m, here);
         kept.push_back(m);
       }
+      block->markers = {};  // nobody else wants them
     }
     for (int c = 0; c < kLeafSize; ++c) {
       if (count[std::size_t(c)] > kPerCell / 2) continue;
@@ -391,6 +406,7 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
         kept.push_back(added);
       }
     }
+    next[n].markers = kept;
   });
   std::erase_if(next, [](const MarkerBlock& block) { return block.markers.empty(); });
   markers = std::move(next);

@@ -185,15 +185,9 @@ PoissonReport solvePoisson(const PoissonSystem& system, const std::vector<std::v
     return report;
   }
 
-  std::vector<double> diagonal(n), p(n + 1, 0.0), q(n), r(std::move(b));
+  std::vector<double> p(n + 1, 0.0), q(n), r(std::move(b));
   std::vector<float> scaled(n + 1, 0.0f), z(n + 1, 0.0f);
-  tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
-    for (int i = range.begin(); i < range.end(); ++i) {
-      const auto& link = system.rows.link[i];
-      diagonal[i] = system.anchor[i] + (double(link[0]) + link[1] + link[2] + link[3] + link[4] + link[5]);
-      p[i] = x[i];
-    }
-  });
+  std::copy(x.begin(), x.end(), p.begin());
   const EvenRows even(system.rows, system.anchor);
   // The sum of what body(i, row i times p) gives.
   const auto sumOfProducts = [&](const auto& body) {
@@ -211,9 +205,11 @@ PoissonReport solvePoisson(const PoissonSystem& system, const std::vector<std::v
               },
               [&](int first, int last) {
                 for (int i = first; i < last; ++i) {
-                  double value = diagonal[i] * p[i];
-                  for (int s = 0; s < kSides; ++s)
-                    value -= system.rows.link[i][s] * p[system.rows.neighbor[i][s]];
+                  const auto& link = system.rows.link[i];
+                  const double diagonal =
+                      system.anchor[i] + (double(link[0]) + link[1] + link[2] + link[3] + link[4] + link[5]);
+                  double value = diagonal * p[i];
+                  for (int s = 0; s < kSides; ++s) value -= link[s] * p[system.rows.neighbor[i][s]];
                   total += body(i, value);
                 }
               });

@@ -23,10 +23,37 @@ constexpr int kMaxHalvings = 6;
 // Times closer than this share of a frame are one.
 constexpr double kSameTime = 1e-6;
 
-Liquid liquidOf(const State& state) {
-  return {state.phi, {{state.u, state.v, state.w}},    state.markers,    state.steps, state.ahead,
-          state.due, {{state.au, state.av, state.aw}}, state.temperature};
-}
+// A state's liquid, lent: the state has no markers meanwhile, which are too many to keep twice. They go back
+// in the end unless it gets others.
+class LentLiquid {
+ public:
+  explicit LentLiquid(State& state)
+      : m_state(state), m_liquid{state.phi,
+                                 {{state.u, state.v, state.w}},
+                                 std::move(state.markers),
+                                 state.steps,
+                                 state.ahead,
+                                 state.due,
+                                 {{state.au, state.av, state.aw}},
+                                 state.temperature} {}
+  ~LentLiquid() {
+    if (m_lent) m_state.markers = std::move(m_liquid.markers);
+  }
+  LentLiquid(const LentLiquid&) = delete;
+  LentLiquid& operator=(const LentLiquid&) = delete;
+
+  const Liquid& operator*() const { return m_liquid; }
+  // Lets go of the markers.
+  void drop() {
+    m_liquid.markers = {};
+    m_lent = false;
+  }
+
+ private:
+  State& m_state;
+  Liquid m_liquid;
+  bool m_lent = true;
+};
 
 // Copying a grid, or writing and reading it, can change the last bits of its transform, and with them all
 // that is sampled: a state's grids get theirs anew.
@@ -197,13 +224,14 @@ void Solver::applyEvents() {
 
 void Solver::advanceTo(double time, Frame& frame, const std::function<void(double)>& report) {
   while (m_state.time < time) {
-    Liquid liquid = liquidOf(m_state);
-    if (isEmpty(liquid)) {
+    if (m_state.phi->empty()) {
       m_state.time = time;
       m_state.ahead = 0.0;
       m_solid = m_solids->at(time, m_active);
       return;
     }
+    LentLiquid lent(m_state);
+    const Liquid& liquid = *lent;
     const double remaining = time - m_state.time;
     const double speed = maxAbs(liquid.velocity), longest = longestStep(m_options, speed, speedOf(*m_solid));
     if (longest < kShortest / m_options.frameRate) failFast(m_state.time, speed);
@@ -237,6 +265,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     stats.pressureIterations += solves.pressure.iterations;
     stats.pressureResidual = std::max(stats.pressureResidual, solves.pressure.residual);
     stats.viscosityIterations += solves.viscosity.iterations;
+    lent.drop();
     store(m_state, std::move(*next), m_options.voxelSize());
     m_state.time = last ? time : m_state.time + dt;
     m_solid = solid;
@@ -255,7 +284,7 @@ Frame Solver::next(const std::function<void(double)>& progress) {
   if (m_state.frame == 0) {
     applyEvents();
   } else {
-    if (isEmpty(liquidOf(m_state))) applyEvents();
+    if (m_state.phi->empty()) applyEvents();
     while (m_state.time < frame.time) {
       double event = std::min(m_solids->nextChange(m_state.time), m_flows->nextChange(m_state.time));
       for (std::size_t n = 0; n < m_options.liquid.size(); ++n) {

@@ -243,10 +243,9 @@ bool isEmpty(const Liquid& liquid) {
 std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, double nextDt,
                            const Options& options, StepReport* report, const RunningFlows& flows) {
   const double kick = std::max(0.0, dt - liquid.ahead + 0.5 * nextDt);
-  Liquid next{
-      liquid.phi->deepCopy(), {}, liquid.markers, liquid.steps + 1, liquid.ahead - dt + kick, liquid.due, {}};
-  moveSurface(*next.phi, next.markers, liquid.velocity, *solid.phi, dt,
-              static_cast<std::uint64_t>(next.steps), flows);
+  Liquid next{liquid.phi->deepCopy(), {}, {}, liquid.steps + 1, liquid.ahead - dt + kick, liquid.due, {}};
+  next.markers = moveSurface(*next.phi, liquid.markers, liquid.velocity, *solid.phi, dt,
+                             static_cast<std::uint64_t>(next.steps), flows);
   dropBeyond(next.markers, solid);
 
   next.velocity = velocityFor(*next.phi, solid);
