@@ -392,6 +392,9 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
     }
     for (int c = 0; c < kLeafSize; ++c) {
       if (count[std::size_t(c)] > kPerCell / 2) continue;
+      if (range.low[std::size_t(c)] > (kBand + CellRanges::kRounding) * h ||
+          range.high[std::size_t(c)] < -(kBand + CellRanges::kRounding) * h)
+        continue;
       const auto i = float(c >> 6), j = float((c >> 3) & 7), k = float(c & 7);
       // From the middle to a corner it is less than a cell.
       if (std::abs(distance.at(i + 0.5f, j + 0.5f, k + 0.5f)) > (kBand + 1.0f) * h) continue;

@@ -50,7 +50,7 @@ struct StaggeredBlocks {
 
   // At `centred`, in cells from the first cell centre (the sample u(i, j, k) is at (i - 1/2, j, k)); all
   // samples needed must be there.
-  Lanes at(Lanes centred) const {
+  [[gnu::always_inline]] Lanes at(Lanes centred) const {
     const Lanes shifted = centred + lanes(0.5f);
     const __m128i cell = _mm_cvttps_epi32(centred), face = _mm_cvttps_epi32(shifted);
     const Lanes t = centred - _mm_cvtepi32_ps(cell), s = shifted - _mm_cvtepi32_ps(face);
