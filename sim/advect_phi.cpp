@@ -125,7 +125,9 @@ void stage(const FloatTree& from, const std::vector<FloatLeaf*>& base, const std
         const int row = 64 * i + 8 * j;
         for (int k = 0; k < kLeafDim; ++k) {
           const float next = a * was[row + k] + b * h * (p[k] - change[row + k]);
-          out[row + k] = std::clamp(next, -background, background);
+          // By value, so that the loop vectorises.
+          const float above = next > -background ? next : -background;
+          out[row + k] = above < background ? above : background;
         }
       }
     }
