@@ -105,7 +105,7 @@ bool isFlat(const float* block) {
 void stage(const FloatTree& from, const std::vector<FloatLeaf*>& base, const std::vector<FloatLeaf*>& to,
            float a, float b, const std::vector<float>& speed, float h, float background) {
   tbb::parallel_for(std::size_t{0}, to.size(), [&](std::size_t n) {
-    float block[kBlock] = {};
+    static thread_local float block[kBlock];  // 0 where nothing is gathered
     gather(from, to[n]->origin(), kHalo, block, true);
     const bool flat = isFlat(block);
     const float inverse = 1.0f / h;
@@ -125,7 +125,9 @@ void stage(const FloatTree& from, const std::vector<FloatLeaf*>& base, const std
         const int row = 64 * i + 8 * j;
         for (int k = 0; k < kLeafDim; ++k) {
           const float next = a * was[row + k] + b * h * (p[k] - change[row + k]);
-          out[row + k] = std::clamp(next, -background, background);
+          // By value, so that the loop vectorises.
+          const float above = next > -background ? next : -background;
+          out[row + k] = above < background ? above : background;
         }
       }
     }

@@ -127,7 +127,7 @@ struct LeafPlan {
 
 LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h,
                   bool smoothAtSolids) {
-  float block[kBlock] = {};
+  static thread_local float block[kBlock];  // 0 where nothing is gathered
   gather(phi, origin, kHalo, block, true);
   float scratch[kLeafSize];
   const float* solid = leafValues(solidPhi, origin, scratch);
@@ -153,7 +153,7 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
 // `to` was.
 void eulerStep(const FloatTree& from, FloatLeaf& to, const LeafPlan& plan, float h, float background,
                bool average) {
-  float block[kBlock] = {};
+  static thread_local float block[kBlock];  // 0 where nothing is gathered
   gather(from, to.origin(), kHalo, block, true);
   const float inverse = 1.0f / h;
   for (float& value : block) value *= inverse;

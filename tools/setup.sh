@@ -1,4 +1,4 @@
-# Sourced by tools/run and tools/test: installs what is missing and builds a preset. Bash.
+# Sourced by tools/run, tools/test and tools/bench: installs what is missing and builds a preset. Bash.
 # Afterwards $root is the project's folder.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -25,12 +25,13 @@ TEST_CASE("mac_grid: cells cover the domain and no more") {
 TEST_CASE("mac_grid: a gathered block is what an accessor reads") {
   FloatTree tree(7.0f);
   auto value = [](const Coord& c) { return static_cast<float>(c.x() + 100 * c.y() + 10000 * c.z()); };
-  // Two of the neighbours exist, the others are background, one is a tile.
+  // Two of the neighbours exist, the others are background or tiles.
   for (const Coord& origin : {Coord(8, 8, 8), Coord(0, 8, 8), Coord(16, 16, 8)}) {
     FloatLeaf* leaf = tree.touchLeaf(origin);
     for (int n = 0; n < kLeafSize; ++n) leaf->setValueOn(n, value(leaf->offsetToGlobalCoord(n)));
   }
   tree.addTile(1, Coord(8, 0, 8), -3.0f, false);
+  for (int n = 0; n < 6; ++n) tree.addTile(1, Coord(0, 16 * (n / 3), 8 * (n % 3)), 10.0f + float(n), false);
   for (const int halo : {0, 1, 3, 8}) {
     const int side = kLeafDim + 2 * halo;
     std::vector<float> block(static_cast<std::size_t>(side) * side * side,

@@ -183,3 +183,28 @@ TEST_CASE("cell numbering: red before black, each cell found again", "[sim]") {
   CHECK(numbering.at(Coord(0, 0, 16)) == -1);
   CHECK(numbering.at(Coord(8, 0, 8)) == -1);  // a block without cells
 }
+
+TEST_CASE("even rows: cover the range once, and only where all links are alike and no anchor is", "[sim]") {
+  PoissonRows rows;
+  rows.resize(200);
+  std::vector<double> anchor(200, 0.0);
+  for (auto& link : rows.link) link.fill(2.0f);
+  rows.link[40][3] = 1.0f;
+  anchor[130] = 0.5;
+  const EvenRows even(rows, anchor);
+  std::vector<int> evenly(200, 0), mixed(200, 0);
+  even.forParts(
+      5, 200,
+      [&](int first, int last, float link) {
+        CHECK(link == 2.0f);
+        for (int i = first; i < last; ++i) ++evenly[i];
+      },
+      [&](int first, int last) {
+        for (int i = first; i < last; ++i) ++mixed[i];
+      });
+  for (int i = 0; i < 200; ++i) CHECK(evenly[i] + mixed[i] == (i < 5 ? 0 : 1));
+  CHECK(mixed[40] == 1);
+  CHECK(mixed[130] == 1);
+  CHECK(evenly[10] == 1);
+  CHECK(evenly[199] == 1);
+}

@@ -1,0 +1,80 @@
+#include "sim/velocity_window.h"
+#include "velocity_field.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <random>
+
+using namespace fluidtex::sim;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+// Trilinear: what the interpolation reproduces, cross terms included.
+double field(int component, const Vec3d& x) {
+  return 1.0 + component + 0.5 * x[0] - 0.25 * x[1] + 2.0 * x[2] + 0.125 * x[0] * x[1] +
+         0.25 * (component + 1) * x[1] * x[2] - 0.1 * x[0] * x[1] * x[2];
+}
+
+}  // namespace
+
+TEST_CASE("trilinear: reproduces trilinear fields, each component of a staggered block at its own place") {
+  constexpr int kSide = 6;
+  std::vector<float> block[3];
+  for (int c = 0; c < 3; ++c) {
+    for (int i = 0; i < kSide; ++i) {
+      for (int j = 0; j < kSide; ++j) {
+        for (int k = 0; k < kSide; ++k) {
+          Vec3d x(i, j, k);
+          x[c] -= 0.5;
+          block[c].push_back(static_cast<float>(field(c, x)));
+        }
+      }
+    }
+  }
+  const StaggeredBlocks blocks{{block[0].data(), block[1].data(), block[2].data()}, kSide};
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> place(0.0f, 4.4f);
+  for (int n = 0; n < 100; ++n) {
+    const Vec3d x(place(random), place(random), place(random));
+    const Lanes all = blocks.at(lanes(float(x[0]), float(x[1]), float(x[2])));
+    CHECK_THAT(lane0(all), WithinAbs(field(0, x), 1e-4));
+    CHECK_THAT(lane1(all), WithinAbs(field(1, x), 1e-4));
+    CHECK_THAT(lane2(all), WithinAbs(field(2, x), 1e-4));
+    // One component alone, at the same place.
+    const Vec3d shifted = x + Vec3d(0.5, 0.0, 0.0);
+    const int i = int(shifted[0]), j = int(shifted[1]), k = int(shifted[2]);
+    const float one = trilinear(block[0].data() + (i * kSide + j) * kSide + k, kSide * kSide, kSide,
+                                float(shifted[0] - i), float(shifted[1] - j), float(shifted[2] - k));
+    CHECK_THAT(one, WithinAbs(field(0, x), 1e-4));
+  }
+}
+
+TEST_CASE("velocity window: a trace from a face is the trace from that face's place") {
+  const double h = 0.1;
+  FloatTree topology(0.0f);
+  for (int n = 0; n < 27; ++n) {
+    FloatLeaf* leaf = topology.touchLeaf(Coord(8 * (n / 9 - 1), 8 * (n / 3 % 3 - 1), 8 * (n % 3 - 1)));
+    leaf->setValuesOn();
+  }
+  const Velocity velocity = velocityField(h, topology, [](const Vec3d& x) {
+    return Vec3d(std::sin(3.0 * x[1]) + x[2], std::cos(2.0 * x[0]), x[0] * x[1] - 0.4);
+  });
+  VelocityWindow window(5);
+  window.load(velocity, Coord(0));
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int offset = 0; offset < kLeafSize; offset += 37) {
+      const Vec3f place =
+          Vec3f(float(offset >> 6), float((offset >> 3) & 7), float(offset & 7)) + faceShift(axis);
+      for (const float step : {-1.7f, 0.9f}) {
+        const Vec3f whole = window.trace(place, step), face = window.traceFace(offset, axis, step);
+        CHECK((whole - face).length() < 2e-6f);
+        const auto [low, high] = window.component(axis).range(face);
+        const float value = window.component(axis).at(face);
+        CHECK(value >= low - 1e-6f);
+        CHECK(value <= high + 1e-6f);
+      }
+    }
+  }
+}
