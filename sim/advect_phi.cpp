@@ -101,18 +101,19 @@ bool isFlat(const float* block) {
 }
 
 // One Runge-Kutta stage on every leaf: to = a * base + b * (from + dt L(from)), clamped to the band.
-// `speed` is velocity * dt / h. base may be `to`.
+// `speed` is velocity * dt / h, `fastest` by leaf 0 where nothing moves. base may be `to`.
 void stage(const FloatTree& from, const std::vector<FloatLeaf*>& base, const std::vector<FloatLeaf*>& to,
-           float a, float b, const std::vector<float>& speed, float h, float background) {
+           float a, float b, const std::vector<float>& speed, const std::vector<float>& fastest, float h,
+           float background) {
   tbb::parallel_for(std::size_t{0}, to.size(), [&](std::size_t n) {
     static thread_local float block[kBlock];  // 0 where nothing is gathered
     gather(from, to[n]->origin(), kHalo, block, true);
-    const bool flat = isFlat(block);
+    const bool still = fastest[n] == 0.0f || isFlat(block);
     const float inverse = 1.0f / h;
     for (float& value : block) value *= inverse;
     float change[kLeafSize] = {};
     const float* s = speed.data() + 3 * n * kLeafSize;
-    if (!flat) {
+    if (!still) {
       addAdvection(block, kSide * kSide, s, change);
       addAdvection(block, kSide, s + kLeafSize, change);
       addAdvection(block, 1, s + 2 * kLeafSize, change);
@@ -165,9 +166,9 @@ void advectPhi(FloatGrid& phi, const Velocity& velocity, double dt) {
   const auto firstLeaves = leavesOf(first), secondLeaves = leavesOf(second);
   const float background = phi.background();
   for (int n = 0; n < substeps; ++n) {
-    stage(phi.constTree(), leaves, firstLeaves, 0.0f, 1.0f, speed, h, background);
-    stage(first, leaves, secondLeaves, 0.75f, 0.25f, speed, h, background);
-    stage(second, leaves, leaves, 1.0f / 3.0f, 2.0f / 3.0f, speed, h, background);
+    stage(phi.constTree(), leaves, firstLeaves, 0.0f, 1.0f, speed, fastest, h, background);
+    stage(first, leaves, secondLeaves, 0.75f, 0.25f, speed, fastest, h, background);
+    stage(second, leaves, leaves, 1.0f / 3.0f, 2.0f / 3.0f, speed, fastest, h, background);
   }
 }
 
