@@ -165,15 +165,18 @@ double expansionOf(const Liquid& liquid, const SolidField& solid) {
   return volume > 0.0 ? std::clamp((liquid.due / volume - 1.0) / kTime, -kMost, kMost) : 0.0;
 }
 
-// Faces whose velocity is not given, whatever the forces.
-FaceMasks withoutGiven(const FaceMasks& valid, const SolidField& solid) {
-  if (solid.givenU == nullptr) return valid;
-  const auto without = [](const openvdb::MaskGrid::Ptr& mask, const FloatGrid::Ptr& given) {
+// Open faces whose velocity is not given. At closed ones a wall holds the liquid or lets go of it, which is
+// no force that goes on: what it did in one step, given back in the next, made jets off an edge run away.
+FaceMasks drivenFaces(const FaceMasks& valid, const SolidField& solid) {
+  const auto driven = [](const openvdb::MaskGrid::Ptr& mask, const FloatGrid::Ptr& open,
+                         const FloatGrid::Ptr& given) {
     const openvdb::MaskGrid::Ptr free = mask->deepCopy();
-    free->tree().topologyDifference(given->constTree());
+    free->tree().topologyIntersection(open->constTree());
+    if (given) free->tree().topologyDifference(given->constTree());
     return free;
   };
-  return {without(valid.u, solid.givenU), without(valid.v, solid.givenV), without(valid.w, solid.givenW)};
+  return {driven(valid.u, solid.openU, solid.givenU), driven(valid.v, solid.openV, solid.givenV),
+          driven(valid.w, solid.openW, solid.givenW)};
 }
 
 // viscous: whether friction is felt, so that liquid can stick to walls. arrived: the velocity before
@@ -194,7 +197,7 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& 
   w->topologyUnion(*u);
   liquid.acceleration = {};
   if (arrived != nullptr) {
-    const FaceMasks free = withoutGiven(projection.valid, solid);
+    const FaceMasks free = drivenFaces(projection.valid, solid);
     liquid.acceleration = accelerationBy(*arrived, liquid.velocity, free, dt);
     extrapolate(liquid.acceleration, free, *liquid.phi, *solid.phi);
   }

@@ -156,7 +156,7 @@ Result outflowWave(int resolution, const Progress& progress) {
 
 // Water held up by a long low sill, over which it goes at the critical depth, and off an edge behind.
 Result weir(int resolution, const Progress& progress) {
-  constexpr double kLength = 4.0, kSill = 0.25, kHead = 0.2, kFrom = 2.2, kTo = 3.2;
+  constexpr double kLength = 2.4, kSill = 0.25, kHead = 0.2, kFrom = 1.0, kTo = 2.0, kGauge = 0.6;
   const double wanted = std::pow(2.0 / 3.0, 1.5) * std::sqrt(kGravity) * std::pow(kHead, 1.5);  // m2/s
   Options options = channel(kLength, 0.65, resolution);
   options.sides[1] = Side::open;
@@ -183,8 +183,8 @@ Result weir(int resolution, const Progress& progress) {
     progress(double(n) / frames);
     if (n <= frames - averaged) continue;
     const State& state = solver.state();
-    const double level = surfaceHeight(state, static_cast<int>(1.2 / h));
-    const double here = fluxThrough(state, *solid, static_cast<int>(1.2 / h)) / width;
+    const double level = surfaceHeight(state, static_cast<int>(kGauge / h));
+    const double here = fluxThrough(state, *solid, static_cast<int>(kGauge / h)) / width;
     const double approach = here / level;
     head += (level - kSill + 0.5 * approach * approach / kGravity) / averaged;
     flux += here / averaged;
@@ -214,7 +214,7 @@ Result weir(int resolution, const Progress& progress) {
 std::vector<Case> streamCases() {
   return {{"slug", "stream", "Uniform stream in and out", {32, 64}, {32}, slug, {}},
           {"outflow_wave", "stream", "A wave that leaves with the stream", {96, 192}, {}, outflowWave, {}},
-          {"weir", "stream", "Broad-crested weir", {64, 128}, {}, weir, {}}};
+          {"weir", "stream", "Broad-crested weir", {96, 192}, {}, weir, {}}};
 }
 
 }  // namespace fluidtex::validation
