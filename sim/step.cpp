@@ -8,9 +8,8 @@
 #include "sim/leaf_table.h"
 #include "sim/level_set.h"
 #include "sim/move_surface.h"
+#include "sim/open_gaps.h"
 #include "sim/walls.h"
-
-#include <openvdb/tools/Morphology.h>
 
 #include <tbb/parallel_for.h>
 
@@ -57,68 +56,6 @@ void addGravity(Velocity& velocity, const Vec3d& change) {
       for (auto it = leaves[n]->beginValueOn(); it; ++it) it.setValue(*it + add);
     });
   }
-}
-
-// Whether a cell of liquid, outside solids, touches this cell.
-bool touchesLiquid(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord& cell) {
-  const float deep = -kDeepInSolid * static_cast<float>(solidPhi.voxelSize()[0]);
-  for (int n = 0; n < 27; ++n) {
-    const Coord at = cell.offsetBy(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
-    if (phi.constTree().getValue(at) < 0.0f && solidPhi.constTree().getValue(at) >= deep) return true;
-  }
-  return false;
-}
-
-// A film that leaves a solid does so faster than at this share of what gravity adds in a step.
-constexpr double kLeaves = 0.05;
-
-// Whether a film thinner than half a cell, so that only the wall's own cell holds it, goes from the wall at
-// this cell. It has no pressure of its own: it goes where the velocity leads away from the solid, `kick`
-// being what gravity adds to it in a step, as it does under a ceiling; and where no liquid feeds it, but on
-// floors, since nothing would move it any more.
-bool leavesSolid(const Liquid& liquid, const SolidField& solid, const Coord& cell, const Vec3d& kick) {
-  const FloatGrid& solidPhi = *solid.phi;
-  const FloatGrid* const push[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};
-  const float deep = -kDeepInSolid * static_cast<float>(solidPhi.voxelSize()[0]);
-  bool onFloor = false;
-  // Liquid beside it moves the film with itself, and at rest holds it up.
-  const bool touches = touchesLiquid(*liquid.phi, solidPhi, cell);
-  const Vec3d fall = touches ? Vec3d(0.0) : kick;
-  const double slowest = kLeaves * kick.length();
-  for (int side = 0; side < 6; ++side) {
-    const int axis = side / 2, out = side % 2 == 0 ? 1 : -1;  // away from the solid on that side
-    Coord beyond = cell, face = cell;
-    beyond[axis] -= out;
-    if (out < 0) face[axis] += 1;
-    if (solidPhi.constTree().getValue(beyond) >= deep) continue;
-    const bool outside = beyond[axis] < 0 || beyond[axis] >= solid.cells[axis];
-    if (outside && solid.sides[side] != Side::wall) return true;  // what is beyond is of no account
-    double speed = liquid.velocity.component[axis]->constTree().getValue(face);
-    if (push[axis] != nullptr) speed -= push[axis]->constTree().getValue(face);
-    if (out * (speed + fall[axis]) > slowest) return true;
-    onFloor = onFloor || out * kick[axis] < -0.5 * kick.length();
-  }
-  return !onFloor && !touches;
-}
-
-// From here on the surface knows where liquid has let go of a solid: there a gap opens, elsewhere it is
-// closed.
-void openGaps(Liquid& liquid, const SolidField& solid, const openvdb::MaskGrid& separating,
-              const Vec3d& kick) {
-  FloatGrid& phi = *liquid.phi;
-  if (!separating.empty()) {
-    // The cut reaches the cells beside those that let go; leaves are needed as deep as stencils reach.
-    openvdb::MaskGrid around(separating);
-    openvdb::tools::dilateActiveValues(around.tree(), 1, openvdb::tools::NN_FACE);
-    cutSolids(phi, *solid.phi, around);
-    openvdb::tools::dilateActiveValues(around.tree(), 3, openvdb::tools::NN_FACE);
-    for (auto leaf = around.constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
-  }
-  extendIntoSolids(phi, *solid.phi, [&](const Coord& ijk) {
-    return phi.constTree().getValue(ijk) < 0.0f ? separating.constTree().isValueOn(ijk)
-                                                : leavesSolid(liquid, solid, ijk, kick);
-  });
-  trimBand(phi, *solid.phi);
 }
 
 // Liquid that comes out of sources has their temperature.
@@ -205,7 +142,7 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& 
   balanceAirLayers(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
   constrainToSolids(*u, *v, *w, *liquid.phi, solid, projection.valid, *projection.separating);
   if (viscous) stickToWalls(liquid.velocity, solid, projection.valid);
-  openGaps(liquid, solid, *projection.separating, options.gravity * dt);
+  openGaps(*liquid.phi, liquid.velocity, solid, *projection.separating, options.gravity * dt);
   return std::isfinite(maxAbs(liquid.velocity));
 }
 

@@ -1,0 +1,17 @@
+// Where liquid lets go of solids.
+#pragma once
+
+#include "sim/level_set.h"
+#include "sim/mac_grid.h"
+#include "sim/solids.h"
+
+namespace fluidtex::sim {
+
+// Makes phi (metres) know where liquid has let go of a solid, the cells active in `separating`: there a gap
+// opens behind it, elsewhere the surface goes on into the solid (see extendIntoSolids). Films on walls that
+// hold no cell's centre are let go where the velocity, after the projection, leads away. kick: what gravity
+// adds to the velocity in a step, m/s. Trims the band.
+void openGaps(FloatGrid& phi, const Velocity& velocity, const SolidField& solid,
+              const openvdb::MaskGrid& separating, const Vec3d& kick);
+
+}  // namespace fluidtex::sim
