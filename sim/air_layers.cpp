@@ -13,6 +13,8 @@ constexpr int kLayers = 2;
 // Cells of one layer share faces where the surface is slanted.
 constexpr int kSweeps = 2;
 constexpr float kMostGrowth = 1.5f;
+// What goes on linearly changes by no more than this share of itself: beside jets the slope is no flow's.
+constexpr float kMostSlope = 0.2f;
 // The faces away from the liquid have to lead that much farther from it, in cells, to take on the divergence.
 constexpr float kLeastWay = 0.5f;
 
@@ -163,7 +165,8 @@ void extendLinearly(Velocity& values, const FloatGrid& phi) {
           const float nearer = here - cellPhi[near] - below(near);
           if (nearer <= 0.0f) continue;
           weights += nearer;
-          sum += nearer * (2.0f * was[near] - was[behind]);
+          const float most = kMostSlope * std::max(std::abs(was[near]), std::abs(was[behind]));
+          sum += nearer * (was[near] + std::clamp(was[near] - was[behind], -most, most));
         }
         if (weights > 0.0f) out[i] = sum / weights;
       }

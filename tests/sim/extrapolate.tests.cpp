@@ -182,7 +182,7 @@ TEST_CASE("air layers: nothing gets faster than half as fast again, and solids k
 
 TEST_CASE("air layers: what is linear in the liquid goes on linearly in the first layer") {
   Fixture f(0.1, 16, [](const Vec3d& x) { return 0.6 * x[0] + 0.8 * x[2]; });
-  const auto linear = [](const Vec3d& x, int a) { return 1.0 + a + x[0] - 2.0 * x[1] + 3.0 * x[2]; };
+  const auto linear = [](const Vec3d& x, int a) { return 30.0 + a + x[0] - 2.0 * x[1] + 3.0 * x[2]; };
   f.setValid(linear);
   extrapolate(f.velocity, f.valid, *f.phi, *f.solidPhi);
   extendLinearly(f.velocity, *f.phi);
