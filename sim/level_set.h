@@ -41,10 +41,11 @@ void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, const ReinitOptions
 using LetGo = std::function<bool(const Coord&)>;
 
 // Gives the cells more than half a cell deep in solids, in the leaves that phi has, values such that the
-// surface runs on into the solid: constant along the solid's normal, or linear where that holds more liquid
-// (films thinner than half a cell; not where they would flow out of the solid). Where the liquid let go
-// always linear, so that the gap is kept. Without `letGo` everything stays as it is: a gap or a film that is
-// there is kept, and none begins.
+// surface runs straight on into the solid, with phi's whole gradient. Not with the part along the solid's
+// normal where liquid closes on the solid nearly along it (the last gap is taken for closed), nor where a
+// film thinner than half a cell would begin that flows out of the solid. Where the liquid let go, phi rises
+// along the normal, so that the gap is kept. Without `letGo` everything stays as it is: a gap or a film that
+// is there is kept, and none begins.
 void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo = {});
 
 // Takes solids out of the liquid, phi = max(phi, -solidPhi), in the cells active in `where`.

@@ -6,10 +6,12 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <utility>
 
 namespace fluidtex::sim {
 
@@ -105,6 +107,12 @@ void copyBox(const float* const* block, float* out, bool crossOnly) {
   }
 }
 
+// For halos of 0 to 8.
+constexpr auto kCopyBox = []<int... kHalo>(std::integer_sequence<int, kHalo...>) {
+  return std::array{&copyBox<kHalo>...};
+}
+(std::make_integer_sequence<int, kLeafDim + 1>{});
+
 }  // namespace
 
 void gather(const FloatTree& tree, const Coord& origin, int halo, float* out, bool crossOnly) {
@@ -157,26 +165,7 @@ void gather(const FloatTree& tree, const Coord& origin, int halo, float* out, bo
       }
     }
   }
-  switch (halo) {
-    case 0:
-      return copyBox<0>(block, out, crossOnly);
-    case 1:
-      return copyBox<1>(block, out, crossOnly);
-    case 2:
-      return copyBox<2>(block, out, crossOnly);
-    case 3:
-      return copyBox<3>(block, out, crossOnly);
-    case 4:
-      return copyBox<4>(block, out, crossOnly);
-    case 5:
-      return copyBox<5>(block, out, crossOnly);
-    case 6:
-      return copyBox<6>(block, out, crossOnly);
-    case 7:
-      return copyBox<7>(block, out, crossOnly);
-    default:
-      return copyBox<8>(block, out, crossOnly);
-  }
+  kCopyBox[std::min<std::size_t>(halo, kCopyBox.size() - 1)](block, out, crossOnly);
 }
 
 double maxAbs(const Velocity& velocity) {

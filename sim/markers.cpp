@@ -1,13 +1,12 @@
 #include "sim/markers.h"
 
-#include "sim/trilinear.h"
+#include "sim/block_samples.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace fluidtex::sim {
 namespace {
@@ -15,154 +14,8 @@ namespace {
 constexpr float kSmallest = 0.1f, kLargest = 0.5f;  // radii [Enright02 sec. 3.1]
 constexpr int kPerCell = 16;                        // markers of a full cell
 constexpr float kBand = 3.0f;                       // cells: how far from the surface markers are kept
-// A marker of the air goes where the flow takes away more than this share of a cell in a step: there liquid
-// meets liquid, and without air pressure nothing of the gap is left. Kept, such markers would hold it open
-// and eat the liquid that flows in: the dam break at 96 cells ends with half of its water. Twice this share
-// keeps 4% less of it by frame 30.
-constexpr float kMaxSqueeze = 0.1f;
 // Markers of the air this many cells inside the liquid belong to a bubble that has closed.
 constexpr float kDeepestAir = 1.0f;
-
-// Values of a box around a block, sampled in the block's own coordinates.
-struct Samples {
-  int halo, side;
-  std::vector<float> value;
-
-  explicit Samples(int width)
-      : halo(width), side(kLeafDim + 2 * width), value(std::size_t(side) * side * side) {}
-
-  void load(const FloatTree& tree, const Coord& origin) { gather(tree, origin, halo, value.data()); }
-
-  // The sample at i, j, k.
-  const float* sample(int i, int j, int k) const {
-    return value.data() + ((i + halo) * side + j + halo) * std::ptrdiff_t(side) + k + halo;
-  }
-
-  // Places lie `halo` cells outside the block at most.
-  float at(float x, float y, float z) const {
-    const float fromX = x + float(halo), fromY = y + float(halo), fromZ = z + float(halo);
-    const int i = int(fromX), j = int(fromY), k = int(fromZ);
-    const float* p = value.data() + (i * side + j) * std::ptrdiff_t(side) + k;
-    return trilinear(p, std::ptrdiff_t(side) * side, side, fromX - float(i), fromY - float(j),
-                     fromZ - float(k));
-  }
-
-  // Whether one of the eight values around is negative.
-  bool anyNegative(float x, float y, float z) const {
-    const float* p = sample(int(std::floor(x)), int(std::floor(y)), int(std::floor(z)));
-    for (int n = 0; n < 8; ++n)
-      if (p[((n >> 2) * side + ((n >> 1) & 1)) * std::ptrdiff_t(side) + (n & 1)] < 0.0f) return true;
-    return false;
-  }
-};
-
-// The range of values at the eight corners of each of a block's cells: what is sampled in it lies between.
-struct CellRanges {
-  std::array<float, kLeafSize> low, high;
-
-  // May be less than a marker's own range by rounding.
-  static constexpr float kRounding = 1e-4f;
-
-  void find(const Samples& samples) {
-    constexpr int kPoints = kLeafDim + 1;
-    // Along z, then y, then x.
-    float lowZ[kPoints][kPoints][kLeafDim], highZ[kPoints][kPoints][kLeafDim];
-    for (int i = 0; i < kPoints; ++i) {
-      for (int j = 0; j < kPoints; ++j) {
-        const float* p = samples.sample(i, j, 0);
-        for (int k = 0; k < kLeafDim; ++k) {
-          lowZ[i][j][k] = p[k] < p[k + 1] ? p[k] : p[k + 1];
-          highZ[i][j][k] = p[k] > p[k + 1] ? p[k] : p[k + 1];
-        }
-      }
-    }
-    const auto least = [](float a, float b) { return a < b ? a : b; };
-    const auto most = [](float a, float b) { return a > b ? a : b; };
-    for (int i = 0; i < kLeafDim; ++i) {
-      for (int j = 0; j < kLeafDim; ++j) {
-        for (int k = 0; k < kLeafDim; ++k) {
-          const int at = 64 * i + 8 * j + k;
-          low[at] =
-              least(least(lowZ[i][j][k], lowZ[i][j + 1][k]), least(lowZ[i + 1][j][k], lowZ[i + 1][j + 1][k]));
-          high[at] = most(most(highZ[i][j][k], highZ[i][j + 1][k]),
-                          most(highZ[i + 1][j][k], highZ[i + 1][j + 1][k]));
-        }
-      }
-    }
-  }
-};
-
-bool before(const MarkerBlock& block, const Coord& origin) {
-  return block.origin < origin;
-}
-
-template <class Blocks>
-auto find(Blocks& markers, const Coord& origin) {
-  const auto it = std::lower_bound(markers.begin(), markers.end(), origin, before);
-  return it != markers.end() && it->origin == origin ? &*it : nullptr;
-}
-
-// Number of the neighbour (27 with the block itself) and the shift to it.
-int neighborNumber(int di, int dj, int dk) {
-  return (di + 1) * 9 + (dj + 1) * 3 + dk + 1;
-}
-constexpr int kHere = 13;
-Coord neighborShift(int number) {
-  return Coord((number / 9 - 1) * kLeafDim, (number / 3 % 3 - 1) * kLeafDim, (number % 3 - 1) * kLeafDim);
-}
-
-// Which way a coordinate has left [0, 8), and brings it back.
-int wrap(float& x) {
-  if (x < 0.0f) {
-    x += kLeafDim;
-    if (x >= float(kLeafDim)) x = 0.0f;  // rounding
-    return -1;
-  }
-  if (x >= float(kLeafDim)) {
-    x -= kLeafDim;
-    return 1;
-  }
-  return 0;
-}
-
-// Velocities around a block in cells per step, and how far they press a cell's volume out of it.
-struct Motion {
-  std::array<Samples, 3> speed{Samples(2), Samples(2), Samples(2)};
-  Samples squeeze{1};
-  bool anySqueeze = false;  // over kMaxSqueeze anywhere in the block
-
-  void load(const Velocity& velocity, const Coord& origin, int halo, float scale) {
-    for (int a = 0; a < 3; ++a) {
-      if (speed[a].halo != halo) speed[a] = Samples(halo);
-      speed[a].load(velocity.component[a]->constTree(), origin);
-      for (float& value : speed[a].value) value *= scale;
-    }
-    const std::ptrdiff_t side = speed[0].side;
-    anySqueeze = false;
-    for (int i = 0; i <= kLeafDim; ++i) {
-      for (int j = 0; j <= kLeafDim; ++j) {
-        const float *u = speed[0].sample(i, j, 0), *v = speed[1].sample(i, j, 0),
-                    *w = speed[2].sample(i, j, 0);
-        float* out = squeeze.value.data() + ((i + 1) * squeeze.side + j + 1) * squeeze.side + 1;
-        for (int k = 0; k <= kLeafDim; ++k) {
-          out[k] = -(u[k + side * side] - u[k] + v[k + side] - v[k] + w[k + 1] - w[k]);
-          anySqueeze = anySqueeze || out[k] > kMaxSqueeze;
-        }
-      }
-    }
-  }
-
-  void trace(Marker& m) const {
-    const StaggeredBlocks blocks{{speed[0].value.data(), speed[1].value.data(), speed[2].value.data()},
-                                 speed[0].side};
-    const Lanes x = _mm_loadu_ps(&m.x) + lanes(float(speed[0].halo));
-    const Lanes k1 = blocks.at(x);
-    const Lanes k2 = blocks.at(x + lanes(0.5f) * k1);
-    const Lanes k3 = blocks.at(x + lanes(0.75f) * k2);
-    const Lanes move = (lanes(2.0f) * k1 + lanes(3.0f) * k2 + lanes(4.0f) * k3) * lanes(1.0f / 9.0f);
-    m.x += lane0(move), m.y += lane1(move), m.z += lane2(move);
-  }
-};
 
 // Counter-based: the same for any order of cells.
 float unitRandom(std::uint64_t seed, const Coord& cell, std::uint32_t n) {
@@ -188,7 +41,7 @@ bool escaped(const Marker& m, float phi) {
 
 // Whether the liquid here is no more than a film on the wall: no cell around is liquid, and it gets farther
 // one cell away from the wall. (A thread that stands on a wall is as near there as here.)
-bool liesOnWall(const Marker& m, const Samples& distance, const Samples& solid, float h) {
+bool liesOnWall(const Marker& m, const BlockSamples& distance, const BlockSamples& solid, float h) {
   if (distance.anyNegative(m.x, m.y, m.z)) return false;
   const openvdb::Vec3f slope(solid.at(m.x + 0.5f, m.y, m.z) - solid.at(m.x - 0.5f, m.y, m.z),
                              solid.at(m.x, m.y + 0.5f, m.z) - solid.at(m.x, m.y - 0.5f, m.z),
@@ -205,80 +58,11 @@ void measure(Marker& m, float phi) {
 
 }  // namespace
 
-Markers advectMarkers(const Markers& markers, const Velocity& velocity, double dt) {
-  if (markers.empty()) return {};
-  const double h = velocity.component[0]->voxelSize()[0];
-  const float scale = static_cast<float>(dt / h);
-  const int halo = static_cast<int>(std::ceil(dt / h * maxAbs(velocity))) + 2;
-  // Of a block: the markers that stay in it, and those that leave, by the neighbour they end in.
-  struct Moved {
-    std::vector<Marker> stay, leave;
-    std::array<std::int32_t, 28> start{};  // into `leave`
-  };
-  std::vector<Moved> parts(markers.size());
-  tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
-    thread_local Motion motion;
-    thread_local std::vector<Marker> stay;
-    thread_local std::vector<std::pair<int, Marker>> leave;
-    motion.load(velocity, markers[n].origin, halo, scale);
-    stay.clear();
-    leave.clear();
-    std::array<std::int32_t, 28>& start = parts[n].start;
-    for (Marker m : markers[n].markers) {
-      if (motion.anySqueeze && m.radius > 0.0f && motion.squeeze.at(m.x, m.y, m.z) > kMaxSqueeze) continue;
-      motion.trace(m);
-      const int di = wrap(m.x), dj = wrap(m.y), dk = wrap(m.z), to = neighborNumber(di, dj, dk);
-      if (to == kHere) {
-        stay.push_back(m);
-      } else {
-        ++start[to + 1];
-        leave.emplace_back(to, m);
-      }
-    }
-    for (int to = 0; to < 27; ++to) start[to + 1] += start[to];
-    std::array<std::int32_t, 28> next = start;
-    parts[n].stay = stay;
-    parts[n].leave.resize(leave.size());
-    for (const auto& [to, m] : leave) parts[n].leave[next[to]++] = m;
-  });
-
-  std::vector<Coord> origins;
-  for (std::size_t n = 0; n < markers.size(); ++n) {
-    const auto& start = parts[n].start;
-    if (!parts[n].stay.empty()) origins.push_back(markers[n].origin);
-    for (int to = 0; to < 27; ++to) {
-      if (start[to + 1] > start[to]) origins.push_back(markers[n].origin + neighborShift(to));
-    }
-  }
-  std::sort(origins.begin(), origins.end());
-  origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
-  Markers moved(origins.size());
-  tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
-    thread_local std::vector<Marker> all;
-    all.clear();
-    moved[n].origin = origins[n];
-    for (int from = 0; from < 27; ++from) {
-      const MarkerBlock* source = find(markers, origins[n] + neighborShift(from));
-      if (source == nullptr) continue;
-      Moved& part = parts[std::size_t(source - markers.data())];
-      if (from == kHere) {
-        all.insert(all.end(), part.stay.begin(), part.stay.end());
-        part.stay = {};  // nobody else wants them
-      } else {
-        const Marker* first = part.leave.data();
-        all.insert(all.end(), first + part.start[26 - from], first + part.start[27 - from]);
-      }
-    }
-    moved[n].markers = all;
-  });
-  return moved;
-}
-
 void correctPhi(FloatGrid& phi, const Markers& markers) {
   const float h = static_cast<float>(phi.voxelSize()[0]);
   Markers out(markers.size());  // those that have escaped
   tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
-    thread_local Samples distance(1);
+    thread_local BlockSamples distance(1);
     thread_local CellRanges range;
     distance.load(phi.constTree(), markers[n].origin);
     range.find(distance);
@@ -301,7 +85,7 @@ void correctPhi(FloatGrid& phi, const Markers& markers) {
     bool touched = false;
     for (int from = 0; from < 8; ++from) {
       const Coord shift(-(from >> 2) * kLeafDim, -((from >> 1) & 1) * kLeafDim, -(from & 1) * kLeafDim);
-      const MarkerBlock* block = find(out, leaves[n]->origin() + shift);
+      const MarkerBlock* block = findBlock(out, leaves[n]->origin() + shift);
       if (block == nullptr) continue;
       if (!touched) {
         std::copy_n(value, kLeafSize, air.begin());
@@ -347,7 +131,7 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
   origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
   Markers next(origins.size());
   tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
-    thread_local Samples distance(2), solid(2);
+    thread_local BlockSamples distance(2), solid(2);
     thread_local CellRanges range, wallRange;
     distance.load(phi.constTree(), origins[n]);
     solid.load(solidPhi.constTree(), origins[n]);
@@ -357,7 +141,7 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
     thread_local std::vector<Marker> kept;
     kept.clear();
     std::array<int, kLeafSize> count{};
-    if (MarkerBlock* block = find(markers, origins[n])) {
+    if (MarkerBlock* block = findBlock(markers, origins[n])) {
       constexpr float kRounding = CellRanges::kRounding;
       for (Marker m : block->markers) {
         const auto cell = std::size_t(cellOf(m));

@@ -6,6 +6,7 @@
 
 #include "sim/mac_grid.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +26,15 @@ struct MarkerBlock {
 
 // In the order of their origins, none empty.
 using Markers = std::vector<MarkerBlock>;
+
+// The block at that origin; null where there is none.
+template <class Blocks>
+auto findBlock(Blocks& markers, const Coord& origin) {
+  const auto it =
+      std::lower_bound(markers.begin(), markers.end(), origin,
+                       [](const MarkerBlock& block, const Coord& at) { return block.origin < at; });
+  return it != markers.end() && it->origin == origin ? &*it : nullptr;
+}
 
 // Markers for a surface: of the liquid and of the air, in every cell that the band reaches, none deep in
 // solids.
