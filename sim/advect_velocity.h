@@ -5,9 +5,6 @@
 
 namespace fluidtex::sim {
 
-// The furthest that advectVelocity can trace, in cells: dt max|u| / h has to stay below.
-inline constexpr double kMaxTrace = 5.0;
-
 // Writes to `to` what has become of the face values `carried` after dt seconds in the velocity `from` (`from`
 // itself, for self-advection), at the active faces of `to` that
 // touch liquid (a cell with phiTo < 0); other faces stay as they are. Semi-Lagrangian with a third-order

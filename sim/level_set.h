@@ -10,11 +10,11 @@
 
 namespace fluidtex::sim {
 
-// Moves phi with the velocity for dt seconds:  d(phi)/dt + u . grad(phi) = 0, by fifth-order WENO differences
-// (Hamilton-Jacobi form) and the third-order TVD Runge-Kutta scheme, in as many sub-steps as dt
-// (|u|+|v|+|w|)/h < 1 asks for. Leaves are added where the surface can get to. Values outside the velocity's
-// leaves stay.
-void advectPhi(FloatGrid& phi, const Velocity& velocity, double dt);
+// Moves phi with the velocity for dt seconds:  d(phi)/dt + u . grad(phi) = 0. Each cell takes the value from
+// where it came (semi-Lagrangian, cubic interpolation where phi is smooth near the surface), in as many
+// sub-steps as moves of kMaxTrace cells ask for. Leaves are added where the surface can get to. Values
+// outside the velocity's leaves stay, and those deeper in solids than kSolidLayers.
+void advectPhi(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPhi, double dt);
 
 // Cells deeper in a solid than this many voxels hold what extendIntoSolids gives them; no face of such a cell
 // is open, but for a sliver.
@@ -24,8 +24,11 @@ inline constexpr float kDeepInSolid = 0.49f;
 // solid's distance is known that far.
 inline constexpr float kSolidLayers = 2.99f;
 
+// How much farther from the surface the distance is made right by an iteration of reinitialize, in voxels.
+inline constexpr double kReinitReach = 0.4;
+
 struct ReinitOptions {
-  int iterations = 8;  // of 0.45 h each: how far from the surface the distance is made right
+  int iterations = 8;
   // Take the surface for smooth, where phi is, within three cells of solids too. Not where phi is still the
   // distance to a body's own faces at a wall.
   bool smoothAtSolids = true;

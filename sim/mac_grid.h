@@ -23,6 +23,10 @@ using FloatLeaf = FloatTree::LeafNodeType;
 inline constexpr int kLeafDim = FloatLeaf::DIM;    // 8
 inline constexpr int kLeafSize = FloatLeaf::SIZE;  // 512, z fastest: offset = 64 i + 8 j + k
 
+// The farthest that anything is traced along the velocity in one step, in cells: a leaf and its neighbours
+// hold what is needed.
+inline constexpr double kMaxTrace = 5.0;
+
 // Index to world for cell centres, and for the lower faces normal to `axis` (0, 1, 2).
 openvdb::math::Transform::Ptr cellTransform(double h);
 openvdb::math::Transform::Ptr faceTransform(double h, int axis);

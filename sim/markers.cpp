@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kSmallest = 0.1f, kLargest = 0.5f;  // radii [Enright02 sec. 3.1]
 constexpr int kPerCell = 16;                        // markers of a full cell
-constexpr float kBand = 3.0f;                       // cells: how far from the surface markers are kept
+constexpr float kBand = 1.5f;                       // cells: how far from the surface markers are kept
 // Markers of the air this many cells inside the liquid belong to a bubble that has closed.
 constexpr float kDeepestAir = 1.0f;
 

@@ -15,7 +15,7 @@ constexpr int kReinitIterations = 8;
 Markers moveSurface(FloatGrid& phi, const Markers& before, const Velocity& velocity,
                     const FloatGrid& solidPhi, double dt, std::uint64_t seed, const RunningFlows& flows) {
   Markers markers = advectMarkers(before, velocity, dt);
-  advectPhi(phi, velocity, dt);
+  advectPhi(phi, velocity, solidPhi, dt);
   correctPhi(phi, markers);
   applyFlows(phi, markers, flows);
   extendIntoSolids(phi, solidPhi);

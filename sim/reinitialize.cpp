@@ -20,7 +20,7 @@ constexpr int kHalo = 2;
 constexpr int kSide = kLeafDim + 2 * kHalo;  // 12
 constexpr int kBlock = kSide * kSide * kSide;
 constexpr int kStride[3] = {kSide * kSide, kSide, 1};
-constexpr float kCourant = 0.45f;
+constexpr float kCourant = kReinitReach;
 
 // Cells beside the surface that are wrong by less than this share of a cell stay: a surface at rest does not
 // move at all, however often it is reinitialised.
@@ -149,10 +149,8 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
   return plan;
 }
 
-// One Euler step, to = from + dtau L(from); or, the second half of Heun's rule, the mean of that and of what
-// `to` was.
-void eulerStep(const FloatTree& from, FloatLeaf& to, const LeafPlan& plan, float h, float background,
-               bool average) {
+// One step: to = from + dtau L(from).
+void eulerStep(const FloatTree& from, FloatLeaf& to, const LeafPlan& plan, float h, float background) {
   static thread_local float block[kBlock];  // 0 where nothing is gathered
   gather(from, to.origin(), kHalo, block, true);
   const float inverse = 1.0f / h;
@@ -176,7 +174,6 @@ void eulerStep(const FloatTree& from, FloatLeaf& to, const LeafPlan& plan, float
         const float now = p[k];
         const float change = step[row + k] * (1.0f - std::sqrt(square[row + k]));
         float next = h * (now + (now < 0.0f ? -change : change));
-        if (average) next = 0.5f * (next + out[row + k]);
         next = least(background, most(-background, next));
         // The sign never changes: that would be a surface made from nothing.
         out[row + k] = (next < 0.0f) != (now < 0.0f) ? h * now : next;
@@ -199,16 +196,18 @@ void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, const ReinitOptions
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     for (const CellDistance& cell : plans[n].moved) leaves[n]->setValueOnly(cell.offset, h * cell.phi);
   });
-  FloatTree predicted(phi.constTree());
-  const auto predictedLeaves = leavesOf(predicted);
+  FloatTree other(phi.constTree());
+  const auto otherLeaves = leavesOf(other);
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
-    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-      eulerStep(phi.constTree(), *predictedLeaves[n], plans[n], h, phi.background(), false);
-    });
-    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-      eulerStep(predicted, *leaves[n], plans[n], h, phi.background(), true);
-    });
+    const bool back = iteration % 2 == 1;
+    const FloatTree& from = back ? other : phi.constTree();
+    const auto& to = back ? leaves : otherLeaves;
+    tbb::parallel_for(std::size_t{0}, to.size(),
+                      [&](std::size_t n) { eulerStep(from, *to[n], plans[n], h, phi.background()); });
   }
+  if (options.iterations % 2 == 0) return;
+  tbb::parallel_for(std::size_t{0}, leaves.size(),
+                    [&](std::size_t n) { leaves[n]->swap(otherLeaves[n]->buffer()); });
 }
 
 }  // namespace fluidtex::sim

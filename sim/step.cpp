@@ -271,10 +271,9 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   for (auto leaf = solid.phi->constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
   // A body that ends at a wall has its surface there; extending and reinitialising in turn makes it go on
   // behind.
-  const double reachPerIteration = 0.45;
   constexpr int kIterations = 4;
   const int rounds =
-      static_cast<int>(phi.background() / (voxelSize(liquid) * reachPerIteration * kIterations)) + 2;
+      static_cast<int>(phi.background() / (voxelSize(liquid) * kReinitReach * kIterations)) + 2;
   const LetGo never = [](const Coord&) { return false; };
   for (int n = 0; n < rounds; ++n) {
     extendIntoSolids(phi, *solid.phi, never);

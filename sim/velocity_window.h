@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/mac_grid.h"
-#include "sim/trilinear.h"
+#include "sim/tricubic.h"
 
 #include <algorithm>
 #include <memory>
@@ -34,6 +34,13 @@ struct Window {
     return trilinear(place.low, side * side, side, lane0(t), lane1(t), lane2(t));
   }
 
+  // The same by cubic interpolation; halo >= 1.
+  float cubic(const Vec3f& x) const {
+    const Place place = locate(x, 1);
+    const Lanes& t = place.t;
+    return tricubic(place.low, side * side, side, lane0(t), lane1(t), lane2(t));
+  }
+
   // Smallest and largest of the eight samples around x.
   std::pair<float, float> range(const Vec3f& x) const {
     const float* p = locate(x).low;
@@ -45,16 +52,17 @@ struct Window {
   }
 
  private:
-  // The lowest of the eight samples around x, and where x is between them. Positions beyond the window are
-  // taken at its edge.
+  // The lowest of the eight samples around x, and where x is between them. Positions nearer to the window's
+  // edge than `around` samples, or beyond it, are taken there.
   struct Place {
     const float* low;
     Lanes t;
   };
-  Place locate(const Vec3f& x) const {
+  Place locate(const Vec3f& x, int around = 0) const {
     const Lanes from =
         lanes(x[0], x[1], x[2]) + (lanes(static_cast<float>(halo)) - lanes(shift[0], shift[1], shift[2]));
-    const Lanes p = _mm_min_ps(_mm_max_ps(from, lanes(0.0f)), lanes(static_cast<float>(side) - 1.001f));
+    const auto least = static_cast<float>(around), most = static_cast<float>(side - around) - 1.001f;
+    const Lanes p = _mm_min_ps(_mm_max_ps(from, lanes(least)), lanes(most));
     const __m128i cell = _mm_cvttps_epi32(p);
     const std::ptrdiff_t i = _mm_cvtsi128_si32(cell), j = _mm_extract_epi32(cell, 1),
                          k = _mm_extract_epi32(cell, 2);
@@ -89,6 +97,17 @@ struct VelocityWindow {
   Vec3f trace(const Vec3f& x, float step) const {
     const Lanes from = lanes(x[0], x[1], x[2]);
     return traceOn(from, sample(from), step);
+  }
+
+  // The same from the centre of the leaf's voxel `offset`: the first velocity is a mean of samples.
+  Vec3f traceCentre(int offset, float step) const {
+    const std::ptrdiff_t side = u.side;
+    const std::ptrdiff_t i = offset >> 6, j = (offset >> 3) & 7, k = offset & 7;
+    const std::ptrdiff_t at = ((i + u.halo) * side + j + u.halo) * side + k + u.halo;
+    const float *a = u.values.get() + at, *b = v.values.get() + at, *c = w.values.get() + at;
+    const Lanes first = lanes(0.5f) * lanes(a[0] + a[side * side], b[0] + b[side], c[0] + c[1]);
+    const Lanes from = lanes(static_cast<float>(i), static_cast<float>(j), static_cast<float>(k));
+    return traceOn(from + lanes(0.5f), first, step);
   }
 
   // The same from the lower face, normal to `axis`, of the leaf's voxel `offset`: the first of the three

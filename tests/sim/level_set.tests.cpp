@@ -84,7 +84,7 @@ struct Fixture {
   }
 
   void advance(const Velocity& velocity, double dt) {
-    advectPhi(*phi, velocity, dt);
+    advectPhi(*phi, velocity, *noSolid, dt);
     trimBand(*phi, *noSolid);
   }
 
@@ -140,7 +140,8 @@ TEST_CASE("level set: Zalesak's disk after one turn") {
   const Velocity velocity = f.velocity(
       [](const Vec3d& x) { return Vec3d(50.0 - x.y(), x.x() - 50.0, 0.0) * (std::numbers::pi / 314.0); });
   const double before = f.volume();
-  for (int n = 0; n < 628; ++n) f.advance(velocity, 1.0);
+  // Steps of up to two cells, as the solver's own: what interpolation smears grows with their number.
+  for (int n = 0; n < 157; ++n) f.advance(velocity, 4.0);
   const double change = f.volume() / before - 1.0, error = f.difference(zalesak) / depth / perimeter;
   INFO("volume " << change << ", interface error " << error);
   CHECK(std::abs(change) < 0.015);

@@ -64,9 +64,9 @@ bool same(const Markers& a, const Markers& b) {
 
 TEST_CASE("markers: each lies on its own side, within the band, in its block, and touches the surface") {
   const Markers markers = seedMarkers(*phiOf(ball), *noSolid(), 1);
-  // The shell of 3 cells either side holds 16 a cell.
+  // The shell of 1.5 cells either side holds 16 a cell.
   const double shell =
-      4.0 / 3.0 * std::numbers::pi * (std::pow(0.25 + 3 * kVoxel, 3) - std::pow(0.25 - 3 * kVoxel, 3));
+      4.0 / 3.0 * std::numbers::pi * (std::pow(0.25 + 1.5 * kVoxel, 3) - std::pow(0.25 - 1.5 * kVoxel, 3));
   CHECK(double(countOf(markers)) == Approx(16.0 * shell / std::pow(kVoxel, 3)).epsilon(0.05));
   int wrong = 0;
   for (const MarkerBlock& block : markers) {
@@ -177,7 +177,7 @@ TEST_CASE("markers: keep a thin sheet through a vortex and back, where the grid 
         moveSurface(*phi, markers, velocity, *noWalls, dt, std::uint64_t(n));
         continue;
       }
-      advectPhi(*phi, velocity, dt);
+      advectPhi(*phi, velocity, *noWalls, dt);
       reinitialize(*phi, *noWalls);
       trimBand(*phi, *noWalls);
     }
