@@ -22,25 +22,23 @@ Velocity plus(const Velocity& u, const Velocity& a, double time) {
   return sum;
 }
 
-Velocity accelerationBy(const Velocity& before, const Velocity& after, const FaceMasks& valid, double dt) {
-  const openvdb::MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
-  Velocity result = makeVelocity(after.component[0]->voxelSize()[0], after.component[0]->constTree());
+Velocity accelerationBy(Velocity before, const Velocity& after, const FaceMasks& valid, double dt) {
+  const MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
   const float rate = static_cast<float>(1.0 / dt);
   for (int axis = 0; axis < 3; ++axis) {
-    const auto leaves = leavesOf(result.component[axis]->tree());
+    before.component[axis]->tree().topologyUnion(after.component[axis]->constTree());
+    const auto leaves = leavesOf(before.component[axis]->tree());
     tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
       const Coord& origin = leaves[n]->origin();
       const auto* mask = masks[axis]->constTree().probeConstLeaf(origin);
-      if (mask == nullptr) return;
-      float beforeScratch[kLeafSize], afterScratch[kLeafSize];
-      const float* was = leafValues(before.component[axis]->constTree(), origin, beforeScratch);
-      const float* is = leafValues(after.component[axis]->constTree(), origin, afterScratch);
-      float* out = leaves[n]->buffer().data();
-      for (auto face = mask->cbeginValueOn(); face; ++face)
-        out[face.pos()] = (is[face.pos()] - was[face.pos()]) * rate;
+      float scratch[kLeafSize];
+      const float* is = leafValues(after.component[axis]->constTree(), origin, scratch);
+      float* value = leaves[n]->buffer().data();
+      for (int i = 0; i < kLeafSize; ++i)
+        value[i] = mask != nullptr && mask->isValueOn(i) ? (is[i] - value[i]) * rate : 0.0f;
     });
   }
-  return result;
+  return before;
 }
 
 }  // namespace fluidtex::sim

@@ -10,7 +10,8 @@ namespace fluidtex::sim {
 Velocity plus(const Velocity& u, const Velocity& a, double time);
 
 // What turned `before` into `after` within dt seconds (m/s2), on the faces where `valid` is set; 0 elsewhere,
-// for the caller to extrapolate. Of the topology of `after`.
-Velocity accelerationBy(const Velocity& before, const Velocity& after, const FaceMasks& valid, double dt);
+// for the caller to extrapolate. Of the topology of `after`, which has all that `before` has; in the grids of
+// `before`.
+Velocity accelerationBy(Velocity before, const Velocity& after, const FaceMasks& valid, double dt);
 
 }  // namespace fluidtex::sim

@@ -115,7 +115,7 @@ void balanceAirLayers(Velocity& velocity, const FaceMasks& valid, const FloatGri
   layers.phi = sampleOn(layers.table, phi.constTree());
   layers.solid = sampleOn(layers.table, solidPhi.constTree());
   number(layers);
-  const openvdb::MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
+  const MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
   for (int axis = 0; axis < 3; ++axis) {
     layers.speed[axis] = sampleOn(layers.table, velocity.component[axis]->constTree());
     layers.free[axis].resize(layers.table.voxels());

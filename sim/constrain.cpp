@@ -18,7 +18,7 @@ namespace fluidtex::sim {
 namespace {
 
 using Range = tbb::blocked_range<std::size_t>;
-using MaskAccessor = openvdb::tree::ValueAccessor<const openvdb::MaskGrid::TreeType>;
+using MaskAccessor = openvdb::tree::ValueAccessor<const MaskGrid::TreeType>;
 
 // A leaf's values and one more layer around them.
 constexpr int kSide = kLeafDim + 2;
@@ -53,10 +53,10 @@ bool beyondOpening(const SolidField& solid, const Coord& face, int axis) {
 }  // namespace
 
 void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
-                       const SolidField& solid, const FaceMasks& valid, const openvdb::MaskGrid& separating) {
+                       const SolidField& solid, const FaceMasks& valid, const MaskGrid& separating) {
   FloatGrid* const grids[3] = {&u, &v, &w};
   const FloatGrid* const open[3] = {solid.openU.get(), solid.openV.get(), solid.openW.get()};
-  const openvdb::MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
+  const MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
 
   const bool moving = solid.speedU != nullptr, anyLeaving = !separating.empty();
   const FloatGrid* const solidSpeed[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};

@@ -6,6 +6,7 @@
 #include "sim/leaf_table.h"
 #include "sim/sort_by_distance.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 namespace fluidtex::sim {
@@ -61,7 +62,7 @@ std::vector<float> atFaces(const LeafTable& table, const std::vector<float>& cel
   return faces;
 }
 
-void extrapolateComponent(FloatGrid& grid, const openvdb::MaskGrid& valid, int axis, const LeafTable& table,
+void extrapolateComponent(FloatGrid& grid, const MaskGrid& valid, int axis, const LeafTable& table,
                           const std::vector<float>& phi, const std::vector<float>& depth) {
   Component c{table, sampleOn(table, grid.constTree()), std::vector<std::uint8_t>(table.voxels()),
               atFaces(table, phi, axis), atFaces(table, depth, axis)};
@@ -107,16 +108,30 @@ void extrapolateComponent(FloatGrid& grid, const openvdb::MaskGrid& valid, int a
 
 }  // namespace
 
-void extrapolate(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi,
-                 const FloatGrid& solidPhi) {
-  const LeafTable table = makeLeafTable(velocity.component[0]->constTree());
+void extrapolate(const std::vector<Extrapolated>& fields, const FloatGrid& phi, const FloatGrid& solidPhi) {
+  const LeafTable table = makeLeafTable(fields.front().field.component[0]->constTree());
   const std::vector<float> cellPhi = sampleOn(table, phi.constTree());
   std::vector<float> depth = sampleOn(table, solidPhi.constTree());
-  for (float& d : depth) d = -d;
-  const std::array<const openvdb::MaskGrid*, 3> masks{valid.u.get(), valid.v.get(), valid.w.get()};
-  tbb::parallel_for(0, 3, [&](int axis) {
-    extrapolateComponent(*velocity.component[axis], *masks[axis], axis, table, cellPhi, depth);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, depth.size(), kLeafSize), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i != range.end(); ++i) depth[i] = -depth[i];
   });
+  const int count = 3 * static_cast<int>(fields.size());
+  // One component a task: each is a long sweep of one thread.
+  tbb::parallel_for(
+      tbb::blocked_range<int>(0, count, 1),
+      [&](const tbb::blocked_range<int>& range) {
+        for (int n = range.begin(); n != range.end(); ++n) {
+          const auto& [field, valid] = fields[n / 3];
+          const MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
+          extrapolateComponent(*field.component[n % 3], *masks[n % 3], n % 3, table, cellPhi, depth);
+        }
+      },
+      tbb::simple_partitioner());
+}
+
+void extrapolate(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi,
+                 const FloatGrid& solidPhi) {
+  extrapolate({{velocity, valid}}, phi, solidPhi);
 }
 
 }  // namespace fluidtex::sim

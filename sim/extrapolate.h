@@ -12,4 +12,12 @@ namespace fluidtex::sim {
 // faces stay as they are.
 void extrapolate(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi, const FloatGrid& solidPhi);
 
+// The same for several fields of one topology, side by side: six components share two threads evenly, three
+// do not.
+struct Extrapolated {
+  Velocity& field;
+  const FaceMasks& valid;
+};
+void extrapolate(const std::vector<Extrapolated>& fields, const FloatGrid& phi, const FloatGrid& solidPhi);
+
 }  // namespace fluidtex::sim

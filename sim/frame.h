@@ -3,8 +3,11 @@
 // downstream.
 #pragma once
 
+#include "sim/grids.h"
+
 #include <openvdb/openvdb.h>
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -14,10 +17,12 @@ namespace fluidtex::sim {
 // One solver step. u, v, w are the projected and extrapolated velocity components (m/s) with which phi was
 // advected, constant over dt. Each is a grid with its own transform: index (i,j,k) of u is the centre of the
 // cell's lower x face, and u's transform already contains that half-voxel shift, so that sampling a component
-// at a world position through its own transform is always right. Values are active wherever they are valid.
+// at a world position through its own transform is always right. Values are active wherever they are valid:
+// at least within a step's reach of the surface, that along solids included; deep in the liquid there may be
+// none.
 struct Substep {
   double dt = 0.0;  // s
-  openvdb::FloatGrid::ConstPtr u, v, w;
+  FloatGrid::ConstPtr u, v, w;
 };
 
 // What the solver found out while it made this frame; a value that does not apply stays at its default.
@@ -37,9 +42,9 @@ struct Frame {
   // the liquid with solids taken out, max(phi, -solidPhi).
   openvdb::FloatGrid::ConstPtr surfacePhi;
   // Negative inside solids, walls of the domain included; narrow band, metres. May be null.
-  openvdb::FloatGrid::ConstPtr solidPhi;
+  FloatGrid::ConstPtr solidPhi;
   std::vector<Substep> substeps;  // from frame index-1 to index, in order; none in the first
-  std::map<std::string, openvdb::FloatGrid::ConstPtr> fields;  // further scalars by name, e.g. "temperature"
+  std::map<std::string, FloatGrid::ConstPtr> fields;  // further scalars by name, e.g. "temperature"
   FrameStats stats;
 };
 

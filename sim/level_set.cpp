@@ -151,7 +151,7 @@ std::vector<Coord> wetLeaves(const FloatGrid& phi, const Coord& cells, int margi
   return origins;
 }
 
-void cutSolids(FloatGrid& phi, const FloatGrid& solidPhi, const openvdb::MaskGrid& where) {
+void cutSolids(FloatGrid& phi, const FloatGrid& solidPhi, const MaskGrid& where) {
   const float background = phi.background();
   openvdb::tree::ValueAccessor<FloatTree> accessor(phi.tree());
   const auto solid = solidPhi.getConstUnsafeAccessor();

@@ -52,7 +52,7 @@ using LetGo = std::function<bool(const Coord&)>;
 void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo = {});
 
 // Takes solids out of the liquid, phi = max(phi, -solidPhi), in the cells active in `where`.
-void cutSolids(FloatGrid& phi, const FloatGrid& solidPhi, const openvdb::MaskGrid& where);
+void cutSolids(FloatGrid& phi, const FloatGrid& solidPhi, const MaskGrid& where);
 
 // Sets the active voxels anew, clamps all others, and drops leaves without any.
 void trimBand(FloatGrid& phi, const FloatGrid& solidPhi);

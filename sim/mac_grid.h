@@ -6,6 +6,7 @@
 // the walls; a few layers of them hold values so that stencils need no special cases.
 #pragma once
 
+#include "sim/grids.h"
 #include "sim/options.h"
 
 #include <openvdb/openvdb.h>
@@ -16,8 +17,6 @@
 namespace fluidtex::sim {
 
 using openvdb::Coord;
-using openvdb::FloatGrid;
-using FloatTree = FloatGrid::TreeType;
 using FloatLeaf = FloatTree::LeafNodeType;
 
 inline constexpr int kLeafDim = FloatLeaf::DIM;    // 8

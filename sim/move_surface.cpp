@@ -2,8 +2,6 @@
 
 #include "sim/level_set.h"
 
-#include <utility>
-
 namespace fluidtex::sim {
 namespace {
 
@@ -12,9 +10,9 @@ constexpr int kReinitIterations = 8;
 
 }  // namespace
 
-Markers moveSurface(FloatGrid& phi, const Markers& before, const Velocity& velocity,
-                    const FloatGrid& solidPhi, double dt, std::uint64_t seed, const RunningFlows& flows) {
-  Markers markers = advectMarkers(before, velocity, dt);
+void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const FloatGrid& solidPhi,
+                 double dt, std::uint64_t seed, const RunningFlows& flows) {
+  markers = advectMarkers(markers, velocity, dt);
   advectPhi(phi, velocity, solidPhi, dt);
   correctPhi(phi, markers);
   applyFlows(phi, markers, flows);
@@ -24,12 +22,6 @@ Markers moveSurface(FloatGrid& phi, const Markers& before, const Velocity& veloc
   applyFlows(phi, markers, flows);
   maintainMarkers(markers, phi, solidPhi, seed);
   trimBand(phi, solidPhi);
-  return markers;
-}
-
-void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const FloatGrid& solidPhi,
-                 double dt, std::uint64_t seed, const RunningFlows& flows) {
-  markers = moveSurface(phi, std::as_const(markers), velocity, solidPhi, dt, seed, flows);
 }
 
 }  // namespace fluidtex::sim

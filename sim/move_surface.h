@@ -17,9 +17,4 @@ namespace fluidtex::sim {
 void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const FloatGrid& solidPhi,
                  double dt, std::uint64_t seed, const RunningFlows& flows = {});
 
-// The same from markers that are kept: those of the new surface, as many bytes again, are given back.
-[[nodiscard]] Markers moveSurface(FloatGrid& phi, const Markers& before, const Velocity& velocity,
-                                  const FloatGrid& solidPhi, double dt, std::uint64_t seed,
-                                  const RunningFlows& flows = {});
-
 }  // namespace fluidtex::sim

@@ -195,23 +195,17 @@ void Multigrid::connect(Level& fine, const Level& coarse, int depth) {
       }
     }
   };
-  // By groups of coarse cells, which are joined afterwards.
   const int groups = (none + kGroup - 1) / kGroup;
-  std::vector<std::vector<Entry>> parts(groups);
-  fine.entryStart.assign(none + 1, 0);
+  fine.entries.resize(groups);
+  fine.entryEnd.resize(none);
   tbb::parallel_for(0, groups, [&](int group) {
+    thread_local std::vector<Entry> entries;
+    entries.clear();
     for (int c = group * kGroup; c < std::min(none, (group + 1) * kGroup); ++c) {
-      const std::size_t before = parts[group].size();
-      forEntries(c, [&](int f, float weight) { parts[group].push_back({f, weight}); });
-      fine.entryStart[c + 1] = static_cast<int>(parts[group].size() - before);
+      forEntries(c, [&](int f, float weight) { entries.push_back({f, weight}); });
+      fine.entryEnd[c] = static_cast<int>(entries.size());
     }
-  });
-  for (int c = 0; c < none; ++c) fine.entryStart[c + 1] += fine.entryStart[c];
-  fine.entries.resize(fine.entryStart[none]);
-  tbb::parallel_for(0, groups, [&](int group) {
-    std::copy(parts[group].begin(), parts[group].end(),
-              fine.entries.begin() + fine.entryStart[group * kGroup]);
-    parts[group] = {};
+    fine.entries[group] = entries;
   });
 }
 
@@ -270,8 +264,9 @@ void Multigrid::cycle(std::size_t depth, const std::vector<float>& b, std::vecto
   forSums(0, red, [&](int i, float sum) { level.residual[i] = sum; });
   forEach(0, coarse.numbering->size(), [&](int c) {
     float value = 0.0f;
-    for (int e = level.entryStart[c]; e < level.entryStart[c + 1]; ++e) {
-      value += level.entries[e].weight * level.residual[level.entries[e].fine];
+    const Entry* entries = level.entries[c / kGroup].data();
+    for (int e = c % kGroup == 0 ? 0 : level.entryEnd[c - 1]; e < level.entryEnd[c]; ++e) {
+      value += entries[e].weight * level.residual[entries[e].fine];
     }
     coarse.b[c] = value;
   });

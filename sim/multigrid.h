@@ -41,8 +41,10 @@ class Multigrid {
     const std::vector<double>* anchor = nullptr;
     const std::vector<std::uint8_t>* anchoredSides = nullptr;
     std::vector<Interpolation> interpolation;  // of red cells
-    std::vector<int> entryStart;               // the transpose, for the cells of the next coarser level
-    std::vector<Entry> entries;
+    // The transpose, for the cells of the next coarser level: in groups of successive cells, and where those
+    // of a cell end in its group.
+    std::vector<std::vector<Entry>> entries;
+    std::vector<int> entryEnd;
     std::vector<float> b, x, residual;  // b, x unused on the finest level
   };
 

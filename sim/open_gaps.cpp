@@ -50,11 +50,11 @@ bool leavesSolid(const FloatGrid& phi, const Velocity& velocity, const SolidFiel
 
 }  // namespace
 
-void openGaps(FloatGrid& phi, const Velocity& velocity, const SolidField& solid,
-              const openvdb::MaskGrid& separating, const Vec3d& kick) {
+void openGaps(FloatGrid& phi, const Velocity& velocity, const SolidField& solid, const MaskGrid& separating,
+              const Vec3d& kick) {
   if (!separating.empty()) {
     // The cut reaches the cells beside those that let go; leaves are needed as deep as stencils reach.
-    openvdb::MaskGrid around(separating);
+    MaskGrid around(separating);
     openvdb::tools::dilateActiveValues(around.tree(), 1, openvdb::tools::NN_FACE);
     cutSolids(phi, *solid.phi, around);
     openvdb::tools::dilateActiveValues(around.tree(), 3, openvdb::tools::NN_FACE);

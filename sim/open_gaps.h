@@ -11,7 +11,7 @@ namespace fluidtex::sim {
 // opens behind it, elsewhere the surface goes on into the solid (see extendIntoSolids). Films on walls that
 // hold no cell's centre are let go where the velocity, after the projection, leads away. kick: what gravity
 // adds to the velocity in a step, m/s. Trims the band.
-void openGaps(FloatGrid& phi, const Velocity& velocity, const SolidField& solid,
-              const openvdb::MaskGrid& separating, const Vec3d& kick);
+void openGaps(FloatGrid& phi, const Velocity& velocity, const SolidField& solid, const MaskGrid& separating,
+              const Vec3d& kick);
 
 }  // namespace fluidtex::sim

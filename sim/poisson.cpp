@@ -53,10 +53,10 @@ void removeMeans(const std::vector<std::vector<int>>& parts, std::vector<Scalar>
 }  // namespace
 
 CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks, const Coord& extent)
-    : m_extent(extent),
-      m_blocks((extent[0] + 7) >> 3, (extent[1] + 7) >> 3, (extent[2] + 7) >> 3),
-      m_blockStart(static_cast<std::size_t>(m_blocks[0]) * m_blocks[1] * m_blocks[2], -1),
-      m_numbers(blocks.size() * 512, -1) {
+    : m_extent(extent), m_blocks((extent[0] + 7) >> 3, (extent[1] + 7) >> 3, (extent[2] + 7) >> 3) {
+  const auto lists = std::make_shared<Lists>();
+  lists->blockStart.assign(static_cast<std::size_t>(m_blocks[0]) * m_blocks[1] * m_blocks[2], -1);
+  lists->numbers.assign(blocks.size() * 512, -1);
   std::bitset<512> red;
   for (int c = 0; c < 512; ++c) red[c] = (((c >> 6) ^ (c >> 3) ^ c) & 1) == 0;
 
@@ -64,7 +64,7 @@ CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks, const Coord& 
   std::vector<int> firstRed(count), firstBlack(count);
   int size = 0;
   for (int b = 0; b < count; ++b) {
-    m_blockStart[blockIndex(blocks[b].origin)] = b * 512;
+    lists->blockStart[blockIndex(blocks[b].origin)] = b * 512;
     firstRed[b] = m_red;
     const int reds = static_cast<int>((blocks[b].cells & red).count());
     m_red += reds;
@@ -75,18 +75,19 @@ CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks, const Coord& 
   for (int b = 0; b < count; ++b) {
     firstBlack[b] += m_red - static_cast<int>((blocks[b].cells & ~red).count());
   }
-  m_cells.resize(size);
+  lists->cells.resize(size);
   tbb::parallel_for(Range(0, count), [&](const Range& range) {
     for (int b = range.begin(); b < range.end(); ++b) {
       int nextRed = firstRed[b], nextBlack = firstBlack[b];
       for (int c = 0; c < 512; ++c) {
         if (!blocks[b].cells[c]) continue;
         const int number = red[c] ? nextRed++ : nextBlack++;
-        m_numbers[b * 512 + c] = number;
-        m_cells[number] = blocks[b].origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
+        lists->numbers[b * 512 + c] = number;
+        lists->cells[number] = blocks[b].origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
       }
     }
   });
+  m_lists = lists;
 }
 
 EvenRows::EvenRows(const PoissonRows& rows, const std::vector<double>& anchor)

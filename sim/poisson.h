@@ -8,6 +8,7 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace fluidtex::sim {
@@ -24,21 +25,21 @@ struct CellBlock {
 };
 
 // Numbers the cells of a list of blocks: first all with even i+j+k ("red"), then the others ("black"), each
-// in the order of the blocks. Coordinates are not negative and below `extent`.
+// in the order of the blocks. Coordinates are not negative and below `extent`. Copies share the lists.
 class CellNumbering {
  public:
   CellNumbering() = default;
   CellNumbering(const std::vector<CellBlock>& blocks, const Coord& extent);
 
-  int size() const { return static_cast<int>(m_cells.size()); }
+  int size() const { return static_cast<int>(m_lists->cells.size()); }
   int redCount() const { return m_red; }
   const Coord& extent() const { return m_extent; }
-  const std::vector<Coord>& cells() const { return m_cells; }
+  const std::vector<Coord>& cells() const { return m_lists->cells; }
 
   // The numbers of a block's 512 cells (-1: not one of them), or null where the block has none.
   const int* block(const Coord& anyCellInside) const {
-    const int start = m_blockStart[blockIndex(anyCellInside)];
-    return start < 0 ? nullptr : m_numbers.data() + start;
+    const int start = m_lists->blockStart[blockIndex(anyCellInside)];
+    return start < 0 ? nullptr : m_lists->numbers.data() + start;
   }
 
   // -1 for cells that are not in the list, also beyond the extent.
@@ -56,11 +57,15 @@ class CellNumbering {
            (cell[2] >> 3);
   }
 
+  struct Lists {
+    std::vector<Coord> cells;     // by number
+    std::vector<int> blockStart;  // into numbers, -1: no cells
+    std::vector<int> numbers;
+  };
+
   Coord m_extent{0}, m_blocks{0};
   int m_red = 0;
-  std::vector<Coord> m_cells;     // by number
-  std::vector<int> m_blockStart;  // into m_numbers, -1: no cells
-  std::vector<int> m_numbers;
+  std::shared_ptr<const Lists> m_lists = std::make_shared<Lists>();
 };
 
 // The rows of the matrix:  (sum of links + anchor) x_i - sum over sides of link x_neighbor.

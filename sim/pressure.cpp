@@ -114,16 +114,15 @@ const int* blockNumbers(const CellNumbering& numbering, const Coord& origin) {
 }
 
 // Subtracts the pressure's gradient on the faces normal to `axis`, and writes what is given there.
-openvdb::MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SolidField& solid,
-                                   const std::vector<double>& q, const std::vector<char>& detached, int axis,
-                                   FloatGrid& grid) {
+MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SolidField& solid, const std::vector<double>& q,
+                          const std::vector<char>& detached, int axis, FloatGrid& grid) {
   const FloatGrid* const solidSpeed =
       std::array{solid.speedU.get(), solid.speedV.get(), solid.speedW.get()}[axis];
   const FloatGrid* const given = std::array{solid.givenU.get(), solid.givenV.get(), solid.givenW.get()}[axis];
-  auto valid = openvdb::MaskGrid::create();
+  auto valid = MaskGrid::create();
   valid->setTransform(faceTransform(solid.voxelSize, axis));
   const std::vector<FloatLeaf*> leaves = faceLeaves(liquid, grid);
-  std::vector<openvdb::MaskGrid::TreeType::LeafNodeType*> masks;
+  std::vector<MaskGrid::TreeType::LeafNodeType*> masks;
   for (const FloatLeaf* leaf : leaves) masks.push_back(valid->tree().touchLeaf(leaf->origin()));
 
   const int stride = 1 << (3 * (2 - axis));
@@ -212,13 +211,14 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
       b[i] = -liquid.cells[liquidOf[i]].outflow;
       x[i] = q[liquidOf[i]];
     }
+    q = {};
     const PoissonReport solved =
         solvePoisson(system, singular, std::move(b), x, options.tolerance, options.maxIterations);
     report.iterations += solved.iterations;
     report.residual = solved.residual;
     report.converged = solved.converged;
     report.separationPasses = pass;
-    std::fill(q.begin(), q.end(), 0.0);
+    q.assign(n, 0.0);
     double largest = 0.0;
     for (std::size_t i = 0; i < liquidOf.size(); ++i) {
       q[liquidOf[i]] = x[i];
@@ -233,10 +233,11 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
     detached = std::move(next);
   }
 
+  if (options.keepBefore) result.before = {{u.deepCopy(), v.deepCopy(), w.deepCopy()}};
   result.valid.u = updateFaces(liquid, solid, q, detached, 0, u);
   result.valid.v = updateFaces(liquid, solid, q, detached, 1, v);
   result.valid.w = updateFaces(liquid, solid, q, detached, 2, w);
-  result.separating = openvdb::MaskGrid::create();
+  result.separating = MaskGrid::create();
   result.separating->setTransform(cellTransform(solid.voxelSize));
   for (int i = 0; i < n; ++i) {
     if (detached[i]) result.separating->tree().setValueOn(liquid.numbering.cells()[i]);

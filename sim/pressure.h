@@ -1,6 +1,7 @@
 // Pressure that makes the liquid's velocity free of divergence, and the velocity after it.
 #pragma once
 
+#include "sim/mac_grid.h"
 #include "sim/solids.h"
 
 #include <openvdb/openvdb.h>
@@ -20,6 +21,7 @@ struct PressureOptions {
   // where it is enclosed on all sides.
   double expansion = 0.0;
   bool keepPressure = false;  // fill Projection::pressure
+  bool keepBefore = false;    // fill Projection::before
 };
 
 struct PressureReport {
@@ -36,9 +38,11 @@ struct Projection {
   // lie square to the solid (0 there, or the speed at which liquid leaves it). All others are for the caller
   // to extrapolate.
   FaceMasks valid;
-  openvdb::MaskGrid::Ptr separating;  // cells of liquid that leave a solid
+  MaskGrid::Ptr separating;  // cells of liquid that leave a solid
   openvdb::DoubleGrid::Ptr
       pressure;  // Pa at the centres of liquid cells, active there; null unless asked for
+  // The velocity before; null grids unless asked for. Copied after the solve, which takes the most memory.
+  Velocity before;
 };
 
 // Projects u, v, w (m/s) onto fields free of divergence in the liquid (cells with phi < 0 that have an open
@@ -51,8 +55,8 @@ struct Projection {
 // number of threads. Does not throw when it fails to converge: the report says so. Sources: Gibou, Fedkiw,
 // Cheng, Kang 2002 (surface); Ng, Min, Gibou 2009 (solids); Batty, Bertails, Bridson 2007, section 5
 // (separation).
-[[nodiscard]] Projection project(openvdb::FloatGrid& u, openvdb::FloatGrid& v, openvdb::FloatGrid& w,
-                                 const openvdb::FloatGrid& phi, const SolidField& solid, double dt,
-                                 double density, const PressureOptions& options = {});
+[[nodiscard]] Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
+                                 const SolidField& solid, double dt, double density,
+                                 const PressureOptions& options = {});
 
 }  // namespace fluidtex::sim

@@ -3,6 +3,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
 namespace fluidtex::sim {
 
 using Range = tbb::blocked_range<int>;
@@ -10,15 +12,18 @@ using Range = tbb::blocked_range<int>;
 PoissonSystem pressureSystem(const LiquidCells& liquid, const std::vector<char>& detached,
                              std::vector<int>& liquidOf) {
   PoissonSystem system;
-  std::vector<CellBlock> blocks = liquid.blocks;
-  for (CellBlock& block : blocks) {
-    const int* numbers = liquid.numbering.block(block.origin);
-    for (int c = 0; c < kLeafSize; ++c) {
-      if (numbers[c] >= 0 && detached[numbers[c]]) block.cells.reset(c);
+  system.numbering = liquid.numbering;
+  if (std::find(detached.begin(), detached.end(), 1) != detached.end()) {
+    std::vector<CellBlock> blocks = liquid.blocks;
+    for (CellBlock& block : blocks) {
+      const int* numbers = liquid.numbering.block(block.origin);
+      for (int c = 0; c < kLeafSize; ++c) {
+        if (numbers[c] >= 0 && detached[numbers[c]]) block.cells.reset(c);
+      }
     }
+    std::erase_if(blocks, [](const CellBlock& block) { return block.cells.none(); });
+    system.numbering = CellNumbering(blocks, liquid.numbering.extent());
   }
-  std::erase_if(blocks, [](const CellBlock& block) { return block.cells.none(); });
-  system.numbering = CellNumbering(blocks, liquid.numbering.extent());
   const int n = system.numbering.size();
   system.rows.resize(n);
   system.anchor.assign(n, 0.0);

@@ -2,6 +2,7 @@
 // and how they move.
 #pragma once
 
+#include "sim/grids.h"
 #include "sim/options.h"
 #include "sim/pose.h"
 #include "sim/shapes.h"
@@ -30,23 +31,23 @@ struct SolidField {
   // Signed distance at cell centres in metres, negative inside solids and outside the domain. Active within 3
   // voxels of a boundary, elsewhere the inactive values +-3 h. Right up to 8 cells outside the domain;
   // beyond, background.
-  openvdb::FloatGrid::Ptr phi;
+  FloatGrid::Ptr phi;
   // Open share of each face's area, 0 (closed) to 1; the index of a face as in Substep: (i,j,k) of openU is
   // the lower x face of cell (i,j,k). Background 0; tiles of 1 where all is open; every face that is not
   // closed is active.
-  openvdb::FloatGrid::Ptr openU, openV, openW;
+  FloatGrid::Ptr openU, openV, openW;
   // Velocity of the solids at faces, m/s, near their surface; null where all are at rest.
-  openvdb::FloatGrid::Ptr speedU, speedV, speedW;
+  FloatGrid::Ptr speedU, speedV, speedW;
   // Velocity of faces where it is given, m/s, active there, else kNotGiven: the pressure has no say there.
   // Null where there are none.
-  openvdb::FloatGrid::Ptr givenU, givenV, givenW;
+  FloatGrid::Ptr givenU, givenV, givenW;
   // What viscous liquid meets at the solids' surfaces (see sim/walls.h). Slip length in metres at cell
   // centres within 3 voxels of a surface: 0 where liquid sticks, infinite where it slips freely; null where
   // it does so everywhere.
-  openvdb::FloatGrid::Ptr slipLength;
+  FloatGrid::Ptr slipLength;
   // Velocity of the surfaces along themselves, on top of that of the solids: u, v, w at faces, m/s; null
   // where none slides.
-  std::array<openvdb::FloatGrid::Ptr, 3> slide;
+  std::array<FloatGrid::Ptr, 3> slide;
 };
 
 // Open share of a square face from the solid's signed distance at its corners, taken linear along the edges
@@ -101,15 +102,14 @@ class Solids {
 
 // Which faces a projection has given a value; indices as those of u, v, w.
 struct FaceMasks {
-  openvdb::MaskGrid::Ptr u, v, w;
+  MaskGrid::Ptr u, v, w;
 };
 
 // After extrapolation: takes the normal component out of the velocity at closed faces (those not in `valid`),
 // so that liquid slides along solids and does not enter them; all relative to the solid's own speed. Beside
 // cells active in `separating` (liquid that leaves a wall) and where no liquid touches, only motion into the
 // solid is taken out. Touches active faces only.
-void constrainToSolids(openvdb::FloatGrid& u, openvdb::FloatGrid& v, openvdb::FloatGrid& w,
-                       const openvdb::FloatGrid& phi, const SolidField& solid, const FaceMasks& valid,
-                       const openvdb::MaskGrid& separating);
+void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
+                       const SolidField& solid, const FaceMasks& valid, const MaskGrid& separating);
 
 }  // namespace fluidtex::sim

@@ -3,6 +3,7 @@
 #include "sim/advect_velocity.h"
 #include "sim/flows.h"
 #include "sim/heat.h"
+#include "sim/keep_substep.h"
 #include "sim/level_set.h"
 #include "sim/mac_grid.h"
 #include "sim/shapes.h"
@@ -42,7 +43,7 @@ class LentLiquid {
   LentLiquid(const LentLiquid&) = delete;
   LentLiquid& operator=(const LentLiquid&) = delete;
 
-  const Liquid& operator*() const { return m_liquid; }
+  Liquid& operator*() { return m_liquid; }
   // Lets go of the markers.
   void drop() {
     m_liquid.markers = {};
@@ -231,7 +232,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       return;
     }
     LentLiquid lent(m_state);
-    const Liquid& liquid = *lent;
+    Liquid& liquid = *lent;
     const double remaining = time - m_state.time;
     const double speed = maxAbs(liquid.velocity), longest = longestStep(m_options, speed, speedOf(*m_solid));
     if (longest < kShortest / m_options.frameRate) failFast(m_state.time, speed);
@@ -254,12 +255,13 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
           longestStep(m_options, speed + m_options.gravity.length() * dt, speedOf(*solid));
       next = step(liquid, *solid, dt, evenPart(after, nextLongest), m_options, &solves, m_flows->at(then));
       if (next) break;
+      liquid.markers = seedMarkers(*liquid.phi, *m_solid->phi, static_cast<std::uint64_t>(liquid.steps));
       if (halving == kMaxHalvings) fail(m_state.time, dt, solves);
       dt *= 0.5;
       last = false;
     }
-    const auto& [u, v, w] = liquid.velocity.component;
-    frame.substeps.push_back({dt, u, v, w});
+    frame.substeps.push_back(
+        keepSubstep(dt, liquid.velocity, *liquid.phi, {m_solid->phi.get(), solid->phi.get()}));
     FrameStats& stats = frame.stats;
     stats.dtMin = stats.dtMin > 0.0 ? std::min(stats.dtMin, dt) : dt;
     stats.pressureIterations += solves.pressure.iterations;
@@ -302,7 +304,9 @@ Frame Solver::next(const std::function<void(double)>& progress) {
     }
   }
   m_state.frame = frame.index;
-  frame.surfacePhi = visibleSurface(*m_state.phi, *m_solid, kSurfaceBand);
+  const auto surface = toOpenVdb(*visibleSurface(*m_state.phi, *m_solid, kSurfaceBand));
+  surface->setTransform(cellTransform(m_options.voxelSize()));
+  frame.surfacePhi = surface;
   frame.solidPhi = m_solid->phi;
   if (m_state.temperature) frame.fields["temperature"] = m_state.temperature;
   frame.stats.cells = liquidCells(*m_state.phi, *m_solid);

@@ -20,15 +20,15 @@ struct SolidField;
 
 // All that the next step needs; writing and reading it back continues bit for bit.
 struct State {
-  int frame = 0;                        // last finished frame, 0 before the first
-  double time = 0.0;                    // s
-  openvdb::FloatGrid::Ptr phi;          // liquid, narrow band, metres, negative inside
-  openvdb::FloatGrid::Ptr u, v, w;      // face velocities, m/s, of one topology; transforms as in Substep
-  openvdb::FloatGrid::Ptr au, av, aw;   // m/s2 there, by pressure and friction, in the last step; or null
-  openvdb::FloatGrid::Ptr temperature;  // K at cell centres; null where heat is not simulated
-  Markers markers;                      // on both sides of the surface
-  std::int64_t steps = 0;               // substeps so far
-  double due = 0.0;                     // m3: the volume that has been put in, less what solids took away
+  int frame = 0;               // last finished frame, 0 before the first
+  double time = 0.0;           // s
+  FloatGrid::Ptr phi;          // liquid, narrow band, metres, negative inside
+  FloatGrid::Ptr u, v, w;      // face velocities, m/s, of one topology; transforms as in Substep
+  FloatGrid::Ptr au, av, aw;   // m/s2 there, by pressure and friction, in the last step; or null
+  FloatGrid::Ptr temperature;  // K at cell centres; null where heat is not simulated
+  Markers markers;             // on both sides of the surface
+  std::int64_t steps = 0;      // substeps so far
+  double due = 0.0;            // m3: the volume that has been put in, less what solids took away
   double ahead = 0.0;  // s: u, v, w are those of so much later than `time`, the middle of the next substep
   // Bodies of Options::liquid that have been put in already, by index.
   std::vector<bool> poured;

@@ -9,8 +9,6 @@
 namespace fluidtex::sim {
 namespace {
 
-using openvdb::FloatGrid;
-
 // The first four are in every state.
 constexpr int kAlways = 4;
 constexpr std::pair<const char*, FloatGrid::Ptr State::*> kGrids[] = {
@@ -64,8 +62,7 @@ void writeState(const State& state, const std::filesystem::path& file) {
   openvdb::GridCPtrVec out;
   for (const auto& [name, member] : kGrids) {
     if (state.*member == nullptr) continue;
-    // A shallow copy: its own name and settings, the same tree.
-    const auto grid = (state.*member)->copy();
+    const auto grid = toOpenVdb(*(state.*member));
     grid->setName(name);
     grid->setSaveFloatAsHalf(false);
     out.push_back(grid);
@@ -106,9 +103,9 @@ State readState(const std::filesystem::path& file) {
     for (int n = 0; n < static_cast<int>(std::size(kGrids)); ++n) {
       const auto& [name, member] = kGrids[n];
       if (n >= kAlways && !vdb.hasGrid(name)) continue;
-      state.*member = openvdb::gridPtrCast<FloatGrid>(vdb.readGrid(name));
-      if (state.*member == nullptr)
-        throw openvdb::TypeError(std::string("grid ") + name + " is not of floats");
+      const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(vdb.readGrid(name));
+      if (grid == nullptr) throw openvdb::TypeError(std::string("grid ") + name + " is not of floats");
+      state.*member = fromOpenVdb(*grid);
     }
   } catch (const std::exception& error) {
     // A file cut short fails in many ways (no memory, unknown types); for the caller it is one.

@@ -105,9 +105,8 @@ double expansionOf(const Liquid& liquid, const SolidField& solid) {
 // Open faces whose velocity is not given. At closed ones a wall holds the liquid or lets go of it, which is
 // no force that goes on: what it did in one step, given back in the next, made jets off an edge run away.
 FaceMasks drivenFaces(const FaceMasks& valid, const SolidField& solid) {
-  const auto driven = [](const openvdb::MaskGrid::Ptr& mask, const FloatGrid::Ptr& open,
-                         const FloatGrid::Ptr& given) {
-    const openvdb::MaskGrid::Ptr free = mask->deepCopy();
+  const auto driven = [](const MaskGrid::Ptr& mask, const FloatGrid::Ptr& open, const FloatGrid::Ptr& given) {
+    const MaskGrid::Ptr free = mask->deepCopy();
     free->tree().topologyIntersection(open->constTree());
     if (given) free->tree().topologyDifference(given->constTree());
     return free;
@@ -116,15 +115,16 @@ FaceMasks drivenFaces(const FaceMasks& valid, const SolidField& solid) {
           driven(valid.w, solid.openW, solid.givenW)};
 }
 
-// viscous: whether friction is felt, so that liquid can stick to walls. arrived: the velocity before
-// friction, where the acceleration is wanted.
+// viscous: whether friction is felt, so that liquid can stick to walls. driven: whether the acceleration is
+// wanted; arrived: the velocity before friction, null grids where there was none.
 bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& options, bool viscous,
-             const Velocity* arrived, StepReport* report) {
+             bool driven, Velocity arrived, StepReport* report) {
   PressureOptions pressure;
+  pressure.keepBefore = driven && arrived.component[0] == nullptr;
   if (options.keepVolume && liquid.due > 0.0) pressure.expansion = expansionOf(liquid, solid);
   pressure.suction = 0.1 * options.density * options.gravity.length() * voxelSize(liquid);
   auto& [u, v, w] = liquid.velocity.component;
-  const Projection projection = project(*u, *v, *w, *liquid.phi, solid, dt, options.density, pressure);
+  Projection projection = project(*u, *v, *w, *liquid.phi, solid, dt, options.density, pressure);
   if (report != nullptr) report->pressure = projection.report;
   if (!projection.report.converged) return false;
   // The projection may have added faces to one component: all three have one topology again.
@@ -133,12 +133,14 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& 
   v->topologyUnion(*u);
   w->topologyUnion(*u);
   liquid.acceleration = {};
-  if (arrived != nullptr) {
+  if (driven) {
     const FaceMasks free = drivenFaces(projection.valid, solid);
-    liquid.acceleration = accelerationBy(*arrived, liquid.velocity, free, dt);
-    extrapolate(liquid.acceleration, free, *liquid.phi, *solid.phi);
+    if (pressure.keepBefore) arrived = std::move(projection.before);
+    liquid.acceleration = accelerationBy(std::move(arrived), liquid.velocity, free, dt);
+    extrapolate({{liquid.velocity, projection.valid}, {liquid.acceleration, free}}, *liquid.phi, *solid.phi);
+  } else {
+    extrapolate(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
   }
-  extrapolate(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
   balanceAirLayers(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
   constrainToSolids(*u, *v, *w, *liquid.phi, solid, projection.valid, *projection.separating);
   if (viscous) stickToWalls(liquid.velocity, solid, projection.valid);
@@ -188,18 +190,19 @@ bool isEmpty(const Liquid& liquid) {
   return liquid.phi->empty();
 }
 
-std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, double nextDt,
+std::optional<Liquid> step(Liquid& liquid, const SolidField& solid, double dt, double nextDt,
                            const Options& options, StepReport* report, const RunningFlows& flows) {
   const double kick = std::max(0.0, dt - liquid.ahead + 0.5 * nextDt);
   Liquid next{liquid.phi->deepCopy(), {}, {}, liquid.steps + 1, liquid.ahead - dt + kick, liquid.due, {}};
-  next.markers = moveSurface(*next.phi, liquid.markers, liquid.velocity, *solid.phi, dt,
-                             static_cast<std::uint64_t>(next.steps), flows);
+  next.markers = std::move(liquid.markers);
+  liquid.markers = {};
+  moveSurface(*next.phi, next.markers, liquid.velocity, *solid.phi, dt,
+              static_cast<std::uint64_t>(next.steps), flows);
   dropBeyond(next.markers, solid);
 
   next.velocity = velocityFor(*next.phi, solid);
   carryVelocity(liquid, next, dt);
   addGravity(next.velocity, options.gravity * kick);
-  const Velocity arrived = copyOf(next.velocity);
   const SolidField around = withFlows(solid, flows, *next.phi, liquid.velocity, options.gravity, dt);
   StepReport solves;
   solves.pressure.converged = true;
@@ -208,13 +211,18 @@ std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double
     solves.heatConverged = moveHeat(liquid, next, around, flows, dt, options);
     viscosity = viscosityOf(*next.temperature, options.heat.law, options.viscosity);
   }
+  const bool frictionless =
+      viscosity == nullptr && isNegligible(options.viscosity, kick, options.density, voxelSize(next));
+  Velocity arrived;
+  if (!frictionless) arrived = copyOf(next.velocity);
   if (solves.heatConverged) {
     solves.viscosity = applyViscosity(next.velocity, *next.phi, around, kick, options.density,
                                       {.constant = options.viscosity, .variable = viscosity.get()});
   }
   if (report != nullptr) *report = solves;
   if (!solves.heatConverged || !solves.viscosity.converged) return std::nullopt;
-  if (!project(next, around, dt, options, !solves.viscosity.skipped, &arrived, report)) return std::nullopt;
+  if (!project(next, around, dt, options, !solves.viscosity.skipped, true, std::move(arrived), report))
+    return std::nullopt;
   if (!anyInside(*next.phi)) {
     // What is left of the band has no surface that could renew it.
     next.phi->clear();
@@ -251,7 +259,7 @@ void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, c
 
 void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& after) {
   const float h = static_cast<float>(voxelSize(liquid));
-  openvdb::MaskGrid left;
+  MaskGrid left;
   for (const Coord& origin : wetLeaves(*liquid.phi, after.cells, 0)) {
     float beforeScratch[kLeafSize], afterScratch[kLeafSize];
     const float* was = leafValues(before.phi->constTree(), origin, beforeScratch);
@@ -313,7 +321,7 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   const double dt = 1.0 / options.frameRate;
   const bool viscous = liquid.temperature != nullptr ||
                        !isNegligible(options.viscosity, dt, options.density, voxelSize(liquid));
-  return project(liquid, around, dt, options, viscous, nullptr, report);
+  return project(liquid, around, dt, options, viscous, false, {}, report);
 }
 
 }  // namespace fluidtex::sim

@@ -43,11 +43,13 @@ struct StepReport {
   bool heatConverged = true;
 };
 
-// The liquid dt seconds later; `solid` and `flows` are those of that time. The velocity moves phi, so it
-// should be that of the middle of the step (leapfrog, second order in time): gravity takes the new one to the
-// middle of the step after, of nextDt seconds. Nothing when a solve does not converge or a velocity is
-// not finite: try a smaller dt. `report`, where given, is filled either way.
-std::optional<Liquid> step(const Liquid& liquid, const SolidField& solid, double dt, double nextDt,
+// The liquid dt seconds later; the markers of `liquid` are used up, also where nothing comes of it (there are
+// too many to keep them twice): give it others before another try. `solid` and `flows` are those of that
+// time. The velocity moves phi, so it should be that of the middle of the step (leapfrog, second order in
+// time): gravity takes the new one to the middle of the step after, of nextDt seconds. Nothing when a solve
+// does not converge or a velocity is not finite: try a smaller dt. `report`, where given, is filled either
+// way.
+std::optional<Liquid> step(Liquid& liquid, const SolidField& solid, double dt, double nextDt,
                            const Options& options, StepReport* report = nullptr,
                            const RunningFlows& flows = {});
 

@@ -82,7 +82,7 @@ void stickToWalls(Velocity& velocity, const SolidField& solid, const FaceMasks& 
   const float h = static_cast<float>(solid.voxelSize);
   const FloatGrid::Ptr open[3] = {solid.openU, solid.openV, solid.openW};
   const FloatGrid::Ptr moving[3] = {solid.speedU, solid.speedV, solid.speedW};
-  const openvdb::MaskGrid::Ptr masks[3] = {valid.u, valid.v, valid.w};
+  const MaskGrid::Ptr masks[3] = {valid.u, valid.v, valid.w};
   for (int axis = 0; axis < 3; ++axis) {
     const auto leaves = leavesOf(velocity.component[axis]->tree());
     tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {

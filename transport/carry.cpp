@@ -162,7 +162,7 @@ std::vector<Vec3f> velocityAt(const std::vector<Vec3f>& positions, const sim::Fr
 std::vector<std::uint8_t> contactAt(const std::vector<Vec3f>& positions, const sim::Frame& frame) {
   std::vector<std::uint8_t> result(positions.size(), 0);
   if (!frame.solidPhi) return result;
-  const openvdb::FloatGrid& solid = *frame.solidPhi;
+  const sim::FloatGrid& solid = *frame.solidPhi;
   const auto limit = float(0.5 * solid.voxelSize().x());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), texture::kGrain),
                     [&](const tbb::blocked_range<std::size_t>& range) {

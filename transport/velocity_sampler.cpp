@@ -17,7 +17,7 @@ constexpr std::uint64_t kSquare = 0x303;
 }  // namespace
 
 VelocitySampler::VelocitySampler(const sim::Substep& substep) {
-  const std::array<openvdb::FloatGrid::ConstPtr, 3> grids{substep.u, substep.v, substep.w};
+  const std::array<sim::FloatGrid::ConstPtr, 3> grids{substep.u, substep.v, substep.w};
   double smallest = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
     Component& component = m_components[axis];
@@ -39,8 +39,7 @@ VelocitySampler::VelocitySampler(const sim::Substep& substep) {
       smallest = std::min(smallest, 1.0 / std::abs(image[j]));
     }
     component.shift = origin;
-    component.accessor =
-        std::make_unique<openvdb::FloatGrid::ConstAccessor>(component.grid->getConstAccessor());
+    component.accessor = std::make_unique<sim::FloatGrid::ConstAccessor>(component.grid->getConstAccessor());
   }
   m_voxelSize = std::isfinite(smallest) ? smallest : 0.0;
 }

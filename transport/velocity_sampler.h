@@ -33,7 +33,7 @@ class VelocitySampler {
   }  // smallest over axes and components, metres; 0 without grids
 
  private:
-  using Leaf = openvdb::FloatTree::LeafNodeType;
+  using Leaf = sim::FloatTree::LeafNodeType;
   // The leaf that holds a position's lower corner, and its seven neighbours in the direction of the upper
   // one.
   struct Leaves {
@@ -43,8 +43,8 @@ class VelocitySampler {
     unsigned fetched = 0;  // bit i: leaf[i] has been looked up
   };
   struct Component {
-    openvdb::FloatGrid::ConstPtr grid;
-    std::unique_ptr<openvdb::FloatGrid::ConstAccessor> accessor;
+    sim::FloatGrid::ConstPtr grid;
+    std::unique_ptr<sim::FloatGrid::ConstAccessor> accessor;
     Vec3d scale{0.0}, shift{0.0};  // index = scale * x + shift
     Leaves near;
   };

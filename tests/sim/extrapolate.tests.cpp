@@ -15,7 +15,7 @@ struct Fixture {
   double h;
   FloatGrid::Ptr phi, solidPhi;
   Velocity velocity;
-  FaceMasks valid{openvdb::MaskGrid::create(), openvdb::MaskGrid::create(), openvdb::MaskGrid::create()};
+  FaceMasks valid{MaskGrid::create(), MaskGrid::create(), MaskGrid::create()};
 
   template <class Distance>
   Fixture(double voxel, int extent, const Distance& distance) : h(voxel) {
@@ -38,7 +38,7 @@ struct Fixture {
   // Sets component a to f at faces that touch liquid, and calls them valid.
   template <class F>
   void setValid(const F& f) {
-    const std::array<openvdb::MaskGrid*, 3> masks{valid.u.get(), valid.v.get(), valid.w.get()};
+    const std::array<MaskGrid*, 3> masks{valid.u.get(), valid.v.get(), valid.w.get()};
     for (int a = 0; a < 3; ++a) {
       FloatGrid& grid = *velocity.component[a];
       for (auto it = grid.beginValueOn(); it; ++it) {
@@ -148,7 +148,7 @@ TEST_CASE("air layers: beyond a spreading ball the velocity is free of divergenc
   CHECK(std::abs(meanAt(0.0, 1.0)) < 0.1 * near);
   // Some of these lie three cells from the liquid.
   CHECK(std::abs(meanAt(1.0, 1.6)) < 0.7 * second);
-  const std::array<openvdb::MaskGrid*, 3> masks{f.valid.u.get(), f.valid.v.get(), f.valid.w.get()};
+  const std::array<MaskGrid*, 3> masks{f.valid.u.get(), f.valid.v.get(), f.valid.w.get()};
   bool same = true;
   for (int a = 0; a < 3; ++a) {
     for (auto it = masks[a]->cbeginValueOn(); it; ++it)
@@ -186,7 +186,7 @@ TEST_CASE("air layers: what is linear in the liquid goes on linearly in the firs
   f.setValid(linear);
   extrapolate(f.velocity, f.valid, *f.phi, *f.solidPhi);
   extendLinearly(f.velocity, *f.phi);
-  const std::array<openvdb::MaskGrid*, 3> masks{f.valid.u.get(), f.valid.v.get(), f.valid.w.get()};
+  const std::array<MaskGrid*, 3> masks{f.valid.u.get(), f.valid.v.get(), f.valid.w.get()};
   double worst = 0.0;
   int checked = 0;
   for (int a = 0; a < 3; ++a) {

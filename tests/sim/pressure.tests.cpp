@@ -74,7 +74,7 @@ struct Scene {
   }
 
   // Largest sum of open area times outward velocity over the liquid's cells, leaving out those in `except`.
-  double largestDivergence(const openvdb::MaskGrid& except) const {
+  double largestDivergence(const MaskGrid& except) const {
     double largest = 0.0;
     for (auto it = phi->cbeginValueOn(); it; ++it) {
       const Coord c = it.getCoord();
@@ -94,7 +94,7 @@ struct Scene {
   // Largest speed on the faces that the projection answers for.
   double largestSpeed(const FaceMasks& valid) const {
     double largest = 0.0;
-    const openvdb::MaskGrid* masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
+    const MaskGrid* masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
     for (int a = 0; a < 3; ++a) {
       for (auto it = masks[a]->cbeginValueOn(); it; ++it) {
         largest = std::max(largest, std::abs(double(velocity.component[a]->tree().getValue(it.getCoord()))));

@@ -180,10 +180,9 @@ TEST_CASE("constrain: closed faces keep the motion along the solid only", "[sim]
   const auto field = solids.at(0.0);
   auto phi = makePhi(h, 3 * h);
   phi->tree().fill(openvdb::CoordBBox(Coord(-3), Coord(n + 2)), static_cast<float>(-h), true);
-  openvdb::MaskGrid::Ptr nobody = openvdb::MaskGrid::create();
-  const FaceMasks valid{openvdb::MaskGrid::create(), openvdb::MaskGrid::create(),
-                        openvdb::MaskGrid::create()};
-  const auto speedInto = [&](double sign, const openvdb::MaskGrid& separating) {
+  MaskGrid::Ptr nobody = MaskGrid::create();
+  const FaceMasks valid{MaskGrid::create(), MaskGrid::create(), MaskGrid::create()};
+  const auto speedInto = [&](double sign, const MaskGrid& separating) {
     std::array<FloatGrid::Ptr, 3> c;
     const Vec3d velocity =
         Vec3d(1.0, 0.5, std::tan(angle)) + sign * normal;  // along the slope, and into or off it
@@ -202,7 +201,7 @@ TEST_CASE("constrain: closed faces keep the motion along the solid only", "[sim]
   };
   CHECK_THAT(speedInto(-1.0, *nobody).z(), WithinAbs(std::tan(angle), 0.02));
   CHECK_THAT(speedInto(1.0, *nobody).z(), WithinAbs(std::tan(angle), 0.02));
-  openvdb::MaskGrid::Ptr everybody = openvdb::MaskGrid::create();
+  MaskGrid::Ptr everybody = MaskGrid::create();
   everybody->tree().fill(openvdb::CoordBBox(Coord(-3), Coord(n + 2)), true, true);
   CHECK_THAT(speedInto(-1.0, *everybody).z(), WithinAbs(std::tan(angle), 0.02));
   CHECK_THAT(speedInto(1.0, *everybody).z(), WithinAbs(std::tan(angle) + normal.z(), 1e-6));  // it may leave

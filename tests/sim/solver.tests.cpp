@@ -30,7 +30,8 @@ Velocity velocityOf(const State& state) {
 }
 
 // Same topology, same values, bit for bit.
-bool same(const FloatGrid& a, const FloatGrid& b) {
+template <typename Grid>
+bool same(const Grid& a, const Grid& b) {
   if (!a.tree().hasSameTopology(b.tree()) || a.transform() != b.transform()) return false;
   const auto leavesA = a.tree().leafCount(), leavesB = b.tree().leafCount();
   if (leavesA != leavesB) return false;
@@ -219,7 +220,7 @@ TEST_CASE("solver: substeps are the motion of phi, and fill the frame") {
 TEST_CASE("solver: the surface is closed at walls and a distance around itself") {
   Solver solver(tank(24, {box(Vec3d(0.0), Vec3d(0.4, 1.0, 0.5))}));
   const Frame frame = solver.next();
-  const FloatGrid& phi = *frame.surfacePhi;
+  const openvdb::FloatGrid& phi = *frame.surfacePhi;
   const double h = phi.voxelSize()[0];
   CHECK(phi.background() >= 4.0 * h);
   int wrong = 0, flat = 0;

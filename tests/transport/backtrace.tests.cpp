@@ -98,7 +98,7 @@ TEST_CASE("velocity sampler: what is inactive is unknown", "[transport]") {
 TEST_CASE("velocity sampler: constant tiles are read like leaves", "[transport]") {
   sim::Substep step;
   for (auto* grid : {&step.u, &step.v, &step.w}) {
-    auto filled = openvdb::FloatGrid::create(0.0f);
+    auto filled = sim::FloatGrid::create(0.0f);
     filled->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
     filled->fill(openvdb::CoordBBox(openvdb::Coord(-64), openvdb::Coord(63)), 4.0f, true);
     REQUIRE(filled->tree().leafCount() == 0);
@@ -113,7 +113,7 @@ TEST_CASE("velocity sampler: constant tiles are read like leaves", "[transport]"
 
 TEST_CASE("velocity sampler: transforms that turn are refused", "[transport]") {
   sim::Substep step = substep({0.1, -2, 2}, 1.0, [](const Vec3d&) { return Vec3d(1.0); });
-  auto turned = openvdb::FloatGrid::create(0.0f);
+  auto turned = sim::FloatGrid::create(0.0f);
   auto transform = openvdb::math::Transform::createLinearTransform(0.1);
   transform->postRotate(0.3, openvdb::math::Z_AXIS);
   turned->setTransform(transform);

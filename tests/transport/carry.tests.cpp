@@ -98,7 +98,7 @@ TEST_CASE("velocity and contact at positions", "[transport]") {
 
   CHECK(contactAt(points, frame) == std::vector<std::uint8_t>{0, 0});
   // A floor below z = 0, voxels of 0.1 m.
-  auto solid = openvdb::FloatGrid::create(0.3f);
+  auto solid = sim::FloatGrid::create(0.3f);
   solid->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
   auto accessor = solid->getAccessor();
   for (int i = -20; i < 20; ++i) {

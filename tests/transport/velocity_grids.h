@@ -24,8 +24,8 @@ struct Cells {
   int lower = -12, upper = 12;
 };
 
-inline openvdb::FloatGrid::Ptr componentGrid(const Cells& cells, int axis, const Flow& flow) {
-  auto grid = openvdb::FloatGrid::create(0.0f);
+inline sim::FloatGrid::Ptr componentGrid(const Cells& cells, int axis, const Flow& flow) {
+  auto grid = sim::FloatGrid::create(0.0f);
   auto transform = openvdb::math::Transform::createLinearTransform(cells.h);
   Vec3d shift(0.0);
   shift[axis] = -0.5 * cells.h;

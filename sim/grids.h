@@ -1,0 +1,24 @@
+// The solver's grids: as OpenVDB's own, in blocks of 8 x 8 x 8 values, but with small nodes above the blocks.
+// OpenVDB's FloatGrid costs 2.4 MB before it holds a value, since a tree with indices on both sides of 0
+// needs eight nodes of 262 kB; a solver that keeps forty grids has no use for boxes of 4096 cells.
+#pragma once
+
+#include <openvdb/openvdb.h>
+
+namespace fluidtex::sim {
+
+// Nodes of 256 and of 32 cells a side, 4 and 0.6 kB.
+template <typename Value>
+using TreeOf = typename openvdb::tree::Tree4<Value, 3, 2, 3>::Type;
+
+using FloatTree = TreeOf<float>;
+using FloatGrid = openvdb::Grid<FloatTree>;
+using MaskTree = TreeOf<openvdb::ValueMask>;
+using MaskGrid = openvdb::Grid<MaskTree>;
+
+// The same grid as other programs know it, and back: every value and every active state, also those of tiles,
+// transform, name and other metadata. Tiles are as large as they can be.
+openvdb::FloatGrid::Ptr toOpenVdb(const FloatGrid& grid);
+FloatGrid::Ptr fromOpenVdb(const openvdb::FloatGrid& grid);
+
+}  // namespace fluidtex::sim

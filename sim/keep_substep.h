@@ -1,0 +1,18 @@
+// What a frame keeps of a step: the velocity where the surface can have been.
+#pragma once
+
+#include "sim/frame.h"
+#include "sim/mac_grid.h"
+
+#include <vector>
+
+namespace fluidtex::sim {
+
+// The substep of a velocity, in the leaves of phi's band and of the surfaces of solids: whoever follows the
+// surface, which runs along solids too, never leaves them. The liquid's inside is left out. phi: before the
+// step; its band is wider than a step is long. solids: distances (metres) before and after the step. The
+// velocity's own grids where nothing is left out.
+Substep keepSubstep(double dt, const Velocity& velocity, const FloatGrid& phi,
+                    const std::vector<const FloatGrid*>& solids);
+
+}  // namespace fluidtex::sim
