@@ -35,6 +35,7 @@ void describeMotion(Visitor& visitor, sim::Options& sim) {
   visitor.table("fluid", [&] {
     visitor.number("density", sim.density, kPositive);
     visitor.number("viscosity", sim.viscosity, kNotNegative);
+    visitor.number("surface_tension", sim.surfaceTension, kNotNegative);
     visitor.vector("gravity", sim.gravity, kAny);
   });
   visitor.table("heat", [&] {

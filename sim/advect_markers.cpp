@@ -29,8 +29,11 @@ Coord neighborShift(int number) {
 // Which way a coordinate has left [0, 8), and brings it back.
 int wrap(float& x) {
   if (x < 0.0f) {
+    if (x + kLeafDim >= float(kLeafDim)) {  // by rounding: it stays
+      x = 0.0f;
+      return 0;
+    }
     x += kLeafDim;
-    if (x >= float(kLeafDim)) x = 0.0f;  // rounding
     return -1;
   }
   if (x >= float(kLeafDim)) {

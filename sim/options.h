@@ -172,8 +172,9 @@ struct Options {
   std::array<Side, 6> sides{};
   int resolution = 64;  // cells along the longest side
   Vec3d gravity{0.0, 0.0, -9.81};
-  double density = 1000.0;   // kg/m3
-  double viscosity = 0.001;  // Pa s
+  double density = 1000.0;      // kg/m3
+  double viscosity = 0.001;     // Pa s
+  double surfaceTension = 0.0;  // N/m, of water 0.072
   HeatOptions heat;
   std::vector<DomainWall> walls;  // what differs from a wall that slips; of several for one face, the last
   double cfl = 3.0;               // a substep moves nothing further than this many cells

@@ -8,6 +8,7 @@
 #include "sim/mac_grid.h"
 #include "sim/poisson.h"
 #include "sim/pressure_system.h"
+#include "sim/surface_pressure.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -44,17 +45,44 @@ bool shutEdges(LiquidCells& liquid, const std::vector<double>& q) {
   return any;
 }
 
+// Takes a guess at the pressure out of the unknowns x and the right-hand side b; not in parts that are
+// enclosed. Differences are formed before they are weighted: beside a surface close to a cell's centre
+// weights are large.
+void takeOut(const LiquidCells& liquid, const SurfacePressure& surface, const std::vector<double>& guess,
+             const std::vector<char>& enclosed, const PoissonSystem& system, const std::vector<int>& liquidOf,
+             std::vector<double>& b, std::vector<double>& x) {
+  const int n = static_cast<int>(b.size());
+  tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
+    for (int i = range.begin(); i < range.end(); ++i) {
+      const int number = liquidOf[i];
+      if (enclosed[number]) continue;
+      const LiquidCell& cell = liquid.cells[number];
+      x[i] -= guess[number];
+      for (int s = 0; s < kSides; ++s) {
+        const int neighbor = system.rows.neighbor[i][s];
+        if (neighbor < n) {
+          b[i] -= system.rows.link[i][s] * (guess[number] - guess[liquidOf[neighbor]]);
+        } else if (cell.open[s] > 0.0f) {
+          const double weight = cell.open[s] / (cell.theta[s] > 0.0f ? double(cell.theta[s]) : 1.0);
+          b[i] -= weight * (guess[number] - surface.at(number, s));
+        }
+      }
+    }
+  });
+}
+
 // What flows out of a cell's open faces once the pressure has acted.
-double projectedOutflow(const LiquidCells& liquid, const std::vector<double>& q, int number) {
+double projectedOutflow(const LiquidCells& liquid, const SurfacePressure& surface,
+                        const std::vector<double>& q, int number) {
   const LiquidCell& cell = liquid.cells[number];
   const Coord& place = liquid.numbering.cells()[number];
   double outflow = cell.outflow;
   for (int s = 0; s < kSides; ++s) {
     if (cell.open[s] <= 0.0f) continue;
-    const bool surface = cell.theta[s] > 0.0f;
-    const int neighbor = surface ? -1 : liquid.numbering.at(neighborOf(place, s));
-    const double step = (neighbor < 0 ? 0.0 : q[neighbor]) - q[number];
-    outflow -= cell.open[s] * (surface ? step / cell.theta[s] : step);
+    const bool ends = cell.theta[s] > 0.0f;
+    const int neighbor = ends ? -1 : liquid.numbering.at(neighborOf(place, s));
+    const double step = (neighbor < 0 ? surface.at(number, s) : q[neighbor]) - q[number];
+    outflow -= cell.open[s] * (ends ? step / cell.theta[s] : step);
   }
   return outflow;
 }
@@ -62,7 +90,7 @@ double projectedOutflow(const LiquidCells& liquid, const std::vector<double>& q,
 // One step of the active set method: cells at solids that let go of them, or are pressed back. True if any
 // changed. What a cell can suck is held back by its own surface: of a drop of one cell only a share of
 // `suction`, which is that of a cell with a column of liquid below it; less than `rounding` is none.
-bool updateDetached(const LiquidCells& liquid, const std::vector<double>& q,
+bool updateDetached(const LiquidCells& liquid, const SurfacePressure& surface, const std::vector<double>& q,
                     const std::vector<char>& enclosed, double suction, double rounding,
                     std::vector<char>& detached) {
   const int n = liquid.numbering.size();
@@ -75,7 +103,7 @@ bool updateDetached(const LiquidCells& liquid, const std::vector<double>& q,
       for (int s = 0; s < kSides; ++s) {
         if (cell.theta[s] > 0.0f) anchored += cell.open[s] / cell.theta[s];
       }
-      changed[i] = detached[i] ? projectedOutflow(liquid, q, i) < 0.0
+      changed[i] = detached[i] ? projectedOutflow(liquid, surface, q, i) < 0.0
                                : q[i] < -std::max(suction / anchored, rounding) && !enclosed[i];
     }
   });
@@ -114,8 +142,9 @@ const int* blockNumbers(const CellNumbering& numbering, const Coord& origin) {
 }
 
 // Subtracts the pressure's gradient on the faces normal to `axis`, and writes what is given there.
-MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SolidField& solid, const std::vector<double>& q,
-                          const std::vector<char>& detached, int axis, FloatGrid& grid) {
+MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surface, const SolidField& solid,
+                          const std::vector<double>& q, const std::vector<char>& detached, int axis,
+                          FloatGrid& grid) {
   const FloatGrid* const solidSpeed =
       std::array{solid.speedU.get(), solid.speedV.get(), solid.speedW.get()}[axis];
   const FloatGrid* const given = std::array{solid.givenU.get(), solid.givenV.get(), solid.givenW.get()}[axis];
@@ -144,7 +173,8 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SolidField& solid, co
         const LiquidCell& cell = liquid.cells[upper >= 0 ? upper : lower];
         const int side = 2 * axis + (upper >= 0 ? 0 : 1);
         if (cell.open[side] > 0.0f) {
-          const double step = (upper < 0 ? 0.0 : q[upper]) - (lower < 0 ? 0.0 : q[lower]);
+          const double step = (upper < 0 ? surface.at(lower, side) : q[upper]) -
+                              (lower < 0 ? surface.at(upper, side) : q[lower]);
           const double change = cell.theta[side] > 0.0f ? step / cell.theta[side] : step;
           leaf.setValueOn(c, static_cast<float>(leaf.getValue(c) - change));
           masks[n]->setValueOn(c);
@@ -164,7 +194,7 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SolidField& solid, co
           const double relative = leaf.getValue(c) - push;
           const double ready = std::max(0.0, solidBelow ? relative : -relative);
           const double share = leaving > 0.0f ? ready / leaving : 1.0 / closed;
-          away = std::max(0.0, projectedOutflow(liquid, q, wet)) * share;
+          away = std::max(0.0, projectedOutflow(liquid, surface, q, wet)) * share;
         }
         leaf.setValueOn(c, static_cast<float>(push + (solidBelow ? away : -away)));
         masks[n]->setValueOn(c);
@@ -192,6 +222,11 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   }
   const double pascal = density * solid.voxelSize / dt;  // of one unit of q
 
+  const SurfacePressure surface = options.surfaceTension > 0.0
+                                      ? SurfacePressure(liquid, phi, options.surfaceTension / pascal)
+                                      : SurfacePressure();
+  const std::vector<double> guess = surface.none() ? std::vector<double>() : guessedPressure(liquid, surface);
+
   Projection result;
   PressureReport& report = result.report;
   report.cells = n;
@@ -212,6 +247,10 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
       x[i] = q[liquidOf[i]];
     }
     q = {};
+    if (!surface.none()) {
+      // Solved for what is left beside the guess.
+      takeOut(liquid, surface, guess, enclosed, system, liquidOf, b, x);
+    }
     const PoissonReport solved =
         solvePoisson(system, singular, std::move(b), x, options.tolerance, options.maxIterations);
     report.iterations += solved.iterations;
@@ -221,22 +260,23 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
     q.assign(n, 0.0);
     double largest = 0.0;
     for (std::size_t i = 0; i < liquidOf.size(); ++i) {
-      q[liquidOf[i]] = x[i];
+      q[liquidOf[i]] = surface.none() || enclosed[liquidOf[i]] ? x[i] : x[i] + guess[liquidOf[i]];
       largest = std::max(largest, std::abs(x[i]));
     }
     if (pass >= options.maxSeparationPasses || !solved.converged) break;
     std::vector<char> next = detached;
     const bool shut = shutEdges(liquid, q);
-    if (!updateDetached(liquid, q, enclosed, options.suction / pascal, kSuctionNoise * largest, next) &&
+    if (!updateDetached(liquid, surface, q, enclosed, options.suction / pascal, kSuctionNoise * largest,
+                        next) &&
         !shut)
       break;
     detached = std::move(next);
   }
 
   if (options.keepBefore) result.before = {{u.deepCopy(), v.deepCopy(), w.deepCopy()}};
-  result.valid.u = updateFaces(liquid, solid, q, detached, 0, u);
-  result.valid.v = updateFaces(liquid, solid, q, detached, 1, v);
-  result.valid.w = updateFaces(liquid, solid, q, detached, 2, w);
+  result.valid.u = updateFaces(liquid, surface, solid, q, detached, 0, u);
+  result.valid.v = updateFaces(liquid, surface, solid, q, detached, 1, v);
+  result.valid.w = updateFaces(liquid, surface, solid, q, detached, 2, w);
   result.separating = MaskGrid::create();
   result.separating->setTransform(cellTransform(solid.voxelSize));
   for (int i = 0; i < n; ++i) {

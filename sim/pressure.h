@@ -20,6 +20,8 @@ struct PressureOptions {
   // Share of its volume by which the liquid grows each second (1/s): its divergence is that instead of 0. Not
   // where it is enclosed on all sides.
   double expansion = 0.0;
+  // N/m: the pressure at the surface is that times its curvature, and not 0 (Young and Laplace).
+  double surfaceTension = 0.0;
   bool keepPressure = false;  // fill Projection::pressure
   bool keepBefore = false;    // fill Projection::before
 };
@@ -47,14 +49,14 @@ struct Projection {
 
 // Projects u, v, w (m/s) onto fields free of divergence in the liquid (cells with phi < 0 that have an open
 // face). phi in metres, at cell centres, of the index space of solid.phi; it must be valid one cell around
-// the liquid, inside solids too. Pressure is 0 at the surface, whose place between two cell centres is taken
-// from phi (second order); solids are walls without friction, known by their open face areas and their speed,
-// and liquid may leave them (see PressureOptions). On an open side of the domain pressure is 0, and nothing
-// comes in. Faces with a given velocity get it, whatever the pressure. dt in s, density in kg/m3. Faces are
-// written, and made active, where Projection::valid says; the rest stays as it was. The same bytes on any
-// number of threads. Does not throw when it fails to converge: the report says so. Sources: Gibou, Fedkiw,
-// Cheng, Kang 2002 (surface); Ng, Min, Gibou 2009 (solids); Batty, Bertails, Bridson 2007, section 5
-// (separation).
+// the liquid, inside solids too. Pressure is 0 at the surface (see PressureOptions::surfaceTension), whose
+// place between two cell centres is taken from phi (second order); solids are walls without friction, known
+// by their open face areas and their speed, and liquid may leave them (see PressureOptions). On an open side
+// of the domain pressure is 0, and nothing comes in. Faces with a given velocity get it, whatever the
+// pressure. dt in s, density in kg/m3. Faces are written, and made active, where Projection::valid says; the
+// rest stays as it was. The same bytes on any number of threads. Does not throw when it fails to converge:
+// the report says so. Sources: Gibou, Fedkiw, Cheng, Kang 2002 (surface); Ng, Min, Gibou 2009 (solids);
+// Batty, Bertails, Bridson 2007, section 5 (separation).
 [[nodiscard]] Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
                                  const SolidField& solid, double dt, double density,
                                  const PressureOptions& options = {});

@@ -92,14 +92,14 @@ double frameTime(const Options& options, int frame) {
 
 // The longest step the CFL number allows; `solids` is their speed, and they move by at most one cell. The
 // second term stands for what gravity adds within one cell, so that liquid at rest does not take a step of
-// any length [Bridson, Fluid Simulation for Computer Graphics, sec. 3.3].
+// any length [Bridson, Fluid Simulation for Computer Graphics, sec. 3.3]. Ripples must not grow either.
 double longestStep(const Options& options, double fastest, double solids) {
   const double h = options.voxelSize();
   const double speed = fastest + std::sqrt(options.gravity.length() * h);
   const double frame = 1.0 / options.frameRate;
   const double longest =
       speed > 0.0 ? std::min(frame, std::min(options.cfl, kMaxTrace - 1.0) * h / speed) : frame;
-  return solids > 0.0 ? std::min(longest, h / solids) : longest;
+  return std::min({longest, solids > 0.0 ? h / solids : longest, capillaryStep(options)});
 }
 
 // The longest even part of `time` that is no longer than `longest`.
@@ -113,6 +113,15 @@ double speedOf(const SolidField& solid) {
 
 // Substeps shorter than this share of a frame lead nowhere.
 constexpr double kShortest = 1e-5;
+
+[[noreturn]] void failRippling(double time) {
+  std::ostringstream message;
+  message << "the simulation cannot go on at time " << time << " s: surface tension would take over "
+          << 1.0 / kShortest
+          << " substeps to a frame on cells of this size; give a coarser domain.resolution, less "
+             "fluid.surface_tension or more frames a second";
+  throw SolverError(message.str());
+}
 
 [[noreturn]] void failFast(double time, double speed) {
   std::ostringstream message;
@@ -235,6 +244,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     Liquid& liquid = *lent;
     const double remaining = time - m_state.time;
     const double speed = maxAbs(liquid.velocity), longest = longestStep(m_options, speed, speedOf(*m_solid));
+    if (capillaryStep(m_options) < kShortest / m_options.frameRate) failRippling(m_state.time);
     if (longest < kShortest / m_options.frameRate) failFast(m_state.time, speed);
     // The velocity is that of the middle of a step of this length.
     const double planned = 2.0 * liquid.ahead;

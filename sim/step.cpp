@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace fluidtex::sim {
 namespace {
@@ -115,14 +116,20 @@ FaceMasks drivenFaces(const FaceMasks& valid, const SolidField& solid) {
           driven(valid.w, solid.openW, solid.givenW)};
 }
 
-// viscous: whether friction is felt, so that liquid can stick to walls. driven: whether the acceleration is
-// wanted; arrived: the velocity before friction, null grids where there was none.
-bool project(Liquid& liquid, const SolidField& solid, double dt, const Options& options, bool viscous,
-             bool driven, Velocity arrived, StepReport* report) {
+// kick: how long forces act, in seconds. viscous: whether friction is felt, so that liquid can stick to
+// walls. driven: whether the acceleration is wanted; arrived: the velocity before friction, null grids where
+// there was none.
+bool project(Liquid& liquid, const SolidField& solid, double dt, double kick, const Options& options,
+             bool viscous, bool driven, Velocity arrived, StepReport* report) {
   PressureOptions pressure;
   pressure.keepBefore = driven && arrived.component[0] == nullptr;
   if (options.keepVolume && liquid.due > 0.0) pressure.expansion = expansionOf(liquid, solid);
   pressure.suction = 0.1 * options.density * options.gravity.length() * voxelSize(liquid);
+  if (options.surfaceTension > 0.0) {
+    // Air must open a bubble of a cell's size to get behind the liquid.
+    pressure.suction += 2.0 * options.surfaceTension / voxelSize(liquid);
+    pressure.surfaceTension = options.surfaceTension * kick / dt;
+  }
   auto& [u, v, w] = liquid.velocity.component;
   Projection projection = project(*u, *v, *w, *liquid.phi, solid, dt, options.density, pressure);
   if (report != nullptr) report->pressure = projection.report;
@@ -186,6 +193,12 @@ int bandWidth(double cfl) {
   return std::max(6, static_cast<int>(std::ceil(std::min(cfl, kMaxTrace))) + 4);
 }
 
+double capillaryStep(const Options& options) {
+  if (!(options.surfaceTension > 0.0)) return kForever;
+  const double h = options.voxelSize();
+  return std::sqrt(options.density * h * h * h / (4.0 * std::numbers::pi * options.surfaceTension));
+}
+
 bool isEmpty(const Liquid& liquid) {
   return liquid.phi->empty();
 }
@@ -221,7 +234,7 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& solid, double dt, d
   }
   if (report != nullptr) *report = solves;
   if (!solves.heatConverged || !solves.viscosity.converged) return std::nullopt;
-  if (!project(next, around, dt, options, !solves.viscosity.skipped, true, std::move(arrived), report))
+  if (!project(next, around, dt, kick, options, !solves.viscosity.skipped, true, std::move(arrived), report))
     return std::nullopt;
   if (!anyInside(*next.phi)) {
     // What is left of the band has no surface that could renew it.
@@ -321,7 +334,7 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   const double dt = 1.0 / options.frameRate;
   const bool viscous = liquid.temperature != nullptr ||
                        !isNegligible(options.viscosity, dt, options.density, voxelSize(liquid));
-  return project(liquid, around, dt, options, viscous, false, {}, report);
+  return project(liquid, around, dt, kick, options, viscous, false, {}, report);
 }
 
 }  // namespace fluidtex::sim

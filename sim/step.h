@@ -34,6 +34,11 @@ struct Liquid {
 // Half the width of phi's band in voxels, for steps of at most `cfl` cells.
 int bandWidth(double cfl);
 
+// The longest step in which the shortest wave of surface tension that the grid holds cannot grow, s; infinite
+// without surface tension. Brackbill, Kothe, Zemach, "A continuum method for modeling surface tension", 1992,
+// eq. 61, with no liquid on the other side.
+double capillaryStep(const Options& options);
+
 // Whether there is any.
 bool isEmpty(const Liquid& liquid);
 

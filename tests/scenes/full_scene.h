@@ -48,6 +48,7 @@ z_high = "stream"
 [fluid]
 density = 900
 viscosity = 0.5
+surface_tension = 0.07
 gravity = [1, 0, -3]
 [heat]
 simulate = true

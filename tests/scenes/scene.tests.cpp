@@ -66,6 +66,7 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(sim.resolution == 48);
   CHECK(sim.density == 900.0);
   CHECK(sim.viscosity == 0.5);
+  CHECK(sim.surfaceTension == 0.07);
   CHECK(sim.gravity == sim::Vec3d(1, 0, -3));
   CHECK(sim.cfl == 1.5);
   CHECK(sim.wallOf(0).kind == sim::WallKind::noSlip);

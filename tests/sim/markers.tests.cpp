@@ -134,6 +134,16 @@ TEST_CASE("markers: move with the flow, over the edges of blocks too") {
   CHECK(worst < 3.1);
 }
 
+TEST_CASE("markers: one that leaves its block by less than rounding stays where it is") {
+  const Velocity slow = flow([](const Vec3d&) { return Vec3d(-1e-9, 0.0, 0.0); });
+  Markers markers{{Coord(8, 8, 8), {Marker{0.0f, 4.3f, 0.5f, 0.5f}}}};
+  const Vec3d before = worldOf(markers[0], markers[0].markers[0]);
+  markers = advectMarkers(markers, slow, 1.0);
+  REQUIRE(countOf(markers) == 1);
+  CHECK((worldOf(markers[0], markers[0].markers[0]) - before).length() < 1e-6);
+  CHECK(markers[0].markers[0].x < 8.0f);
+}
+
 TEST_CASE("markers: those of the air go where liquid meets liquid") {
   const auto phi = phiOf(ball);
   const Markers before = seedMarkers(*phi, *noSolid(), 1);

@@ -10,6 +10,7 @@
 #include "tests/validation/shallow_cases.h"
 #include "tests/validation/spread_cases.h"
 #include "tests/validation/stream_cases.h"
+#include "tests/validation/tension_cases.h"
 #include "tests/validation/viscous_cases.h"
 #include "tests/validation/wave_cases.h"
 
@@ -27,7 +28,7 @@ const std::vector<Case>& cases() {
     std::vector<Case> list;
     for (auto* part :
          {levelSetCases, reinitCases, pressureCases, waveCases, restCases, damBreakCases, marinCases,
-          streamCases, shallowCases, shearCases, viscousFlowCases, filmCases, spreadCases}) {
+          streamCases, shallowCases, shearCases, viscousFlowCases, filmCases, spreadCases, tensionCases}) {
       for (Case& c : part()) list.push_back(std::move(c));
     }
     return list;

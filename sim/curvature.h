@@ -1,0 +1,25 @@
+// How the liquid's surface bends.
+#pragma once
+
+#include "sim/mac_grid.h"
+
+namespace fluidtex::sim {
+
+// Curvature of the liquid's surface at cells of which one of the six neighbours lies on its other side: the
+// sum of the two principal curvatures at the surface's nearest point, 1/m, 2 / radius for a drop (positive)
+// or a bubble (negative). Of second order where the surface is smooth on the grid; at most 1 / h, that of a
+// drop of two cells' radius. Active where phi bends smoothly around the cell; in the middle of films and gaps
+// and at corners a value is there, but it is not active. phi: metres, a distance two cells around the
+// surface.
+//
+// Source: Kang, Fedkiw, Liu, "A boundary condition capturing method for multiphase incompressible flow",
+// 2000, section 3; Gaussian curvature, to go from the level of phi at the cell to the surface: Goldman,
+// "Curvature formulas for implicit curves and surfaces", 2005.
+FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi);
+
+// Between two neighbouring cells on both sides of the surface, which lies a share `theta` of a cell from the
+// first. A value that is not active yields to one that is.
+double curvatureBetween(const openvdb::tree::ValueAccessor<const FloatTree>& curvature, const Coord& from,
+                        const Coord& to, float theta);
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,77 @@
+#include "sim/surface_pressure.h"
+
+#include "sim/curvature.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace fluidtex::sim {
+
+namespace {
+
+using Range = tbb::blocked_range<int>;
+
+// Whether the cell's side is the liquid's own surface, and no open side of the domain.
+bool meetsAir(const LiquidCells& liquid, const LiquidCell& cell, const Coord& place, int side) {
+  if (cell.theta[side] <= 0.0f) return false;
+  const Coord beside = neighborOf(place, side);
+  const Coord& extent = liquid.numbering.extent();
+  for (int a = 0; a < 3; ++a)
+    if (beside[a] < 0 || beside[a] >= extent[a]) return false;
+  return true;
+}
+
+}  // namespace
+
+SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi, double scale)
+    : m_row(liquid.cells.size(), -1) {
+  std::vector<int> cells;
+  for (int i = 0; i < static_cast<int>(m_row.size()); ++i) {
+    const Coord& place = liquid.numbering.cells()[i];
+    bool any = false;
+    for (int s = 0; s < kSides; ++s) any = any || meetsAir(liquid, liquid.cells[i], place, s);
+    if (!any) continue;
+    m_row[i] = static_cast<int>(cells.size());
+    cells.push_back(i);
+  }
+  m_value.resize(cells.size());
+  const FloatGrid::Ptr curvature = surfaceCurvature(phi);
+  tbb::parallel_for(Range(0, static_cast<int>(cells.size()), 1024), [&](const Range& range) {
+    const openvdb::tree::ValueAccessor<const FloatTree> bend(curvature->constTree());
+    for (int n = range.begin(); n < range.end(); ++n) {
+      const LiquidCell& cell = liquid.cells[cells[n]];
+      const Coord& place = liquid.numbering.cells()[cells[n]];
+      for (int s = 0; s < kSides; ++s) {
+        if (!meetsAir(liquid, cell, place, s)) continue;
+        m_value[n][s] = scale * curvatureBetween(bend, place, neighborOf(place, s), cell.theta[s]);
+      }
+    }
+  });
+}
+
+std::vector<double> guessedPressure(const LiquidCells& liquid, const SurfacePressure& surface) {
+  const std::size_t n = liquid.cells.size();
+  std::vector<double> guess(n, 0.0);
+  std::vector<char> known(n, 0);
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const LiquidCell& cell = liquid.cells[i];
+    double total = 0.0, weights = 0.0;
+    for (int s = 0; s < kSides; ++s) {
+      if (cell.theta[s] <= 0.0f) continue;
+      const double weight = cell.open[s] / cell.theta[s];
+      total += weight * surface.at(static_cast<int>(i), s);
+      weights += weight;
+    }
+    if (weights <= 0.0) continue;
+    guess[i] = total / weights;
+    known[i] = 1;
+    sum += guess[i];
+    count += 1.0;
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    if (known[i] == 0 && count > 0.0) guess[i] = sum / count;
+  return guess;
+}
+
+}  // namespace fluidtex::sim
