@@ -132,6 +132,37 @@ TEST_CASE("level set: a translated ball keeps its volume and place") {
   CHECK(f.distanceError(1.0, ball(Vec3d(0.65, 0.6, 0.55), 0.15)) < 0.1 * f.h);
 }
 
+TEST_CASE("level set: a long way at once is gone in steps that the trace can take") {
+  Fixture f(1.0 / 64, Coord(64), ball(Vec3d(0.3, 0.5, 0.5), 0.15));
+  const Velocity velocity = f.velocity([](const Vec3d&) { return Vec3d(12.5 / 64, 0.0, 0.0); });
+  const double before = f.volume();
+  f.advance(velocity, 1.0);
+  CHECK(std::abs(f.volume() / before - 1.0) < 1e-3);
+  CHECK(f.distanceError(1.0, ball(Vec3d(0.3 + 12.5 / 64, 0.5, 0.5), 0.15)) < 0.03 * f.h);
+}
+
+TEST_CASE("level set: cells deep in a solid are left as they are") {
+  Fixture f(1.0 / 32, Coord(32), ball(Vec3d(0.5), 0.3));
+  // Solid below z = 0.5.
+  for (FloatLeaf* leaf : leavesOf(f.phi->tree())) {
+    FloatLeaf* solid = f.noSolid->tree().touchLeaf(leaf->origin());
+    for (int i = 0; i < kLeafSize; ++i) {
+      const double z = f.phi->indexToWorld(solid->offsetToGlobalCoord(i)).z();
+      solid->setValueOn(i, static_cast<float>(std::clamp(z - 0.5, -3.0 * f.h, 3.0 * f.h)));
+    }
+  }
+  const FloatGrid::Ptr was = f.phi->deepCopy();
+  advectPhi(*f.phi, f.velocity([](const Vec3d&) { return Vec3d(0.2, 0.0, 0.0); }), *f.noSolid, 0.3);
+  int deepMoved = 0, moved = 0;
+  for (auto it = was->cbeginValueOn(); it; ++it) {
+    if (f.phi->tree().getValue(it.getCoord()) == *it) continue;
+    const bool deep = f.phi->indexToWorld(it.getCoord()).z() < 0.5 - 3.0 * f.h;
+    ++(deep ? deepMoved : moved);
+  }
+  CHECK(deepMoved == 0);
+  CHECK(moved > 1000);
+}
+
 TEST_CASE("level set: Zalesak's disk after one turn") {
   // One revolution is 628; without reinitialisation fifth-order WENO is known to lose 1.04 % at 100 cells,
   // with an interface error (symmetric difference over perimeter) of 0.131.

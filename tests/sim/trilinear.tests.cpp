@@ -51,7 +51,30 @@ TEST_CASE("trilinear: reproduces trilinear fields, each component of a staggered
   }
 }
 
-TEST_CASE("velocity window: a trace from a face is the trace from that face's place") {
+TEST_CASE("tricubic: reproduces polynomials of third degree along each axis") {
+  const auto along = [](double a, double b, double c, double d, double x) {
+    return a + x * (b + x * (c + x * d));
+  };
+  const auto polynomial = [&](const Vec3d& x) {
+    return along(1.0, -0.4, 0.3, -0.05, x[0]) * along(0.5, 0.2, -0.1, 0.04, x[1]) *
+           along(-0.7, 0.6, 0.2, -0.03, x[2]);
+  };
+  constexpr int kSide = 5;
+  std::vector<float> block;
+  for (int i = 0; i < kSide; ++i)
+    for (int j = 0; j < kSide; ++j)
+      for (int k = 0; k < kSide; ++k) block.push_back(static_cast<float>(polynomial(Vec3d(i, j, k))));
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> place(0.0f, 1.0f);
+  for (int n = 0; n < 100; ++n) {
+    const Vec3d t(place(random), place(random), place(random));
+    const float value = tricubic(block.data() + (1 * kSide + 1) * kSide + 1, kSide * kSide, kSide,
+                                 float(t[0]), float(t[1]), float(t[2]));
+    CHECK_THAT(value, WithinAbs(polynomial(Vec3d(1.0) + t), 1e-5));
+  }
+}
+
+TEST_CASE("velocity window: a trace from a face or a centre is the trace from its place") {
   const double h = 0.1;
   FloatTree topology(0.0f);
   for (int n = 0; n < 27; ++n) {
@@ -74,6 +97,8 @@ TEST_CASE("velocity window: a trace from a face is the trace from that face's pl
         const float value = window.component(axis).at(face);
         CHECK(value >= low - 1e-6f);
         CHECK(value <= high + 1e-6f);
+        const Vec3f centre = place - faceShift(axis) + Vec3f(0.5f);
+        CHECK((window.trace(centre, step) - window.traceCentre(offset, step)).length() < 2e-6f);
       }
     }
   }
