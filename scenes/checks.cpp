@@ -44,6 +44,24 @@ void checkDomain(const Scene& scene, Reader& reader) {
   }
 }
 
+void checkSequence(const sim::MeshSequence& sequence, const std::string& path, Reader& reader) {
+  if (!reader.clean(path)) return;
+  if (sequence.last < sequence.first) {
+    reader.fault(path + ".last",
+                 written(sequence.last) + " is before first, which is " + written(sequence.first),
+                 "give the number of the last file");
+    return;
+  }
+  for (int n = 0; n < sequence.count(); ++n) {
+    const std::filesystem::path file = sequence.fileOf(n);
+    std::error_code error;
+    if (std::filesystem::is_regular_file(file, error)) continue;
+    reader.fault(path + ".files", "no such file: " + file.string(),
+                 "give all from number " + written(sequence.first) + " to " + written(sequence.last));
+    return;
+  }
+}
+
 void checkShape(const sim::Shape& shape, const std::string& path, Reader& reader) {
   const auto checkParts = [&](const std::vector<sim::Shape>& parts, const std::string& key) {
     for (std::size_t i = 0; i < parts.size(); ++i)
@@ -66,6 +84,9 @@ void checkShape(const sim::Shape& shape, const std::string& path, Reader& reader
       reader.fault(path + ".height_field.high",
                    written(ground->high) + " is not above low's " + written(ground->low),
                    "give the height of white in metres, greater than that of black");
+  } else if (std::holds_alternative<sim::MeshSequence>(shape.kind)) {
+    reader.fault(path + ".mesh_sequence", "only the whole shape of a [[solid]] can change",
+                 "give mesh with one of its files");
   } else if (const auto* space = std::get_if<sim::HalfSpace>(&shape.kind)) {
     if (reader.clean(path + ".half_space") && space->normal.length() == 0.0)
       reader.fault(path + ".half_space.normal", "has no length",
@@ -168,7 +189,10 @@ void checkBodies(const Scene& scene, Reader& reader) {
   for (std::size_t i = 0; i < scene.sim.solids.size(); ++i) {
     const sim::Solid& solid = scene.sim.solids[i];
     const std::string path = "solid." + std::to_string(i);
-    checkShape(solid.shape, path, reader);
+    if (const auto* sequence = std::get_if<sim::MeshSequence>(&solid.shape.kind))
+      checkSequence(*sequence, path + ".mesh_sequence", reader);
+    else
+      checkShape(solid.shape, path, reader);
     checkTimes(solid.from, solid.until, path, reader);
     checkWall(solid.wall, path, reader);
     checkMotion(solid, path, reader);
@@ -251,6 +275,9 @@ void complete(Scene& scene, const Reader& reader) {
   for (std::size_t i = 0; i < scene.sim.solids.size(); ++i) {
     std::string& name = scene.sim.solids[i].name;
     if (name.empty()) name = "solid " + std::to_string(i);
+    auto* sequence = std::get_if<sim::MeshSequence>(&scene.sim.solids[i].shape.kind);
+    if (sequence && !reader.given("solid." + std::to_string(i) + ".mesh_sequence.frame_rate"))
+      sequence->frameRate = scene.sim.frameRate;
   }
 
   texture::SynthesisOptions& synthesis = scene.texture.synthesis;

@@ -17,7 +17,7 @@ class Reader : public Visitor {
   Reader(const Node& document, std::filesystem::path folder, Faults& faults);
 
   void flag(const std::string& key, bool& value) override;
-  void integer(const std::string& key, int& value, const Limits& limits) override;
+  void integer(const std::string& key, int& value, const Limits& limits, Need need) override;
   void seed(const std::string& key, std::uint64_t& value) override;
   void number(const std::string& key, double& value, const Limits& limits, Need need) override;
   void text(const std::string& key, std::string& value) override;
@@ -26,6 +26,8 @@ class Reader : public Visitor {
   void pixels(const std::string& key, int& width, int& height, const Limits& limits) override;
   void file(const std::string& key, std::filesystem::path& value,
             const std::vector<std::string>& endings) override;
+  void files(const std::string& key, std::filesystem::path& value,
+             const std::vector<std::string>& endings) override;
   void choice(const std::string& key, int& value, const std::vector<std::string>& words) override;
   int alternative(int current, const std::vector<std::string>& keys, Need need) override;
   void absent(const std::string& key) override;
@@ -71,6 +73,13 @@ class Reader : public Visitor {
   // Whether the node is such a number, inside the limits; if not, the fault is added.
   bool readNumber(const std::string& path, const Node& node, const Limits& limits, const std::string& example,
                   double& value);
+  // The file's name behind a key that must be there, as it is written and from where the program runs; false,
+  // and the fault added, where there is none.
+  bool readName(const std::string& key, const std::string& example, const Node*& node,
+                std::filesystem::path& full);
+  // Whether the file's name ends in one of those, if any; if not, the fault is added.
+  bool hasEnding(const std::string& path, const Node& node, const std::filesystem::path& full,
+                 const std::vector<std::string>& endings);
   bool readInteger(const std::string& path, const Node& node, const Limits& limits,
                    const std::string& example, std::int64_t& value);
 

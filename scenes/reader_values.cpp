@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <regex>
 #include <utility>
 
 namespace fluidtex::scenes {
@@ -91,8 +92,8 @@ void Reader::flag(const std::string& key, bool& value) {
   }
 }
 
-void Reader::integer(const std::string& key, int& value, const Limits& limits) {
-  const Node* node = look(key, Need::optional);
+void Reader::integer(const std::string& key, int& value, const Limits& limits, Need need) {
+  const Node* node = look(key, need, asRight(key, std::to_string(value)));
   std::int64_t number = 0;
   if (node && readInteger(pathOf(key), *node, limits, std::to_string(value), number)) value = int(number);
 }
@@ -184,18 +185,43 @@ void Reader::pixels(const std::string& key, int& width, int& height, const Limit
   height = int(read[1]);
 }
 
+bool Reader::readName(const std::string& key, const std::string& example, const Node*& node,
+                      std::filesystem::path& full) {
+  node = look(key, Need::required, asRight(key, example));
+  if (!node) return false;
+  const std::string path = pathOf(key);
+  const std::string* name = std::get_if<std::string>(&node->value);
+  if (!name) {
+    wrongType(path, *node, "a file's name", example);
+    return false;
+  }
+  if (name->empty()) {
+    m_faults.add(node->origin, path, "an empty file name", asRight(path, example));
+    return false;
+  }
+  full = (node->origin.commandLine() ? std::filesystem::path(*name) : m_folder / *name).lexically_normal();
+  return true;
+}
+
+bool Reader::hasEnding(const std::string& path, const Node& node, const std::filesystem::path& full,
+                       const std::vector<std::string>& endings) {
+  std::string ending = full.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  if (endings.empty() || std::find(endings.begin(), endings.end(), ending) != endings.end()) return true;
+  m_faults.add(node.origin, path, full.filename().string() + " is of no known kind",
+               "give a file that ends in " + listed(endings, "or"));
+  return false;
+}
+
 void Reader::file(const std::string& key, std::filesystem::path& value,
                   const std::vector<std::string>& endings) {
   const std::string example =
       endings.empty() ? quoted("exemplars/green_scales.png") : quoted("rock" + endings.front());
-  const Node* node = look(key, Need::required, asRight(key, example));
-  if (!node) return;
+  const Node* node = nullptr;
+  std::filesystem::path full;
+  if (!readName(key, example, node, full)) return;
   const std::string path = pathOf(key);
-  const std::string* name = std::get_if<std::string>(&node->value);
-  if (!name) return wrongType(path, *node, "a file's name", example);
-  if (name->empty()) return m_faults.add(node->origin, path, "an empty file name", asRight(path, example));
-  const std::filesystem::path full =
-      (node->origin.commandLine() ? std::filesystem::path(*name) : m_folder / *name).lexically_normal();
   const std::string relativeTo =
       node->origin.commandLine() ? "the current folder" : "the scene file's folder";
   std::error_code error;
@@ -214,15 +240,26 @@ void Reader::file(const std::string& key, std::filesystem::path& value,
                  "give a file that can be read");
     return;
   }
-  std::string ending = full.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  if (!endings.empty() && std::find(endings.begin(), endings.end(), ending) == endings.end()) {
-    m_faults.add(node->origin, path, full.filename().string() + " is of no known kind",
-                 "give a file that ends in " + listed(endings, "or"));
+  if (hasEnding(path, *node, full, endings)) value = full;
+}
+
+void Reader::files(const std::string& key, std::filesystem::path& value,
+                   const std::vector<std::string>& endings) {
+  static const std::regex kNumbered("[^%]*%(0[1-9])?d[^%]*");
+  const std::string example = quoted("rock_%04d" + (endings.empty() ? ".png" : endings.front()));
+  const Node* node = nullptr;
+  std::filesystem::path full;
+  if (!readName(key, example, node, full)) return;
+  const std::string path = pathOf(key), last = full.filename().string();
+  if (!std::regex_match(last, kNumbered)) {
+    m_faults.add(node->origin, path,
+                 last.find('%') == std::string::npos
+                     ? last + " has no place for a number"
+                     : last + " does not say in one place where the number is",
+                 "write %d for it, or %04d where it has four digits, for example " + example);
     return;
   }
-  value = full;
+  if (hasEnding(path, *node, full, endings)) value = full;
 }
 
 void Reader::choice(const std::string& key, int& value, const std::vector<std::string>& words) {

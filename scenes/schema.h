@@ -8,12 +8,13 @@
 namespace fluidtex::scenes {
 
 // Keys of which only one can stand in a table: in the order of sim::Shape's kinds, and points before spacing.
-inline const std::vector<std::string> kShapeKeys = {"box",  "sphere",       "cylinder", "half_space",
-                                                    "mesh", "height_field", "union",    "difference"};
+inline const std::vector<std::string> kShapeKeys = {"box",          "sphere", "cylinder",
+                                                    "half_space",   "mesh",   "mesh_sequence",
+                                                    "height_field", "union",  "difference"};
 inline const std::vector<std::string> kDensityKeys = {"points", "spacing"};
 
 // In the order of sim::DomainFace.
-inline const std::vector<std::string> kDomainFaces = {"all",   "x_low", "x_high", "y_low",
+inline const std::vector<std::string> kDomainFaces = {"all",    "x_low", "x_high", "y_low",
                                                       "y_high", "z_low", "z_high"};
 
 void describe(Visitor& visitor, Scene& scene);

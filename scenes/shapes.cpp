@@ -8,6 +8,8 @@ namespace fluidtex::scenes {
 
 namespace {
 
+constexpr Limits kFileNumber{.low = 0.0, .high = 999999.0};
+
 // The shape as the kind asked for, with that kind's defaults if it was another.
 template <class Kind>
 Kind& as(sim::Shape& shape) {
@@ -60,6 +62,10 @@ bool overlaps(const sim::MeshShape&, const Vec3d&) {
   return true;
 }
 
+bool overlaps(const sim::MeshSequence&, const Vec3d&) {
+  return true;
+}
+
 bool overlaps(const sim::Union& shape, const Vec3d& size) {
   return std::any_of(shape.parts.begin(), shape.parts.end(),
                      [&](const sim::Shape& part) { return reachesDomain(part, size); });
@@ -106,6 +112,17 @@ void describeShape(Visitor& visitor, sim::Shape& shape) {
       visitor.file("file", mesh.file, {".obj", ".ply", ".stl"});
       visitor.number("scale", mesh.scale, kPositive);
       visitor.vector("translate", mesh.translate, kAny);
+    });
+  } else if (key == "mesh_sequence") {
+    auto& sequence = as<sim::MeshSequence>(shape);
+    visitor.table(key, [&] {
+      visitor.files("files", sequence.files, {".obj", ".ply", ".stl"});
+      visitor.integer("first", sequence.first, kFileNumber);
+      visitor.integer("last", sequence.last, kFileNumber, Need::required);
+      visitor.number("frame_rate", sequence.frameRate, {.low = 0.001, .high = 1000.0});
+      visitor.number("start", sequence.start, kNotNegative);
+      visitor.number("scale", sequence.scale, kPositive);
+      visitor.vector("translate", sequence.translate, kAny);
     });
   } else if (key == "height_field") {
     auto& ground = as<sim::HeightField>(shape);

@@ -32,7 +32,8 @@ class Visitor {
   virtual ~Visitor() = default;
 
   virtual void flag(const std::string& key, bool& value) = 0;
-  virtual void integer(const std::string& key, int& value, const Limits& limits) = 0;
+  virtual void integer(const std::string& key, int& value, const Limits& limits,
+                       Need need = Need::optional) = 0;
   virtual void seed(const std::string& key, std::uint64_t& value) = 0;
   virtual void number(const std::string& key, double& value, const Limits& limits,
                       Need need = Need::optional) = 0;
@@ -44,6 +45,10 @@ class Visitor {
   // A file that exists. `endings`: what its name may end in, in small letters; empty: anything.
   virtual void file(const std::string& key, std::filesystem::path& value,
                     const std::vector<std::string>& endings) = 0;
+  // Files whose names differ in a number, whose place is %d in the last part of the name, or %04d for one of
+  // four digits. Whether they exist is not asked.
+  virtual void files(const std::string& key, std::filesystem::path& value,
+                     const std::vector<std::string>& endings) = 0;
   // One of a few words, by number.
   virtual void choice(const std::string& key, int& value, const std::vector<std::string>& words) = 0;
 

@@ -17,7 +17,7 @@ class Writer : public Visitor {
   explicit Writer(Json& root) : m_open{&root} {}
 
   void flag(const std::string& key, bool& value) override { put(key, value); }
-  void integer(const std::string& key, int& value, const Limits&) override { put(key, value); }
+  void integer(const std::string& key, int& value, const Limits&, Need) override { put(key, value); }
   void seed(const std::string& key, std::uint64_t& value) override { put(key, value); }
   void number(const std::string& key, double& value, const Limits&, Need) override {
     put(key, std::isfinite(value) ? Json(value) : Json());
@@ -33,6 +33,10 @@ class Writer : public Visitor {
   void file(const std::string& key, std::filesystem::path& value, const std::vector<std::string>&) override {
     // Absolute, so that it says the same wherever the scene is read from.
     put(key, std::filesystem::absolute(value).lexically_normal().generic_string());
+  }
+  void files(const std::string& key, std::filesystem::path& value,
+             const std::vector<std::string>& endings) override {
+    file(key, value, endings);
   }
   void choice(const std::string& key, int& value, const std::vector<std::string>& words) override {
     put(key, words[std::size_t(value)]);

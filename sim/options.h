@@ -43,6 +43,31 @@ struct MeshShape {
   Vec3d translate{0.0};
 };
 
+// One surface that changes its shape: closed meshes in numbered files of the same kinds. The file with number
+// `first` shows it at time `start` (seconds), each other one 1/frameRate later than the one before. All have
+// the same vertices and faces in the same order: each vertex goes in straight lines from file to file. Before
+// the first and after the last the surface is at rest. Only a solid changes; what else is made of a sequence
+// stays as in the first file.
+struct MeshSequence {
+  std::filesystem::path files;  // with the number's place in its last part: %d, or %04d for four digits
+  int first = 1, last = 1;
+  double frameRate = 24.0, start = 0.0;
+  double scale = 1.0;
+  Vec3d translate{0.0};
+
+  // Of the n-th file, counted from 0.
+  double timeOf(int n) const { return start + n / frameRate; }
+  std::filesystem::path fileOf(int n) const {
+    std::string name = files.filename().string(), number = std::to_string(first + n);
+    const std::size_t place = name.find('%'), letter = name.find('d', place);
+    if (place == std::string::npos || letter == std::string::npos) return files;
+    const std::size_t digits = letter == place + 3 ? std::size_t(name[place + 2] - '0') : 0;
+    if (number.size() < digits) number.insert(0, digits - number.size(), '0');
+    return files.parent_path() / name.replace(place, letter + 1 - place, number);
+  }
+  int count() const { return last - first + 1; }
+};
+
 // Ground from a grey image of 8 or 16 bits: black lies at height `low`, white at `high`; one pixel is `pixel`
 // metres wide, the picture's top is at high y. translate: of its lower left corner, and of all heights.
 // Between pixel centres the heights are bicubic. All below is inside; where the picture ends at the domain's
@@ -66,7 +91,8 @@ struct Difference {
 };
 
 struct Shape {
-  std::variant<Box, Sphere, Cylinder, HalfSpace, MeshShape, HeightField, Union, Difference> kind;
+  std::variant<Box, Sphere, Cylinder, HalfSpace, MeshShape, MeshSequence, HeightField, Union, Difference>
+      kind;
 };
 
 inline constexpr double kForever = std::numeric_limits<double>::infinity();
@@ -129,7 +155,8 @@ struct Keyframe {
 };
 
 // A solid that exists for from <= t < until (seconds). With keyframes it moves evenly from one to the next;
-// before the first and after the last it is at rest.
+// before the first and after the last it is at rest. A MeshSequence that has keyframes too is first put into
+// its shape, then moved.
 struct Solid {
   std::string name;
   Shape shape;

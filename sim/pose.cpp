@@ -1,5 +1,6 @@
 #include "sim/pose.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +11,20 @@ namespace {
 Vec3d turned(const Vec3d& x, const Vec3d& axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return c * x + s * axis.cross(x) + (1.0 - c) * axis.dot(x) * axis;
+}
+
+// Which file of the sequence is the last one at time t, and how far it is from there to the next.
+void setFile(Pose& pose, const MeshSequence& sequence, double t) {
+  const int last = sequence.count() - 1;
+  const double files = std::clamp((t - sequence.start) * sequence.frameRate, 0.0, double(last));
+  // Rounding must not put a file's own time before it.
+  int file = static_cast<int>(files);
+  if (file < last && sequence.timeOf(file + 1) <= t) ++file;
+  if (file > 0 && sequence.timeOf(file) > t) --file;
+  pose.file = file;
+  if (file == last || sequence.timeOf(file) > t) return;
+  pose.part = std::min((t - sequence.timeOf(file)) * sequence.frameRate, 1.0);
+  pose.fileRate = sequence.frameRate;
 }
 
 }  // namespace
@@ -23,6 +38,10 @@ Vec3d Pose::toBody(const Vec3d& x) const {
   return angle == 0.0 ? back : pivot + turned(back - pivot, axis, -angle);
 }
 
+Vec3d Pose::directionToWorld(const Vec3d& v) const {
+  return angle == 0.0 ? v : turned(v, axis, angle);
+}
+
 Vec3d Pose::velocityAt(const Vec3d& x) const {
   return speed + spin * axis.cross(x - pivot - move);
 }
@@ -32,6 +51,7 @@ Pose poseAt(const Solid& solid, double t) {
   Pose pose;
   pose.pivot = solid.pivot;
   pose.axis = solid.axis.unit();
+  if (const auto* sequence = std::get_if<MeshSequence>(&solid.shape.kind)) setFile(pose, *sequence, t);
   const auto& keys = solid.keyframes;
   if (keys.empty()) return pose;
   std::size_t next = 0;

@@ -28,8 +28,8 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Polygon = std::vector<std::size_t>;
 
-[[noreturn]] void fail(const MeshShape& shape, const std::string& what) {
-  throw MeshError(shape.file.string() + ": " + what);
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
+  throw MeshError(file.string() + ": " + what);
 }
 
 // CGAL's PLY reader writes to std::cerr as it gives up; the caller reports the fault instead.
@@ -39,7 +39,8 @@ struct QuietErrors {
   ~QuietErrors() { std::cerr.clear(before); }
 };
 
-// Edges used by an odd number of polygons: where the surface has a rim.
+}  // namespace
+
 std::size_t openEdges(const std::vector<Polygon>& polygons) {
   std::map<std::pair<std::size_t, std::size_t>, int> uses;
   for (const Polygon& polygon : polygons) {
@@ -51,55 +52,64 @@ std::size_t openEdges(const std::vector<Polygon>& polygons) {
   return std::count_if(uses.begin(), uses.end(), [](const auto& edge) { return edge.second % 2 != 0; });
 }
 
-}  // namespace
+void failOpen(const std::filesystem::path& file, std::size_t openEdges) {
+  fail(file, "is not closed: " + std::to_string(openEdges) + (openEdges == 1 ? " edge has" : " edges have") +
+                 " a face on one side only");
+}
 
-TriangleMesh readMesh(const MeshShape& shape) {
-  if (!std::filesystem::exists(shape.file)) fail(shape, "no such file");
-  if (!std::filesystem::is_regular_file(shape.file)) fail(shape, "not a file");
-  std::string extension = shape.file.extension().string();
+MeshSoup readSoup(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) fail(file, "no such file");
+  if (!std::filesystem::is_regular_file(file)) fail(file, "not a file");
+  std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension != ".obj" && extension != ".ply" && extension != ".stl") {
-    fail(shape, "unknown kind of mesh file '" + extension + "'; expected .obj, .ply or .stl");
+    fail(file, "unknown kind of mesh file '" + extension + "'; expected .obj, .ply or .stl");
   }
-  if (std::filesystem::file_size(shape.file) == 0) fail(shape, "the file is empty");
+  if (std::filesystem::file_size(file) == 0) fail(file, "the file is empty");
 
   std::vector<Point> points;
-  std::vector<Polygon> polygons;
+  MeshSoup soup;
+  std::vector<Polygon>& polygons = soup.polygons;
   bool read = false;
   try {
     const QuietErrors quiet;
-    const std::string file = shape.file.string();
-    read = extension == ".obj"   ? CGAL::IO::read_OBJ(file, points, polygons)
-           : extension == ".ply" ? CGAL::IO::read_PLY(file, points, polygons)
-                                 : CGAL::IO::read_STL(file, points, polygons);
+    const std::string name = file.string();
+    read = extension == ".obj"   ? CGAL::IO::read_OBJ(name, points, polygons)
+           : extension == ".ply" ? CGAL::IO::read_PLY(name, points, polygons)
+                                 : CGAL::IO::read_STL(name, points, polygons);
   } catch (const std::exception& error) {
-    fail(shape, std::string("cannot be read as a mesh: ") + error.what());
+    fail(file, std::string("cannot be read as a mesh: ") + error.what());
   }
-  if (!read && !points.empty() && polygons.empty()) fail(shape, "has no faces");
-  if (!read) fail(shape, "cannot be read as a mesh: the file is damaged or of another format");
-  if (polygons.empty()) fail(shape, "has no faces");
+  if (!read && !points.empty() && polygons.empty()) fail(file, "has no faces");
+  if (!read) fail(file, "cannot be read as a mesh: the file is damaged or of another format");
+  if (polygons.empty()) fail(file, "has no faces");
   for (const Point& p : points) {
     if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) {
-      fail(shape, "has a vertex that is not a finite number");
+      fail(file, "has a vertex that is not a finite number");
     }
+    soup.points.emplace_back(p.x(), p.y(), p.z());
   }
   for (const Polygon& polygon : polygons) {
     for (const std::size_t vertex : polygon) {
-      if (vertex >= points.size()) fail(shape, "a face names a vertex that does not exist");
+      if (vertex >= points.size()) fail(file, "a face names a vertex that does not exist");
     }
   }
+  return soup;
+}
 
+TriangleMesh readMesh(const MeshShape& shape) {
+  MeshSoup soup = readSoup(shape.file);
+  std::vector<Polygon>& polygons = soup.polygons;
+  std::vector<Point> points;
+  for (const Vec3d& x : soup.points) points.emplace_back(x.x(), x.y(), x.z());
   PMP::repair_polygon_soup(points, polygons);
-  if (polygons.empty()) fail(shape, "all its faces are degenerate");
-  if (const std::size_t open = openEdges(polygons); open > 0) {
-    fail(shape, "is not closed: " + std::to_string(open) + (open == 1 ? " edge has" : " edges have") +
-                    " a face on one side only");
-  }
+  if (polygons.empty()) fail(shape.file, "all its faces are degenerate");
+  if (const std::size_t open = openEdges(polygons); open > 0) failOpen(shape.file, open);
   PMP::orient_polygon_soup(points, polygons);
   CGAL::Surface_mesh<Point> surface;
   PMP::polygon_soup_to_polygon_mesh(points, polygons, surface);
-  if (!PMP::triangulate_faces(surface)) fail(shape, "has a face that cannot be cut into triangles");
+  if (!PMP::triangulate_faces(surface)) fail(shape.file, "has a face that cannot be cut into triangles");
   if (CGAL::is_closed(surface)) PMP::orient_to_bound_a_volume(surface);
 
   TriangleMesh mesh;

@@ -2,6 +2,7 @@
 #include "sim/shapes.h"
 
 #include "sim/height_field.h"
+#include "sim/moving_mesh.h"
 
 #include <openvdb/tools/Interpolation.h>
 #include <openvdb/tools/MeshToVolume.h>
@@ -60,6 +61,7 @@ struct ShapeDistance::Node {
   std::variant<Box, Sphere, Cylinder, Plane, openvdb::FloatGrid::ConstPtr, Any, Less> kind;
 
   static Node of(const Shape& shape, double voxelSize, const Vec3d& domainSize);
+  static Node of(const TriangleMesh& mesh, double voxelSize);
   double distance(const Vec3d& x) const;
 };
 
@@ -76,10 +78,14 @@ ShapeDistance::Node ShapeDistance::Node::of(const Shape& shape, double voxelSize
     return {Plane{plane->point, unitNormal(*plane)}};
   if (const auto* all = std::get_if<Union>(&shape.kind)) return {Any{nodesOf(all->parts)}};
   if (const auto* less = std::get_if<Difference>(&shape.kind)) return {Less{nodesOf(less->parts)}};
+  if (const auto* sequence = std::get_if<MeshSequence>(&shape.kind))
+    return of(MovingMesh(*sequence, 0, 0).at(0, 0.0), voxelSize);
+  if (const auto* mesh = std::get_if<MeshShape>(&shape.kind)) return of(readMesh(*mesh), voxelSize);
   const double beyond = 2.0 * kMeshBand * voxelSize;
-  const auto* ground = std::get_if<HeightField>(&shape.kind);
-  const TriangleMesh mesh = ground != nullptr ? groundMesh(*ground, domainSize, voxelSize, beyond, -beyond)
-                                              : readMesh(std::get<MeshShape>(shape.kind));
+  return of(groundMesh(std::get<HeightField>(shape.kind), domainSize, voxelSize, beyond, -beyond), voxelSize);
+}
+
+ShapeDistance::Node ShapeDistance::Node::of(const TriangleMesh& mesh, double voxelSize) {
   const auto transform = openvdb::math::Transform::createLinearTransform(voxelSize);
   openvdb::FloatGrid::ConstPtr grid = openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(
       *transform, mesh.positions, mesh.triangles, kMeshBand);
@@ -113,6 +119,9 @@ double ShapeDistance::Node::distance(const Vec3d& x) const {
 
 ShapeDistance::ShapeDistance(const Shape& shape, double voxelSize, const Vec3d& domainSize)
     : m_root(std::make_shared<Node>(Node::of(shape, voxelSize, domainSize))) {}
+
+ShapeDistance::ShapeDistance(const TriangleMesh& mesh, double voxelSize)
+    : m_root(std::make_shared<Node>(Node::of(mesh, voxelSize))) {}
 
 double ShapeDistance::operator()(const Vec3d& x) const {
   return m_root->distance(x);

@@ -23,8 +23,10 @@ TriangleMesh readMesh(const MeshShape& shape);
 // into a level set once.
 class ShapeDistance {
  public:
-  // domainSize: height fields go on beyond a domain of this size where they reach its sides.
+  // domainSize: height fields go on beyond a domain of this size where they reach its sides. A mesh sequence
+  // is as in its first file.
   ShapeDistance(const Shape& shape, double voxelSize, const Vec3d& domainSize = Vec3d(0.0));
+  ShapeDistance(const TriangleMesh& mesh, double voxelSize);
   double operator()(const Vec3d& x) const;
 
  private:
@@ -32,7 +34,9 @@ class ShapeDistance {
   std::shared_ptr<const Node> m_root;
 };
 
-// The shape clipped to the domain, as triangles for drawing.
+// The shape clipped to the domain, as triangles for drawing. A mesh sequence is as in its first file.
 TriangleMesh triangulate(const Shape& shape, const Vec3d& domainSize, double voxelSize);
+// The solid where it is at time t and in the shape that it has then, clipped before it is moved.
+TriangleMesh triangulate(const Solid& solid, double t, const Vec3d& domainSize, double voxelSize);
 
 }  // namespace fluidtex::sim

@@ -20,8 +20,18 @@ using Range = tbb::blocked_range<int>;
 }  // namespace
 
 Solids::Solids(const Options& options) : m_options(options) {
-  for (const Solid& solid : m_options.solids)
-    m_shapes.emplace_back(solid.shape, m_options.voxelSize(), m_options.size);
+  const double h = m_options.voxelSize();
+  for (const Solid& solid : m_options.solids) {
+    m_shapes.emplace_back();
+    m_sequences.emplace_back();
+    if (const auto* sequence = std::get_if<MeshSequence>(&solid.shape.kind)) {
+      MovingMesh mesh(*sequence);
+      const ShapeDistance first(mesh.at(0, 0.0), h);
+      m_sequences.back() = {std::move(mesh), 0, 0.0, first};
+    } else {
+      m_shapes.back().emplace(solid.shape, h, m_options.size);
+    }
+  }
   for (int side = 0; side < 6; ++side) {
     if (m_options.sides[side] == Side::wall) m_walls[side] = m_options.wallOf(side);
   }
@@ -45,6 +55,13 @@ double Solids::nextChange(double t) const {
     consider(solid.from);
     consider(solid.until);
     for (const Keyframe& key : solid.keyframes) consider(key.time);
+    if (const auto* sequence = std::get_if<MeshSequence>(&solid.shape.kind)) {
+      // The files before and after t.
+      const int last = sequence->count() - 1;
+      const double file = std::clamp((t - sequence->start) * sequence->frameRate, 0.0, double(last));
+      const int before = static_cast<int>(file);
+      for (int n = before; n <= std::min(before + 2, last); ++n) consider(sequence->timeOf(n));
+    }
   }
   return next;
 }
@@ -59,7 +76,7 @@ std::vector<std::string> Solids::warnings() const {
     const Coord n((cells[0] + 8) >> 3, (cells[1] + 8) >> 3, (cells[2] + 8) >> 3);
     const int count = n[0] * n[1] * n[2];
     const double radius = 0.5 * std::sqrt(3.0) * kLeafDim * h;
-    const Placed rest{i, poseAt(m_options.solids[i], m_options.solids[i].from)};
+    const Placed rest = placed(i, m_options.solids[i].from);
     std::vector<double> least(count, kForever);
     tbb::parallel_for(Range(0, count), [&](const Range& range) {
       for (int b = range.begin(); b < range.end(); ++b) {
@@ -91,14 +108,27 @@ std::vector<std::string> Solids::warnings() const {
   return warnings;
 }
 
+Solids::Placed Solids::placed(std::size_t index, double t) const {
+  const Pose pose = poseAt(m_options.solids[index], t);
+  if (m_shapes[index]) return {index, pose, *m_shapes[index]};
+  const std::scoped_lock lock(m_sequencesInUse);
+  Sequence& sequence = *m_sequences[index];
+  if (sequence.file != pose.file || sequence.part != pose.part) {
+    sequence.shape = ShapeDistance(sequence.mesh.at(pose.file, pose.part), m_options.voxelSize());
+    sequence.file = pose.file;
+    sequence.part = pose.part;
+  }
+  return {index, pose, sequence.shape};
+}
+
 std::vector<Solids::Placed> Solids::placed(double t, const std::vector<std::size_t>& set) const {
   std::vector<Placed> solids;
-  for (const std::size_t i : set) solids.push_back({i, poseAt(m_options.solids[i], t)});
+  for (const std::size_t i : set) solids.push_back(placed(i, t));
   return solids;
 }
 
 double Solids::distanceTo(const Placed& solid, const Vec3d& x) const {
-  return m_shapes[solid.index](solid.pose.toBody(x));
+  return solid.shape(solid.pose.toBody(x));
 }
 
 double Solids::sideDistance(const Vec3d& x, bool all) const {
@@ -146,6 +176,15 @@ double Solids::distance(const Vec3d& x, double t) const {
   return distanceTo(placed(t, active(t)), x, true);
 }
 
+// At a place so far from the solid. change: how its shape changes, null where it does not.
+Vec3d Solids::velocityOf(const Placed& solid, const SurfaceVelocity* change, const Vec3d& x,
+                         double distance) const {
+  const Vec3d velocity = solid.pose.velocityAt(x);
+  if (change == nullptr) return velocity;
+  const double reach = std::abs(distance) + m_options.voxelSize();
+  return velocity + solid.pose.directionToWorld(change->at(solid.pose.toBody(x), reach));
+}
+
 // At the faces of every leaf near a solid that moves: its velocity where it is the nearest one, else 0.
 void Solids::addSpeeds(SolidField& field, const std::vector<Placed>& solids) const {
   const double h = field.voxelSize;
@@ -156,6 +195,15 @@ void Solids::addSpeeds(SolidField& field, const std::vector<Placed>& solids) con
       return solid.pose.moving() && std::abs(distanceTo(solid, middle)) < radius;
     });
   };
+  std::vector<std::optional<SurfaceVelocity>> changes(solids.size());
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    const Pose& pose = solids[i].pose;
+    if (pose.fileRate == 0.0) continue;
+    const MovingMesh& mesh = m_sequences[solids[i].index]->mesh;
+    std::vector<openvdb::Vec3f> velocity = mesh.change(pose.file);
+    for (openvdb::Vec3f& v : velocity) v *= static_cast<float>(pose.fileRate);
+    changes[i].emplace(mesh.at(pose.file, pose.part), std::move(velocity));
+  }
   std::vector<Coord> origins;
   for (auto leaf = field.phi->constTree().cbeginLeaf(); leaf; ++leaf)
     if (near(leaf->origin())) origins.push_back(leaf->origin());
@@ -169,13 +217,17 @@ void Solids::addSpeeds(SolidField& field, const std::vector<Placed>& solids) con
       for (int c = 0; c < kLeafSize; ++c) {
         const Vec3d x = grid->indexToWorld(leaves[n]->offsetToGlobalCoord(c));
         double nearest = sideDistance(x, true);
-        double speed = 0.0;
-        for (const Placed& solid : solids) {
-          const double d = distanceTo(solid, x);
+        std::size_t by = solids.size();
+        for (std::size_t i = 0; i < solids.size(); ++i) {
+          const double d = distanceTo(solids[i], x);
           if (d >= nearest) continue;
           nearest = d;
-          speed = solid.pose.velocityAt(x)[axis];
+          by = i;
         }
+        const double speed =
+            by == solids.size()
+                ? 0.0
+                : velocityOf(solids[by], changes[by] ? &*changes[by] : nullptr, x, nearest)[axis];
         leaves[n]->setValueOn(c, static_cast<float>(speed));
       }
     });

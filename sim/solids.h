@@ -3,15 +3,19 @@
 #pragma once
 
 #include "sim/grids.h"
+#include "sim/moving_mesh.h"
 #include "sim/options.h"
 #include "sim/pose.h"
 #include "sim/shapes.h"
+#include "sim/surface_velocity.h"
 
 #include <openvdb/openvdb.h>
 
 #include <array>
 #include <limits>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,7 +59,7 @@ struct SolidField {
 // Ng, Min, Gibou, "An efficient fluid-solid coupling algorithm for single-phase flows", 2009.
 double openAreaFraction(double d00, double d10, double d11, double d01);
 
-// Solids of a scene over time. A mesh is read once, when constructed (throws as readMesh does).
+// Solids of a scene over time. Meshes are read once, when constructed (throws as readMesh and MovingMesh do).
 class Solids {
  public:
   explicit Solids(const Options& options);
@@ -83,19 +87,32 @@ class Solids {
   struct Placed {
     std::size_t index;
     Pose pose;
-    bool operator==(const Placed&) const = default;
+    ShapeDistance shape;  // before it is moved
+    bool operator==(const Placed& other) const { return index == other.index && pose == other.pose; }
   };
+  // A mesh sequence, and the shape that was asked for last.
+  struct Sequence {
+    MovingMesh mesh;
+    int file = 0;
+    double part = 0.0;
+    ShapeDistance shape;
+  };
+  Placed placed(std::size_t index, double t) const;
   std::vector<Placed> placed(double t, const std::vector<std::size_t>& set) const;
   double distanceTo(const Placed& solid, const Vec3d& x) const;
   // To the sides of the domain; `all`: those that are no walls too.
   double sideDistance(const Vec3d& x, bool all) const;
   double distanceTo(const std::vector<Placed>& solids, const Vec3d& x, bool all) const;
   const Wall& nearestWall(const std::vector<Placed>& solids, const Vec3d& x) const;
+  Vec3d velocityOf(const Placed& solid, const SurfaceVelocity* change, const Vec3d& x, double distance) const;
   void addSpeeds(SolidField& field, const std::vector<Placed>& solids) const;
 
   Options m_options;
-  std::array<Wall, 6> m_walls;          // of the domain
-  std::vector<ShapeDistance> m_shapes;  // one for each of Options::solids
+  std::array<Wall, 6> m_walls;  // of the domain
+  // For each of Options::solids one or the other.
+  std::vector<std::optional<ShapeDistance>> m_shapes;
+  mutable std::vector<std::optional<Sequence>> m_sequences;
+  mutable std::mutex m_sequencesInUse;
   std::vector<Placed> m_cachedSet;
   std::shared_ptr<const SolidField> m_cached;
 };

@@ -2,6 +2,8 @@
 // are divided icosahedra; what is left is meshed from its distance on a grid.
 #include "sim/height_field.h"
 #include "sim/mac_grid.h"
+#include "sim/moving_mesh.h"
+#include "sim/pose.h"
 #include "sim/shapes.h"
 
 #include <openvdb/tools/VolumeToMesh.h>
@@ -141,8 +143,7 @@ TriangleMesh icosphere(const Sphere& sphere, double voxelSize) {
 }
 
 // The surface of a shape within the domain, from its distance at the corners of voxels.
-TriangleMesh meshDistance(const Shape& shape, const Vec3d& size, double h) {
-  const ShapeDistance distance(shape, h, size);
+TriangleMesh meshDistance(const ShapeDistance& distance, const Vec3d& size, double h) {
   const ShapeDistance domain(Shape{Box{Vec3d(0.0), size}}, h);
   const float band = static_cast<float>(3.0 * h);
   auto grid = openvdb::FloatGrid::create(band);
@@ -234,6 +235,17 @@ bool contains(const Vec3d& size, const Vec3d& low, const Vec3d& high) {
   return true;
 }
 
+// As it is where it lies within the domain.
+TriangleMesh clipped(TriangleMesh mesh, const Vec3d& size, double h) {
+  const auto inside = [&](const openvdb::Vec3f& x) { return contains(size, Vec3d(x), Vec3d(x)); };
+  if (std::all_of(mesh.positions.begin(), mesh.positions.end(), inside)) return mesh;
+  return meshDistance(ShapeDistance(mesh, h), size, h);
+}
+
+TriangleMesh meshAt(const MeshSequence& sequence, int file, double part) {
+  return MovingMesh(sequence, file, std::min(file + 1, sequence.count() - 1)).at(file, part);
+}
+
 }  // namespace
 
 TriangleMesh triangulate(const Shape& shape, const Vec3d& domainSize, double voxelSize) {
@@ -263,12 +275,22 @@ TriangleMesh triangulate(const Shape& shape, const Vec3d& domainSize, double vox
         contains(domainSize, cylinder->to - reach, cylinder->to + reach))
       return tube(*cylinder, voxelSize);
   }
-  if (const auto* file = std::get_if<MeshShape>(&shape.kind)) {
-    TriangleMesh mesh = readMesh(*file);
-    const auto inside = [&](const openvdb::Vec3f& x) { return contains(domainSize, Vec3d(x), Vec3d(x)); };
-    if (std::all_of(mesh.positions.begin(), mesh.positions.end(), inside)) return mesh;
-  }
-  return meshDistance(shape, domainSize, voxelSize);
+  if (const auto* file = std::get_if<MeshShape>(&shape.kind))
+    return clipped(readMesh(*file), domainSize, voxelSize);
+  if (const auto* sequence = std::get_if<MeshSequence>(&shape.kind))
+    return clipped(meshAt(*sequence, 0, 0.0), domainSize, voxelSize);
+  return meshDistance(ShapeDistance(shape, voxelSize, domainSize), domainSize, voxelSize);
+}
+
+TriangleMesh triangulate(const Solid& solid, double t, const Vec3d& domainSize, double voxelSize) {
+  const Pose pose = poseAt(solid, t);
+  const auto* sequence = std::get_if<MeshSequence>(&solid.shape.kind);
+  TriangleMesh mesh = sequence != nullptr
+                          ? clipped(meshAt(*sequence, pose.file, pose.part), domainSize, voxelSize)
+                          : triangulate(solid.shape, domainSize, voxelSize);
+  if (!solid.keyframes.empty())
+    for (openvdb::Vec3f& x : mesh.positions) x = openvdb::Vec3f(pose.toWorld(Vec3d(x)));
+  return mesh;
 }
 
 }  // namespace fluidtex::sim

@@ -1,5 +1,6 @@
 #include "tools/common_options.h"
 
+#include "sim/moving_mesh.h"
 #include "sim/shapes.h"
 #include "tools/errors.h"
 
@@ -26,6 +27,7 @@ void tryMeshes(const sim::Shape& shape) {
     for (const sim::Shape& part : parts) tryMeshes(part);
   };
   if (const auto* mesh = std::get_if<sim::MeshShape>(&shape.kind)) sim::readMesh(*mesh);
+  if (const auto* sequence = std::get_if<sim::MeshSequence>(&shape.kind)) sim::MovingMesh{*sequence};
   if (const auto* both = std::get_if<sim::Union>(&shape.kind)) tryParts(both->parts);
   if (const auto* rest = std::get_if<sim::Difference>(&shape.kind)) tryParts(rest->parts);
 }

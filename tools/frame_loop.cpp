@@ -210,9 +210,7 @@ class FrameLoop {
     m_solids.clear();
     for (const auto& [i, pose] : visible) {
       const sim::Solid& solid = m_scene.sim.solids[i];
-      sim::TriangleMesh mesh = sim::triangulate(solid.shape, m_scene.sim.size, m_scene.sim.voxelSize());
-      if (!solid.keyframes.empty())
-        for (openvdb::Vec3f& x : mesh.positions) x = openvdb::Vec3f(pose.toWorld(sim::Vec3d(x)));
+      sim::TriangleMesh mesh = sim::triangulate(solid, time, m_scene.sim.size, m_scene.sim.voxelSize());
       m_solids.push_back({std::move(mesh.positions), std::move(mesh.triangles), solid.color});
     }
     m_visible = std::move(visible);

@@ -102,6 +102,8 @@ time = 0.5
 time = 1.5
 move = [0, 0, 1]
 turn = 720
+[[solid]]
+mesh_sequence = { files = "m_%d.obj", first = 0, last = 2, frame_rate = 12, start = 0.5, scale = 3, translate = [1, 0, 2] }
 [[source]]
 cylinder = { from = [0, 0, 1], to = [1, 0, 1], radius = 0.25 }
 velocity = [1, 0, 0]

@@ -102,7 +102,7 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(mesh.file == folder.path() / "m.obj");
   CHECK(mesh.scale == 2.0);
   CHECK(mesh.translate == sim::Vec3d(3, 2, 1));
-  REQUIRE(sim.solids.size() == 2);
+  REQUIRE(sim.solids.size() == 3);
   CHECK(sim.solids[0].name == "gate");
   CHECK(sim.solids[0].from == 0.5);
   CHECK(sim.solids[0].until == 0.75);
@@ -118,6 +118,13 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(sim.solids[1].keyframes[0].time == 0.5);
   CHECK(sim.solids[1].keyframes[1].move == sim::Vec3d(0, 0, 1));
   CHECK(sim.solids[1].keyframes[1].turn == 720.0);
+  const auto& sequence = std::get<sim::MeshSequence>(sim.solids[2].shape.kind);
+  CHECK(sequence.fileOf(1) == folder.path() / "m_1.obj");
+  CHECK(sequence.count() == 3);
+  CHECK(sequence.frameRate == 12.0);
+  CHECK(sequence.start == 0.5);
+  CHECK(sequence.scale == 3.0);
+  CHECK(sequence.translate == sim::Vec3d(1, 0, 2));
   using sim::Side;
   CHECK(sim.sides ==
         std::array<Side, 6>{Side::stream, Side::open, Side::open, Side::stream, Side::open, Side::stream});
@@ -190,7 +197,9 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
 TEST_CASE("scene: the resolved scene has every key, given or not", "[scenes]") {
   const std::string ball = "sphere = { center = [1, 1, 1], radius = 0.5 }\n";
   const std::string oneEach =
-      "[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 } ]\n[[source]]\n" + ball +
+      "[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 } ]\n[[solid]]\nmesh_sequence = { files = "
+      "'m_%d.obj', last = 2 }\n[[source]]\n" +
+      ball +
       "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + ball + "[[wall]]\n";
   std::set<std::string> whole, defaults;
   collectKeys(Json::parse(sceneOf(kFullScene).resolved), "", whole);

@@ -43,7 +43,7 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
       {"name = ''\n" + kGoodScene,
        "s.toml:1:1: error: name: an empty string; give a name or leave the key out"},
   });
-  const std::string shapes = "box, sphere, cylinder, half_space, mesh, height_field, union ";
+  const std::string shapes = "box, sphere, cylinder, half_space, mesh, mesh_sequence, height_field, union ";
   checkCases({
       {"[[liquid]]\nfrom = 1",
        "s.toml:6:1: error: liquid.1: no shape; give one of " + shapes + "or difference"},
@@ -85,6 +85,17 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
       {"[[solid]]\nheight_field = { file = 'e.png', pixel = 1, low = 2, high = 2 }",
        "s.toml:7:54: error: solid.0.height_field.high: 2 is not above low's 2; give the height of white in "
        "metres, greater than that of black"},
+      {"[[solid]]\nmesh_sequence = { files = 'm_%d.obj', first = 5, last = 3 }",
+       "s.toml:7:50: error: solid.0.mesh_sequence.last: 3 is before first, which is 5; give the number of "
+       "the "
+       "last file"},
+      {"[[solid]]\nunion = [ { mesh_sequence = { files = 'm_%d.obj', last = 1 } } ]",
+       "s.toml:7:13: error: solid.0.union.0.mesh_sequence: only the whole shape of a [[solid]] can change; "
+       "give "
+       "mesh with one of its files"},
+      {"[[liquid]]\nmesh_sequence = { files = 'm_%d.obj', last = 1 }",
+       "s.toml:7:1: error: liquid.1.mesh_sequence: only the whole shape of a [[solid]] can change; give mesh "
+       "with one of its files"},
       {"[[source]]\nsphere = { center = [3, 3, 3], radius = 1 }",
        "s.toml:6:1: error: source.0: lies wholly outside the domain; put at least a part of it between [0, "
        "0, 0] and [2, 1, 1]"},
@@ -100,7 +111,8 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
       {"[[wall]]\nslip_length = 1",
        "s.toml:7:1: error: wall.0.slip_length: is of no use here; give it together with wall = \"friction\""},
       {"[[solid]]\nmesh = { file = 'm.obj' }\nwall_velocity = [1, 0, 0]",
-       "s.toml:8:1: error: solid.0.wall_velocity: a wall that slips drags nothing along; give it together with "
+       "s.toml:8:1: error: solid.0.wall_velocity: a wall that slips drags nothing along; give it together "
+       "with "
        "wall = \"no_slip\" or \"friction\""},
       {"[camera]\nfrom = [1, 2, 3]\nat = [1, 2, 3]",
        "s.toml:7:1: error: camera.from: the camera stands at the point it looks at; give camera.from and "
@@ -169,6 +181,11 @@ TEST_CASE("scene faults: what must be given and is not", "[scenes]") {
        "s.toml:7:1: error: solid.0.sphere.radius: missing key; write for example radius = 1"},
       {"[[solid]]\nhalf_space = { point = [1, 1, 1] }",
        "s.toml:7:1: error: solid.0.half_space.normal: missing key; write for example normal = [0, 0, 1]"},
+      {"[[solid]]\nmesh_sequence = { files = 'm_%d.obj' }",
+       "s.toml:7:1: error: solid.0.mesh_sequence.last: missing key; write for example last = 1"},
+      {"[[solid]]\nmesh_sequence = { last = 2 }",
+       "s.toml:7:1: error: solid.0.mesh_sequence.files: missing key; write for example files = "
+       "\"rock_%04d.obj\""},
       {"[[solid]]\nmesh = { scale = 2 }",
        "s.toml:7:1: error: solid.0.mesh.file: missing key; write for example file = \"rock.obj\""},
   });
@@ -193,6 +210,27 @@ TEST_CASE("scene faults: files that are not there", "[scenes]") {
        "s.toml:7:10: error: solid.0.mesh.file: no such file: none.obj; give an existing file, relative to "
        "the scene file's "
        "folder"},
+      {"[[solid]]\nmesh_sequence = { files = 'm_%d.obj', last = 4 }",
+       "s.toml:7:19: error: solid.0.mesh_sequence.files: no such file: m_3.obj; give all from number 1 to 4"},
+      {"[[solid]]\nmesh_sequence = { files = 'm.obj', last = 4 }",
+       "s.toml:7:19: error: solid.0.mesh_sequence.files: m.obj has no place for a number; write %d for it, "
+       "or "
+       "%04d where it has four digits, for example \"rock_%04d.obj\""},
+      {"[[solid]]\nmesh_sequence = { files = 'm_%d_%d.obj', last = 4 }",
+       "s.toml:7:19: error: solid.0.mesh_sequence.files: m_%d_%d.obj does not say in one place where the "
+       "number "
+       "is; write %d for it, or %04d where it has four digits, for example \"rock_%04d.obj\""},
+      {"[[solid]]\nmesh_sequence = { files = 'm_%4d.obj', last = 4 }",
+       "s.toml:7:19: error: solid.0.mesh_sequence.files: m_%4d.obj does not say in one place where the "
+       "number "
+       "is; write %d for it, or %04d where it has four digits, for example \"rock_%04d.obj\""},
+      {"[[solid]]\nmesh_sequence = { files = '', last = 4 }",
+       "s.toml:7:19: error: solid.0.mesh_sequence.files: an empty file name; write for example files = "
+       "\"rock_%04d.obj\""},
+      {"[[solid]]\nmesh_sequence = { files = 'e_%d.png', last = 4 }",
+       "s.toml:7:19: error: solid.0.mesh_sequence.files: e_%d.png is of no known kind; give a file that ends "
+       "in "
+       ".obj, .ply or .stl"},
       {"[[solid]]\nmesh = { file = 'e.png' }",
        "s.toml:7:10: error: solid.0.mesh.file: e.png is of no known kind; give a file that ends in .obj, "
        ".ply or .stl"},

@@ -23,6 +23,9 @@ class SceneFolder {
     std::filesystem::create_directories(m_path / "pictures");
     write("e.png", "");  // only its presence is looked at
     write("m.obj", "");
+    write("m_0.obj", "");
+    write("m_1.obj", "");
+    write("m_2.obj", "");
   }
   ~SceneFolder() {
     std::error_code ignored;

@@ -1,0 +1,413 @@
+// Solids that change their shape: sequences of meshes.
+#include "sim/moving_mesh.h"
+#include "sim/pose.h"
+#include "sim/read_mesh.h"
+#include "sim/solids.h"
+#include "sim/solver.h"
+#include "sim/surface_velocity.h"
+
+#include <tbb/global_control.h>
+#include <unistd.h>
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <functional>
+
+using namespace fluidtex::sim;
+using Catch::Matchers::Contains;
+using openvdb::Vec3f;
+
+namespace {
+
+const std::string kBoxFaces = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+std::string vertex(double x, double y, double z) {
+  return "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+}
+
+std::string boxObj(const Vec3d& a, const Vec3d& b, const std::string& faces = kBoxFaces) {
+  std::string text;
+  for (const double z : {a.z(), b.z()})
+    text +=
+        vertex(a.x(), a.y(), z) + vertex(b.x(), a.y(), z) + vertex(b.x(), b.y(), z) + vertex(a.x(), b.y(), z);
+  return text + faces;
+}
+
+// Files 1, 2, ... in a folder that is gone when the test ends.
+struct Files {
+  std::filesystem::path folder;
+  MeshSequence sequence;
+  explicit Files(const std::vector<std::string>& texts, const std::string& name = "box_%02d.obj") {
+    static int number = 0;
+    folder = std::filesystem::temp_directory_path() /
+             ("fluidtex_100%d_" + std::to_string(::getpid()) + "_" + std::to_string(++number));
+    std::filesystem::create_directories(folder);
+    sequence.files = folder / name;
+    sequence.last = static_cast<int>(texts.size());
+    for (std::size_t n = 0; n < texts.size(); ++n)
+      std::ofstream(sequence.fileOf(static_cast<int>(n)), std::ios::binary) << texts[n];
+  }
+  ~Files() { std::filesystem::remove_all(folder); }
+};
+
+double volumeOf(const TriangleMesh& mesh) {
+  double sixfold = 0.0;
+  for (const auto& t : mesh.triangles)
+    sixfold +=
+        Vec3d(mesh.positions[t[0]]).dot(Vec3d(mesh.positions[t[1]]).cross(Vec3d(mesh.positions[t[2]])));
+  return sixfold / 6.0;
+}
+
+Solid solidOf(const MeshSequence& sequence) {
+  Solid solid;
+  solid.shape.kind = sequence;
+  return solid;
+}
+
+// A basin 1 x 0.5 x 0.5 m, half full.
+Options basin(const Solid& solid, int resolution = 24) {
+  Options options;
+  options.size = Vec3d(1.0, 0.5, 0.5);
+  options.resolution = resolution;
+  options.cfl = 1.0;
+  options.liquid = {{Shape{Box{Vec3d(-1.0), Vec3d(2.0, 2.0, 0.26)}}, Vec3d(0.0), 0.0}};
+  options.solids = {solid};
+  return options;
+}
+
+// Of the surface above the basin's floor, metres.
+double meanLevel(const State& state) {
+  const double h = basin(Solid{}).voxelSize();
+  double level = 0.0;
+  int columns = 0;
+  for (int i = 0; i < 24; ++i) {
+    for (int j = 0; j < 12; ++j, ++columns) {
+      const auto phi = [&](int k) { return state.phi->tree().getValue(Coord(i, j, k)); };
+      int k = 11;
+      while (k > 0 && phi(k) >= 0.0f) --k;
+      level += (k + 0.5 + phi(k) / (phi(k) - phi(k + 1))) * h;
+    }
+  }
+  return level / columns;
+}
+
+// A box on the floor at the left that becomes 0.2 m longer and 0.08 m higher within a second.
+Files swelling() {
+  std::vector<std::string> texts;
+  for (int n = 0; n < 5; ++n) {
+    const double part = 0.25 * n;
+    texts.push_back(boxObj(Vec3d(-0.2), Vec3d(0.2 + 0.2 * part, 0.7, 0.08 + 0.08 * part)));
+  }
+  Files files(texts);
+  files.sequence.frameRate = 4.0;
+  files.sequence.start = 0.1;
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("mesh sequence: the number stands in the last part of the name") {
+  MeshSequence sequence;
+  sequence.first = 9;
+  sequence.files = "50%d/rock_%03d.obj";
+  CHECK(sequence.fileOf(0) == "50%d/rock_009.obj");
+  CHECK(sequence.fileOf(991) == "50%d/rock_1000.obj");
+  sequence.files = "%d.ply";
+  CHECK(sequence.fileOf(1) == "10.ply");
+}
+
+TEST_CASE("mesh sequence: it goes evenly from file to file and rests outside of them") {
+  MeshSequence sequence;
+  sequence.first = 3;
+  sequence.last = 33;
+  sequence.frameRate = 30.0;
+  sequence.start = 0.7;
+  const Solid solid = solidOf(sequence);
+  CHECK_FALSE(poseAt(solid, 0.699).moving());
+  CHECK(poseAt(solid, 0.699).file == 0);
+  CHECK_FALSE(poseAt(solid, 1.71).moving());
+  CHECK(poseAt(solid, 1.71).file == 30);
+  CHECK(poseAt(solid, 1.71).part == 0.0);
+  // At a file's time it goes on as after it, whatever rounding does.
+  for (int n = 0; n < 30; ++n) {
+    const Pose pose = poseAt(solid, sequence.timeOf(n));
+    CHECK(pose.file == n);
+    CHECK(pose.part == 0.0);
+    CHECK(pose.fileRate == 30.0);
+  }
+  CHECK_FALSE(poseAt(solid, sequence.timeOf(30)).moving());
+  const Pose between = poseAt(solid, 0.7 + 4.25 / 30.0);
+  CHECK(between.file == 4);
+  CHECK(between.part == Approx(0.25));
+}
+
+TEST_CASE("mesh sequence: vertices go in straight lines") {
+  const Files files({boxObj(Vec3d(0.0), Vec3d(1.0)), boxObj(Vec3d(0.0), Vec3d(2.0, 1.0, 3.0))});
+  const MovingMesh mesh(files.sequence);
+  CHECK(volumeOf(mesh.at(0, 0.0)) == Approx(1.0));
+  CHECK(volumeOf(mesh.at(0, 0.5)) == Approx(1.5 * 2.0));
+  CHECK(volumeOf(mesh.at(1, 0.0)) == Approx(6.0));
+  CHECK(mesh.change(0)[0] == Vec3f(0.0f));
+  CHECK(mesh.change(0)[6] == Vec3f(1.0f, 0.0f, 2.0f));
+  MeshSequence placed = files.sequence;
+  placed.scale = 2.0;
+  placed.translate = Vec3d(1.0, 2.0, 3.0);
+  CHECK(MovingMesh(placed).at(1, 0.0).positions[6] == Vec3f(5.0f, 4.0f, 9.0f));
+  // Two files alone are the same.
+  CHECK(MovingMesh(files.sequence, 1, 1).at(1, 0.0).positions == mesh.at(1, 0.0).positions);
+}
+
+TEST_CASE("mesh sequence: vertices that are always together are joined, others are not") {
+  // A box whose top has corners of its own, as exporters make them where normals differ.
+  const auto twice = [](double top) {
+    return boxObj(Vec3d(0.0), Vec3d(1.0, 1.0, top), "") + vertex(0, 0, top) + vertex(1, 0, top) +
+           vertex(1, 1, top) + vertex(0, 1, top) +
+           "f 1 4 3 2\nf 9 10 11 12\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  };
+  // Flat at first: then its top and bottom lie together, but only then.
+  const Files files({twice(0.0), twice(1.0)});
+  const MovingMesh mesh(files.sequence);
+  CHECK(mesh.at(0, 0.0).triangles.size() == 12);
+  CHECK(volumeOf(mesh.at(0, 0.5)) == Approx(0.5));
+  // A notch in an L: the fan has to start at the inner corner.
+  const auto ell = [](double top) {
+    std::string text;
+    for (const double z : {0.0, top})
+      text += vertex(0, 0, z) + vertex(2, 0, z) + vertex(2, 1, z) + vertex(1, 1, z) + vertex(1, 2, z) +
+              vertex(0, 2, z);
+    text += "f 6 5 4 3 2 1\nf 7 8 9 10 11 12\n";
+    for (int n = 0; n < 6; ++n) {
+      const int next = (n + 1) % 6;
+      text += "f " + std::to_string(n + 1) + " " + std::to_string(next + 1) + " " + std::to_string(next + 7) +
+              " " + std::to_string(n + 7) + "\n";
+    }
+    return text;
+  };
+  const Files ells({ell(1.0), ell(3.0)});
+  const TriangleMesh notched = MovingMesh(ells.sequence).at(0, 0.5);
+  double area = 0.0;
+  for (const auto& t : notched.triangles) {
+    const Vec3d a(notched.positions[t[0]]), b(notched.positions[t[1]]), c(notched.positions[t[2]]);
+    area += 0.5 * (b - a).cross(c - a).length();
+  }
+  CHECK(volumeOf(notched) == Approx(6.0));
+  CHECK(area == Approx(2.0 * 3.0 + 8.0 * 2.0));
+}
+
+TEST_CASE("mesh sequence: faults name the files and what is wrong") {
+  const auto faultOf = [](const std::vector<std::string>& texts) -> std::string {
+    const Files files(texts);
+    try {
+      MovingMesh mesh(files.sequence);
+    } catch (const MeshError& error) {
+      return error.what();
+    }
+    return "no fault";
+  };
+  const std::string box = boxObj(Vec3d(0.0), Vec3d(1.0));
+  const std::string same =
+      "; all files of a sequence must have the same vertices and faces in the same order";
+  CHECK(faultOf({box, box}) == "no fault");
+  CHECK_THAT(faultOf({box, box, "v 0 0 0\n" + box}),
+             Contains("box_03.obj: has 9 vertices and 6 faces, not 8 vertices and 6 faces as /") &&
+                 Contains("box_01.obj" + same));
+  const std::string turned = "f 1 4 3 2\nf 5 6 7 8\nf 1 5 6 2\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  CHECK_THAT(
+      faultOf({box, boxObj(Vec3d(0.0), Vec3d(1.0), turned)}),
+      Contains("box_02.obj: its face 3 joins other vertices than in /") && Contains("box_01.obj" + same));
+  CHECK_THAT(faultOf({box, "v nan 0 0\n" + box}), Contains("box_02.obj: "));
+  CHECK_THAT(faultOf({box, ""}), Contains("box_02.obj: the file is empty"));
+  const std::string open = boxObj(Vec3d(0.0), Vec3d(1.0), kBoxFaces.substr(10));
+  CHECK_THAT(faultOf({open, open}), Contains("box_01.obj: is not closed: 4 edges"));
+  MeshSequence missing = Files({box, box}).sequence;
+  CHECK_THROWS_AS(MovingMesh(missing), MeshError);
+}
+
+TEST_CASE("surface velocity: that of the closest point") {
+  const Files files({boxObj(Vec3d(0.0), Vec3d(1.0)), boxObj(Vec3d(0.0), Vec3d(2.0, 1.0, 1.0))});
+  const MovingMesh mesh(files.sequence);
+  const SurfaceVelocity velocity(mesh.at(0, 0.0), mesh.change(0));
+  for (const double reach : {0.05, 0.5, 10.0}) {
+    CHECK((velocity.at(Vec3d(1.2, 0.3, 0.7), reach) - Vec3d(1, 0, 0)).length() < 1e-6);
+    CHECK((velocity.at(Vec3d(0.25, 0.3, 1.1), reach) - Vec3d(0.25, 0, 0)).length() < 1e-6);
+    CHECK((velocity.at(Vec3d(0.7, 0.5, 0.9), reach) - Vec3d(0.7, 0, 0)).length() < 1e-6);
+    CHECK(velocity.at(Vec3d(-3.0, 0.5, 0.5), reach).length() < 1e-6);
+  }
+  // A sphere that swells: whatever the triangle, the velocity points outward and is as large as the radius
+  // grows.
+  const TriangleMesh ball = triangulate(Shape{Sphere{Vec3d(0.5), 0.25}}, Vec3d(1.0), 0.02);
+  std::vector<Vec3f> outward;
+  for (const Vec3f& x : ball.positions) outward.push_back((x - Vec3f(0.5f)) * 4.0f);
+  const SurfaceVelocity swells(ball, outward);
+  for (int n = 0; n < 200; ++n) {
+    const Vec3d way = Vec3d(std::sin(1.0 * n), std::cos(2.3 * n), std::sin(3.1 * n)).unit();
+    for (const double r : {0.2, 0.25, 0.3}) {
+      const Vec3d v = swells.at(Vec3d(0.5) + r * way, std::abs(r - 0.25) + 0.02);
+      CHECK((v - way).length() < 0.01);
+    }
+  }
+}
+
+TEST_CASE("deforming solids: the surface moves with the velocity that the liquid is told") {
+  // Swelling, turned and moved at once: d(distance)/dt = -velocity . normal on the surface.
+  Files files({boxObj(Vec3d(-0.2), Vec3d(0.2)), boxObj(Vec3d(-0.3, -0.2, -0.2), Vec3d(0.5, 0.3, 0.5))});
+  files.sequence.frameRate = 1.0;
+  Solid solid = solidOf(files.sequence);
+  solid.keyframes = {{0.0, Vec3d(0.5), 20.0}, {1.0, Vec3d(0.55, 0.5, 0.45), 50.0}};
+  Options options;
+  options.resolution = 48;
+  options.solids = {solid};
+  Solids solids(options);
+  const double t = 0.4, dt = 1e-3, h = options.voxelSize();
+  const auto field = solids.at(t);
+  const auto speedAt = [&](const FloatGrid& grid, const Vec3d& x) {
+    return double(grid.tree().getValue(Coord::round(grid.worldToIndex(x))));
+  };
+  const Pose pose = poseAt(solid, t);
+  int checked = 0;
+  // The middles of the body's sides at this time.
+  const Vec3d low(-0.24, -0.2, -0.2), high(0.32, 0.24, 0.32), middle = 0.5 * (low + high);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const bool up : {false, true}) {
+      Vec3d x = middle, out(0.0);
+      x[axis] = up ? high[axis] : low[axis];
+      out[axis] = up ? 1.0 : -1.0;
+      const Vec3d at = pose.toWorld(x), normal = pose.directionToWorld(out);
+      CHECK(std::abs(solids.distance(at, t)) < 0.02 * h);
+      const double change = (solids.distance(at, t + dt) - solids.distance(at, t - dt)) / (2.0 * dt);
+      const Vec3d v(speedAt(*field->speedU, at), speedAt(*field->speedV, at), speedAt(*field->speedW, at));
+      // A face's middle lies up to half a cell away.
+      CHECK(change == Approx(-v.dot(normal)).margin(0.01));
+      checked += std::abs(change) > 0.05;
+    }
+  }
+  CHECK(checked >= 3);
+  CHECK(solids.nextChange(0.0) == 1.0);
+  CHECK(solids.nextChange(1.0) == kForever);
+}
+
+TEST_CASE("deforming solids: one that only moves makes the flow of one with keyframes") {
+  std::vector<std::string> texts;
+  const Vec3d low(-0.1, -0.1, -0.1), high(0.15, 0.6, 0.4), far(0.08, 0.0, 0.0);
+  for (int n = 0; n < 4; ++n) texts.push_back(boxObj(low + (n / 3.0) * far, high + (n / 3.0) * far));
+  Files files(texts);
+  files.sequence.frameRate = 6.0;
+  Solid keyed;
+  keyed.shape.kind = Box{low, high};
+  keyed.keyframes = {{0.0, Vec3d(0.0), 0.0}, {0.5, far, 0.0}};
+  const Options a = basin(keyed), b = basin(solidOf(files.sequence));
+
+  // Where the liquid is; at the box's edges a mesh's distance is rounded.
+  const auto inside = [](const Coord& at) {
+    return at[0] >= 5 && at[1] >= 0 && at[2] >= 0 && at[0] < 24 && at[1] < 12 && at[2] < 8;
+  };
+  Solids keyedSolids(a), formedSolids(b);
+  for (const double t : {0.0, 0.1, 0.25, 0.6}) {
+    const auto one = keyedSolids.at(t), other = formedSolids.at(t);
+    const std::pair<FloatGrid::Ptr, FloatGrid::Ptr> grids[] = {
+        {one->phi, other->phi}, {one->openU, other->openU}, {one->speedU, other->speedU}};
+    for (const auto& [grid, same] : grids) {
+      REQUIRE((grid == nullptr) == (same == nullptr));
+      if (grid == nullptr) continue;
+      for (auto it = grid->cbeginValueOn(); it; ++it) {
+        if (it.isVoxelValue() && inside(it.getCoord()))
+          REQUIRE(same->tree().getValue(it.getCoord()) == Approx(*it).margin(1e-5));
+      }
+    }
+  }
+
+  Solver moved(a), formed(b);
+  for (int n = 1; n <= 12; ++n) {
+    const double volume = moved.next().stats.volume;
+    CHECK(formed.next().stats.volume == Approx(volume).epsilon(1e-3));
+    const State &one = moved.state(), &other = formed.state();
+    const std::pair<FloatGrid::Ptr, FloatGrid::Ptr> grids[] = {
+        {one.u, other.u}, {one.v, other.v}, {one.w, other.w}};
+    double all = 0.0, apart = 0.0;
+    for (const auto& [grid, same] : grids) {
+      for (auto it = grid->cbeginValueOn(); it; ++it) {
+        const Coord at = it.getCoord();
+        if (one.phi->tree().getValue(at) > 0.0f || !inside(at)) continue;
+        const double less = *it - same->tree().getValue(at);
+        all += *it * *it;
+        apart += less * less;
+      }
+    }
+    CHECK(all > 0.0);
+    CHECK(std::sqrt(apart / all) < 0.01);
+  }
+}
+
+TEST_CASE("deforming solids: a floor that swells lifts the surface by its volume") {
+  // From 0.08 to 0.24 m within a second, in a tank that it fills from side to side.
+  std::vector<std::string> texts;
+  for (int n = 0; n < 3; ++n) texts.push_back(boxObj(Vec3d(-0.2), Vec3d(1.2, 0.7, 0.08 + 0.08 * n)));
+  Files files(texts);
+  files.sequence.frameRate = 2.0;
+  Solver solver(basin(solidOf(files.sequence)));
+  for (int n = 1; n <= 13; ++n) solver.next();
+  // Half-way, all of the liquid moves as the floor does.
+  for (auto it = solver.state().w->cbeginValueOn(); it; ++it) {
+    const Coord at = it.getCoord();
+    if (solver.state().phi->tree().getValue(at) < 0.0f && at[2] > 5 && at[0] >= 0 && at[0] < 24)
+      REQUIRE(*it == Approx(0.16).margin(0.02));
+  }
+  for (int n = 14; n <= 26; ++n) solver.next();
+  CHECK(meanLevel(solver.state()) - 0.26 == Approx(0.16).epsilon(0.02));
+}
+
+TEST_CASE("deforming solids: what swells in a basin takes its place from the liquid and keeps its volume") {
+  const Files files = swelling();
+  Solver solver(basin(solidOf(files.sequence)));
+  const double first = solver.next().stats.volume;
+  CHECK(first == Approx((1.0 * 0.26 - 0.2 * 0.08) * 0.5).epsilon(0.005));
+  for (int n = 2; n <= 29; ++n) CHECK(std::abs(solver.next().stats.volume / first - 1.0) < 0.02);
+}
+
+TEST_CASE("deforming solids: the same bytes on any number of threads, and from a state that was kept") {
+  const Files files = swelling();
+  Options options = basin(solidOf(files.sequence), 16);
+  options.solids[0].wall.kind = WallKind::noSlip;
+  options.viscosity = 5.0;
+  const auto bytesOf = [](const State& state) {
+    std::string bytes;
+    for (const auto& grid : {state.phi, state.u, state.v, state.w})
+      for (auto leaf = grid->tree().cbeginLeaf(); leaf; ++leaf)
+        bytes.append(reinterpret_cast<const char*>(leaf->buffer().data()), sizeof(float) * kLeafSize);
+    return bytes;
+  };
+  const auto run = [&](int threads, int cut) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    auto solver = std::make_unique<Solver>(options);
+    for (int n = 1; n <= 8; ++n) {
+      solver->next();
+      if (n == cut) {
+        writeState(solver->state(), files.folder / "state.vdb");
+        solver = std::make_unique<Solver>(options, readState(files.folder / "state.vdb"));
+      }
+    }
+    return bytesOf(solver->state());
+  };
+  const std::string whole = run(1, 0);
+  CHECK((run(4, 0) == whole));
+  CHECK((run(2, 5) == whole));
+}
+
+TEST_CASE("triangulate: a deforming solid is drawn as it is at the time") {
+  Files files({boxObj(Vec3d(0.2), Vec3d(0.4)), boxObj(Vec3d(0.2), Vec3d(0.8)),
+               boxObj(Vec3d(0.2), Vec3d(0.8, 0.8, 1.6))});
+  files.sequence.frameRate = 2.0;
+  Solid solid = solidOf(files.sequence);
+  const auto volumeAt = [&](double t) { return volumeOf(triangulate(solid, t, Vec3d(1.0), 0.02)); };
+  CHECK(volumeAt(0.0) == Approx(0.008));
+  CHECK(volumeAt(0.25) == Approx(0.064));
+  CHECK(volumeAt(0.5) == Approx(0.216));
+  CHECK(volumeAt(7.0) == Approx(0.36 * 0.8).epsilon(0.01));  // cut off at the domain's top
+  solid.keyframes = {{0.0, Vec3d(0.1, 0.0, 0.0), 0.0}};
+  const TriangleMesh moved = triangulate(solid, 0.25, Vec3d(1.0), 0.02);
+  float right = 0.0f;
+  for (const Vec3f& x : moved.positions) right = std::max(right, x.x());
+  CHECK(right == Approx(0.7));
+}
