@@ -180,8 +180,10 @@ double Solids::distance(const Vec3d& x, double t) const {
 Vec3d Solids::velocityOf(const Placed& solid, const SurfaceVelocity* change, const Vec3d& x,
                          double distance) const {
   const Vec3d velocity = solid.pose.velocityAt(x);
-  if (change == nullptr) return velocity;
-  const double reach = std::abs(distance) + m_options.voxelSize();
+  // Deeper in the solid nobody asks, and the closest point, of many as far away, would take long to find.
+  const double h = m_options.voxelSize(), deepest = (kSolidBand + 2) * h;
+  if (change == nullptr || std::abs(distance) > deepest) return velocity;
+  const double reach = std::abs(distance) + h;
   return velocity + solid.pose.directionToWorld(change->at(solid.pose.toBody(x), reach));
 }
 

@@ -299,7 +299,8 @@ TEST_CASE("deforming solids: one that only moves makes the flow of one with keyf
   keyed.keyframes = {{0.0, Vec3d(0.0), 0.0}, {0.5, far, 0.0}};
   const Options a = basin(keyed), b = basin(solidOf(files.sequence));
 
-  // Where the liquid is; at the box's edges a mesh's distance is rounded.
+  // Where the liquid is; at the box's edges a mesh's distance is rounded, and deep inside nobody asks for a
+  // velocity.
   const auto inside = [](const Coord& at) {
     return at[0] >= 5 && at[1] >= 0 && at[2] >= 0 && at[0] < 24 && at[1] < 12 && at[2] < 8;
   };
@@ -312,7 +313,7 @@ TEST_CASE("deforming solids: one that only moves makes the flow of one with keyf
       REQUIRE((grid == nullptr) == (same == nullptr));
       if (grid == nullptr) continue;
       for (auto it = grid->cbeginValueOn(); it; ++it) {
-        if (it.isVoxelValue() && inside(it.getCoord()))
+        if (it.isVoxelValue() && inside(it.getCoord()) && one->phi->tree().isValueOn(it.getCoord()))
           REQUIRE(same->tree().getValue(it.getCoord()) == Approx(*it).margin(1e-5));
       }
     }
