@@ -86,7 +86,10 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(sim.heat.ambient == 300.0);
   CHECK(sim.heat.wallTransfer == 10.0);
   CHECK(sim.heat.wallTemperature == 400.0);
-  CHECK(sim.heat.law.kind == sim::ViscosityLaw::Kind::arrhenius);
+  CHECK(sim.heat.law.kind == sim::ViscosityLaw::Kind::table);
+  REQUIRE(sim.heat.law.points.size() == 2);
+  CHECK(sim.heat.law.points[0].viscosity == 1e5);
+  CHECK(sim.heat.law.points[1].temperature == 1400.0);
   CHECK(sim.heat.law.reference == 1300.0);
   CHECK(sim.heat.law.slope == 0.1);
   CHECK(sim.heat.law.activationEnergy == 150000.0);
