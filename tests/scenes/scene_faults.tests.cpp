@@ -78,10 +78,10 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
        "each "
        "with a temperature and a viscosity"},
       {"[[heat.point]]\ntemperature = 1\nviscosity = 1",
-       "s.toml:6:3: error: heat.point: is of no use here; give it together with law = \"table\""},
+       "s.toml:6:8: error: heat.point: is of no use here; give it together with law = \"table\""},
       {"[heat]\nlaw = \"table\"\npoint = [{ temperature = 5, viscosity = 1 }, { temperature = 4, viscosity = "
        "2 }]",
-       "s.toml:8:46: error: heat.point.1.temperature: 4 K is not above the one before, 5 K; give them by "
+       "s.toml:8:48: error: heat.point.1.temperature: 4 K is not above the one before, 5 K; give them by "
        "rising "
        "temperature"},
       {"[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 }, { time = 1 } ]",
