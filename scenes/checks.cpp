@@ -126,6 +126,23 @@ void checkMotion(const sim::Solid& solid, const std::string& path, Reader& reade
     reader.fault(path + ".axis", "has no length", "give the direction it turns about, for example [0, 0, 1]");
 }
 
+void checkHeat(const sim::ViscosityLaw& law, Reader& reader) {
+  if (!reader.clean("heat.law") || !reader.clean("heat.point")) return;
+  const bool table = law.kind == sim::ViscosityLaw::Kind::table;
+  if (table && law.points.size() < 2)
+    reader.fault("heat.law", "\"table\" has fewer than two points",
+                 "give two [[heat.point]] or more, each with a temperature and a viscosity");
+  if (!table && !law.points.empty())
+    reader.fault("heat.point", "is of no use here", "give it together with law = \"table\"");
+  for (std::size_t i = 1; i < law.points.size(); ++i) {
+    if (law.points[i - 1].temperature < law.points[i].temperature) continue;
+    reader.fault("heat.point." + std::to_string(i) + ".temperature",
+                 written(law.points[i].temperature) + " K is not above the one before, " +
+                     written(law.points[i - 1].temperature) + " K",
+                 "give them by rising temperature");
+  }
+}
+
 void checkFlows(const Scene& scene, Reader& reader) {
   const auto checkPlace = [&](const sim::Shape& shape, const std::string& path) {
     checkShape(shape, path, reader);
@@ -302,6 +319,7 @@ void check(const Scene& scene, Reader& reader) {
     reader.fault("name", "\"" + scene.name + "\" is a folder", "give a name that can be a file's");
   checkDomain(scene, reader);
   checkBodies(scene, reader);
+  checkHeat(scene.sim.heat.law, reader);
   checkFlows(scene, reader);
   checkVolume(scene, reader);
   checkTexture(scene, reader);

@@ -47,12 +47,16 @@ void describeMotion(Visitor& visitor, sim::Options& sim) {
     visitor.number("ambient", heat.ambient, kNotNegative);
     visitor.number("wall_transfer", heat.wallTransfer, kNotNegative);
     visitor.number("wall_temperature", heat.wallTemperature, kNotNegative);
-    choice(visitor, "law", heat.law.kind, {"constant", "exponential", "arrhenius"});
+    choice(visitor, "law", heat.law.kind, {"constant", "exponential", "arrhenius", "table"});
     visitor.number("reference", heat.law.reference, kPositive);
     visitor.number("slope", heat.law.slope, kNotNegative);
     visitor.number("activation_energy", heat.law.activationEnergy, kNotNegative);
     visitor.number("solidus", heat.law.solidus, kNotNegative);
     visitor.number("solid_viscosity", heat.law.solidViscosity, kPositive);
+    visitor.list("point", heat.law.points, [&](sim::ViscosityPoint& point) {
+      visitor.number("temperature", point.temperature, kPositive, Need::required);
+      visitor.number("viscosity", point.viscosity, kPositive, Need::required);
+    });
   });
   visitor.table("simulation", [&] {
     visitor.number("cfl", sim.cfl, {.low = 0.1, .high = 4.0});

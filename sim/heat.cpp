@@ -41,6 +41,17 @@ std::vector<CellBlock> liquidCellBlocks(const FloatGrid& temperature, const Floa
   return blocks;
 }
 
+double viscosityFrom(const std::vector<ViscosityPoint>& points, double temperature) {
+  const auto above = std::find_if(points.begin(), points.end(), [&](const ViscosityPoint& point) {
+    return point.temperature > temperature;
+  });
+  if (above == points.begin()) return above->viscosity;
+  const ViscosityPoint& below = *(above - 1);
+  if (above == points.end()) return below.viscosity;
+  const double share = (temperature - below.temperature) / (above->temperature - below.temperature);
+  return below.viscosity * std::pow(above->viscosity / below.viscosity, share);
+}
+
 }  // namespace
 
 double viscosityAt(const ViscosityLaw& law, double viscosity, double temperature) {
@@ -50,6 +61,8 @@ double viscosityAt(const ViscosityLaw& law, double viscosity, double temperature
     value *= std::exp(-law.slope * (temperature - law.reference));
   } else if (law.kind == ViscosityLaw::Kind::arrhenius) {
     value *= std::exp(law.activationEnergy / kGasConstant * (1.0 / temperature - 1.0 / law.reference));
+  } else if (law.kind == ViscosityLaw::Kind::table && !law.points.empty()) {
+    value = viscosityFrom(law.points, temperature);
   }
   return std::min(value, std::max(law.solidViscosity, viscosity));
 }

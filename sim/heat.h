@@ -9,7 +9,7 @@
 namespace fluidtex::sim {
 
 // Viscosity (Pa s) of a liquid at a temperature: `viscosity` at the law's reference temperature, changed as
-// the law says, and at most the solid's; the solid's below the solidus.
+// the law says, or that of the law's table, and at most the solid's; the solid's below the solidus.
 double viscosityAt(const ViscosityLaw& law, double viscosity, double temperature);
 
 // The same for every value of a grid.

@@ -125,15 +125,23 @@ struct DomainWall {
   Wall wall;
 };
 
+// A measured viscosity (Pa s) at a temperature (K).
+struct ViscosityPoint {
+  double temperature = 0.0, viscosity = 0.0;
+};
+
 // How viscosity depends on temperature (K). Options::viscosity is that at `reference`.
 struct ViscosityLaw {
-  enum class Kind { constant, exponential, arrhenius };
+  enum class Kind { constant, exponential, arrhenius, table };
   Kind kind = Kind::constant;
   double reference = 1400.0;           // K
   double slope = 0.04;                 // 1/K, exponential: viscosity exp(-slope (T - reference))
   double activationEnergy = 200000.0;  // J/mol, Arrhenius: viscosity exp(E / R (1/T - 1/reference))
-  double solidus = 0.0;                // K, solid below
-  double solidViscosity = 1e6;         // Pa s, of the solid; the law never exceeds it
+  // table, in place of Options::viscosity: by rising temperature; between them the viscosity's logarithm is
+  // linear, beyond them it is that of the first or the last.
+  std::vector<ViscosityPoint> points;
+  double solidus = 0.0;         // K, solid below
+  double solidViscosity = 1e6;  // Pa s, of the solid; the law never exceeds it
 };
 
 struct HeatOptions {

@@ -58,12 +58,18 @@ emissivity = 0.5
 ambient = 300
 wall_transfer = 10
 wall_temperature = 400
-law = "arrhenius"
+law = "table"
 reference = 1300
 slope = 0.1
 activation_energy = 150000
 solidus = 900
 solid_viscosity = 5e5
+[[heat.point]]
+temperature = 1000
+viscosity = 1e5
+[[heat.point]]
+temperature = 1400
+viscosity = 10
 [simulation]
 cfl = 1.5
 keep_volume = false

@@ -86,7 +86,10 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(sim.heat.ambient == 300.0);
   CHECK(sim.heat.wallTransfer == 10.0);
   CHECK(sim.heat.wallTemperature == 400.0);
-  CHECK(sim.heat.law.kind == sim::ViscosityLaw::Kind::arrhenius);
+  CHECK(sim.heat.law.kind == sim::ViscosityLaw::Kind::table);
+  REQUIRE(sim.heat.law.points.size() == 2);
+  CHECK(sim.heat.law.points[0].viscosity == 1e5);
+  CHECK(sim.heat.law.points[1].temperature == 1400.0);
   CHECK(sim.heat.law.reference == 1300.0);
   CHECK(sim.heat.law.slope == 0.1);
   CHECK(sim.heat.law.activationEnergy == 150000.0);
@@ -197,10 +200,13 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
 TEST_CASE("scene: the resolved scene has every key, given or not", "[scenes]") {
   const std::string ball = "sphere = { center = [1, 1, 1], radius = 0.5 }\n";
   const std::string oneEach =
-      "[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 } ]\n[[solid]]\nmesh_sequence = { files = "
+      "[heat]\nlaw = 'table'\npoint = [ { temperature = 1, viscosity = 1 }, { temperature = 2, viscosity = 1 "
+      "} "
+      "]\n"
+      "[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 } ]\n[[solid]]\nmesh_sequence = { files "
+      "= "
       "'m_%d.obj', last = 2 }\n[[source]]\n" +
-      ball +
-      "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + ball + "[[wall]]\n";
+      ball + "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + ball + "[[wall]]\n";
   std::set<std::string> whole, defaults;
   collectKeys(Json::parse(sceneOf(kFullScene).resolved), "", whole);
   collectKeys(Json::parse(sceneOf(kGoodScene + oneEach).resolved), "", defaults);

@@ -73,6 +73,17 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
       {"[[solid]]\nmesh = { file = 'm.obj' }\nfrom = 1\nuntil = 1",
        "s.toml:9:1: error: solid.0.until: until 1 s is not after from 1 s; give an until that is greater "
        "than from"},
+      {"[heat]\nlaw = \"table\"",
+       "s.toml:7:1: error: heat.law: \"table\" has fewer than two points; give two [[heat.point]] or more, "
+       "each "
+       "with a temperature and a viscosity"},
+      {"[[heat.point]]\ntemperature = 1\nviscosity = 1",
+       "s.toml:6:8: error: heat.point: is of no use here; give it together with law = \"table\""},
+      {"[heat]\nlaw = \"table\"\npoint = [{ temperature = 5, viscosity = 1 }, { temperature = 4, viscosity = "
+       "2 }]",
+       "s.toml:8:48: error: heat.point.1.temperature: 4 K is not above the one before, 5 K; give them by "
+       "rising "
+       "temperature"},
       {"[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 }, { time = 1 } ]",
        "s.toml:8:30: error: solid.0.keyframe.1.time: 1 s is not after the one before, at 1 s; give them in "
        "the order of time"},

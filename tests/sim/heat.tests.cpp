@@ -47,6 +47,20 @@ struct Pool {
 
 }  // namespace
 
+TEST_CASE("viscosityAt: goes through its table, its logarithm linear between", "[sim]") {
+  ViscosityLaw law;
+  law.kind = ViscosityLaw::Kind::table;
+  law.points = {{1000.0, 1e5}, {1200.0, 1e3}, {1400.0, 10.0}};
+  for (const ViscosityPoint& point : law.points)
+    CHECK_THAT(viscosityAt(law, 7.0, point.temperature), WithinRel(point.viscosity, 1e-12));
+  CHECK_THAT(viscosityAt(law, 7.0, 1100.0), WithinRel(1e4, 1e-12));
+  CHECK_THAT(viscosityAt(law, 7.0, 1350.0), WithinRel(10.0 * std::sqrt(10.0), 1e-12));
+  CHECK(viscosityAt(law, 7.0, 500.0) == 1e5);
+  CHECK(viscosityAt(law, 7.0, 2000.0) == 10.0);
+  law.solidus = 800.0;
+  CHECK(viscosityAt(law, 7.0, 500.0) == law.solidViscosity);
+}
+
 TEST_CASE("viscosityAt: follows its law, up to the solid's", "[sim]") {
   ViscosityLaw law{.kind = ViscosityLaw::Kind::exponential, .reference = 1400.0, .slope = 0.05};
   CHECK_THAT(viscosityAt(law, 100.0, 1400.0), WithinRel(100.0, 1e-12));
