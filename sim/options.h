@@ -139,7 +139,7 @@ struct ViscosityLaw {
   double activationEnergy = 200000.0;  // J/mol, Arrhenius: viscosity exp(E / R (1/T - 1/reference))
   // table, in place of Options::viscosity: by rising temperature; between them the viscosity's logarithm is
   // linear, beyond them it is that of the first or the last.
-  std::vector<ViscosityPoint> points;
+  std::vector<ViscosityPoint> points{};
   double solidus = 0.0;         // K, solid below
   double solidViscosity = 1e6;  // Pa s, of the solid; the law never exceeds it
 };
