@@ -221,7 +221,24 @@ void checkBodies(const Scene& scene, Reader& reader) {
   }
 }
 
+void checkOrientation(const Scene& scene, Reader& reader) {
+  const texture::OrientationOptions& orientation = scene.texture.orientation;
+  const std::string path = "texture.orientation";
+  if (reader.clean(path + ".symmetry") && orientation.symmetry == 3)
+    reader.fault(path + ".symmetry", "3 is no symmetry of square pieces of a picture", "give 1, 2 or 4");
+  if (reader.clean(path + ".align") && orientation.align == texture::Align::curvature &&
+      orientation.symmetry == 1)
+    reader.fault(path + ".align", "the line in which a surface bends has no forward end",
+                 "give symmetry = 2 or 4 with it");
+  if (reader.clean(path + ".direction") && orientation.align == texture::Align::direction &&
+      orientation.direction.length() == 0.0)
+    reader.fault(path + ".direction", "has no length", "give a vector that points somewhere");
+  for (std::size_t i = 0; i < scene.keepClear.size(); ++i)
+    checkShape(scene.keepClear[i], path + ".keep_clear." + std::to_string(i), reader);
+}
+
 void checkTexture(const Scene& scene, Reader& reader) {
+  checkOrientation(scene, reader);
   const texture::SynthesisOptions& synthesis = scene.texture.synthesis;
   const std::vector<int>& windows = synthesis.windows;
   if (reader.clean("texture.windows")) {

@@ -106,7 +106,21 @@ void describeMotion(Visitor& visitor, sim::Options& sim) {
   });
 }
 
-void describeTexture(Visitor& visitor, texture::Options& texture) {
+void describeOrientation(Visitor& visitor, Scene& scene) {
+  texture::OrientationOptions& orientation = scene.texture.orientation;
+  visitor.integer("symmetry", orientation.symmetry, {.low = 1, .high = 4});
+  choice(visitor, "align", orientation.align, {"none", "gravity", "flow", "curvature", "direction", "field"});
+  visitor.number("weight", orientation.weight, kShare);
+  visitor.vector("direction", orientation.direction, kAny);
+  if (orientation.align == texture::Align::field)
+    visitor.file("field", orientation.field, {".vdb"});
+  else
+    visitor.absent("field");
+  visitor.list("keep_clear", scene.keepClear, [&](sim::Shape& shape) { describeShape(visitor, shape); });
+}
+
+void describeTexture(Visitor& visitor, Scene& scene) {
+  texture::Options& texture = scene.texture;
   visitor.table(
       "texture",
       [&] {
@@ -140,6 +154,7 @@ void describeTexture(Visitor& visitor, texture::Options& texture) {
           visitor.integer("levels", texture.surface.levels, {.low = 1, .high = 8});
           visitor.integer("repulsion_sweeps", texture.surface.repulsionSweeps, {.low = 0, .high = 1000});
         });
+        visitor.table("orientation", [&] { describeOrientation(visitor, scene); });
       },
       Need::required);
 }
@@ -180,7 +195,7 @@ void describe(Visitor& visitor, Scene& scene) {
   visitor.number("frame_rate", scene.sim.frameRate, {.low = 1.0, .high = 1000.0});
   visitor.seed("seed", scene.seed);
   describeMotion(visitor, scene.sim);
-  describeTexture(visitor, scene.texture);
+  describeTexture(visitor, scene);
   describePicture(visitor, scene.render);
 }
 

@@ -1,6 +1,8 @@
 // Settings of surface preparation and synthesis: what a scene file says about the texture.
 #pragma once
 
+#include <openvdb/Types.h>
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -24,6 +26,24 @@ struct SurfaceOptions {
   int levels = 3;                 // of the hierarchy on the first frame that has a surface
   int repulsionSweeps = 30;       // on the first frame and for random points; seeds need a quarter of them
   std::uint64_t seed = 1;
+};
+
+// What the columns of the exemplar run along, as far as the field's smoothness lets them.
+enum class Align {
+  none,
+  gravity,    // down the surface
+  flow,       // the way the surface moves
+  curvature,  // the line in which it bends most; no arrow, so it takes a symmetry of 2 or 4
+  direction,  // one direction in space
+  field,      // vectors from a file
+};
+
+struct OrientationOptions {
+  int symmetry = 1;               // equal directions in a full turn: 1, 2 (bricks) or 4 (squares)
+  Align align = Align::none;
+  double weight = 0.2;            // 0 not at all, 0.5 as much as the neighbouring vertices, 1 whatever they are
+  openvdb::Vec3d direction{1.0, 0.0, 0.0};
+  std::filesystem::path field;    // OpenVDB; its first grid of float vectors
 };
 
 struct SynthesisOptions {
@@ -54,6 +74,7 @@ struct Options {
   double spacing = 0.0;
   int points = 40000;
   SurfaceOptions surface;
+  OrientationOptions orientation;
   SynthesisOptions synthesis;
 };
 

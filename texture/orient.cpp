@@ -1,246 +1,304 @@
-// Smooth unit tangent fields by diffusion: averages in polar maps as in [Kwatra07 sec. IV] and Zhang,
-// Mischaikow, Turk: Vector Field Design on Surfaces (2004). At the coarsest level inverse iteration first
-// goes for the smoothest field of all (Knoeppel et al.: Globally Optimal Direction Fields, 2013), set to unit
-// length after each step (Viertel, Osting: An Approach to Quad Meshing Based on Harmonic Cross-Valued Maps,
-// 2019): plain diffusion of a unit field holds on to pairs of opposite singularities, this lets them meet and
-// vanish.
+// Smooth unit tangent fields: averages in polar maps as in [Kwatra07 sec. IV] and Zhang, Mischaikow, Turk:
+// Vector Field Design on Surfaces (2004), here as linear systems in the connection's Laplacian, which reach
+// further than sweeps. At the coarsest level inverse iteration goes for the smoothest field of all (Knoeppel
+// et al.: Globally Optimal Direction Fields, 2013), set to unit length after each step (Viertel, Osting: An
+// Approach to Quad Meshing Based on Harmonic Cross-Valued Maps, 2019): plain diffusion of a unit field holds
+// on to pairs of opposite singularities, this lets them meet and vanish.
 #include "texture/orient.h"
 
 #include "texture/complex.h"
 #include "texture/parallel.h"
 #include "texture/point_grid.h"
 #include "texture/random.h"
-#include "texture/tangent.h"
+#include "texture/tangent_field.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace fluidtex::texture {
 namespace {
 
-// A direction that is not believed at all still starts with this length, so that it decides where nothing
-// else does.
-constexpr float kLeastLength = 0.01f;
-// Steps of inverse iteration at the coarsest level.
-constexpr int kSolves = 10;
-// Plain sweeps between two normalisations at the coarsest level.
-constexpr int kSweepsPerBurst = 10;
+// Steps of inverse iteration at the coarsest level, and of diffusion at unit length after it, each as far as
+// so many averages over neighbours reach.
+constexpr int kSolves = 10, kBursts = 10, kSweepsPerBurst = 20;
+// The next solve goes on from where one ends.
+constexpr double kTolerance = 1e-4;
+constexpr int kDiffusionSteps = 100;
+// Relative to a vertex's own weight in the Laplacian: keeps the singular case finite.
+constexpr float kShift = 1e-6f;
 // Noise on the starting directions, relative to their length: a symmetric start may hold nothing of the
 // smoothest field.
 constexpr float kStartNoise = 1.0f;
+// Carried directions that are not believed at all still decide where there are no others within some thirty
+// vertices.
+constexpr float kLeastHold = 1e-3f;
 
-// A tangent field in progress: at each vertex the vector length * (re d + im b), d = axes[v], b = d x n. The
-// length says how much the direction is believed.
+// A field in progress, as in tangent_field.h: values against axes.
 struct Field {
   std::vector<Vec3f> axes;
   std::vector<Complexf> values;
 };
 
-void normalise(std::vector<Complexf>& values) {
-  forEachIndex(values.size(), [&](std::uint32_t v) {
-    const float length = std::abs(values[v]);
-    values[v] = length > 1e-30f ? values[v] / length : Complexf(1.0f, 0.0f);
-  });
+// A vector, tangent at n, in the axes of d.
+Complexf inAxes(const Vec3f& x, const Vec3f& d, const Vec3f& n) {
+  return {x.dot(d), x.dot(rowAxis(d, n))};
 }
 
-// The mean of the value at v and of what its neighbours predict for it.
-Complexf average(const VertexGraph& graph, const Connection& connection, const std::vector<Complexf>& values,
-                 std::uint32_t v) {
-  const std::uint32_t begin = graph.first[v], end = graph.first[v + 1];
-  Complexf sum = values[v];
-  for (std::uint32_t h = begin; h < end; ++h)
-    sum += product(connection.rotation[h], values[graph.neighbor[h]]);
-  return sum / float(end - begin + 1);
+Vec3f fromAxes(const Complexf& x, const Vec3f& d, const Vec3f& n) {
+  return d * x.real() + rowAxis(d, n) * x.imag();
 }
 
-// Jacobi sweeps: each value becomes the average, mixed with `pull` of the value 1 (the vertex's own axis)
-// where given.
-void diffuse(const VertexGraph& graph, const Connection& connection, int sweeps,
-             const std::vector<float>& pull, std::vector<Complexf>& values) {
-  std::vector<Complexf> next(values.size());
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    forEachIndex(values.size(), [&](std::uint32_t v) {
-      const Complexf mean = average(graph, connection, values, v);
-      next[v] = pull.empty() ? mean : mean * (1.0f - pull[v]) + pull[v];
-    });
-    values.swap(next);
-  }
+// The direction nearest to the vertex's axis of those that a value stands for.
+Complexf nearestRoot(const Complexf& value, int symmetry) {
+  return std::polar(1.0f, std::arg(value) / float(symmetry));
 }
 
-double dot(const std::vector<Complexf>& a, const std::vector<Complexf>& b) {
-  constexpr std::size_t kTermsAtOnce = 1024;
-  return sumOf(
-      a.size(),
-      [&](std::uint32_t v) { return double(a[v].real()) * b[v].real() + double(a[v].imag()) * b[v].imag(); },
-      kTermsAtOnce);
-}
-
-// values = L^-1 values, up to a factor, by conjugate gradients of so many sweeps at most. L is the
-// connection's Laplacian, symmetric and positive; it is singular only where a parallel field exists, and then
-// that field is what is looked for.
-void invertLaplacian(const VertexGraph& graph, const Connection& connection, int sweeps,
-                     std::vector<Complexf>& values) {
-  constexpr float kShift = 1e-6f;  // relative to a vertex's own weight in L: keeps the singular case finite
-  constexpr double kSmallResidual = 1e-4;  // relative; the next solve goes on from here
-  const std::size_t count = values.size();
-  const auto laplacian = [&](const std::vector<Complexf>& x, std::vector<Complexf>& out) {
-    forEachIndex(count, [&](std::uint32_t v) {
-      const std::uint32_t begin = graph.first[v], end = graph.first[v + 1];
-      Complexf sum = float(end - begin) * (1.0f + kShift) * x[v];
-      for (std::uint32_t h = begin; h < end; ++h)
-        sum -= product(connection.rotation[h], x[graph.neighbor[h]]);
-      out[v] = sum;
-    });
-  };
-  std::vector<Complexf> x = values, residual(count), direction(count), image(count);
-  laplacian(x, image);
-  const double whole = dot(values, values), energy = dot(x, image);
-  if (!(energy > 0.0)) return;
-  const auto guess = float(whole / energy);  // the best multiple of the values themselves
-  forEachIndex(count, [&](std::uint32_t v) {
-    x[v] *= guess;
-    residual[v] = values[v] - guess * image[v];
-  });
-  direction = residual;
-  double size = dot(residual, residual);
-  for (int sweep = 0; sweep < sweeps && size > kSmallResidual * kSmallResidual * whole; ++sweep) {
-    laplacian(direction, image);
-    const double curvature = dot(direction, image);
-    if (!(curvature > 0.0)) break;
-    const auto step = float(size / curvature);
-    forEachIndex(count, [&](std::uint32_t v) {
-      x[v] += step * direction[v];
-      residual[v] -= step * image[v];
-    });
-    const double earlier = size;
-    size = dot(residual, residual);
-    const auto keep = float(size / earlier);
-    forEachIndex(count, [&](std::uint32_t v) { direction[v] = residual[v] + keep * direction[v]; });
-  }
-  values.swap(x);
-}
-
-void writeOrientation(const Field& field, SurfaceMesh& mesh) {
+void writeOrientation(const Field& field, int symmetry, SurfaceMesh& mesh) {
   mesh.orientation.resize(mesh.positions.size());
   forEachIndex(mesh.positions.size(), [&](std::uint32_t v) {
     const Vec3f &d = field.axes[v], &n = mesh.normals[v];
-    const Complexf& x = field.values[v];
-    mesh.orientation[v] =
-        tangentUnit((d * x.real() + rowAxis(d, n) * x.imag()) / std::max(std::abs(x), 1e-30f), n, d);
+    mesh.orientation[v] = tangentUnit(fromAxes(nearestRoot(field.values[v], symmetry), d, n), n, d);
   });
 }
 
+// What a linear system in the Laplacian is held to.
+struct Held {
+  std::vector<float> hold;
+  std::vector<Complexf> right;  // hold * value
+};
+
+Held heldBy(std::size_t count) {
+  return {std::vector<float>(count, 0.0f), std::vector<Complexf>(count)};
+}
+
+float degree(const VertexGraph& graph, std::uint32_t v) {
+  return float(graph.first[v + 1] - graph.first[v]);
+}
+
+// Holds the field to values as so many averages over neighbours do: one implicit step of diffusion.
+void holdToValues(const VertexGraph& graph, const std::vector<Complexf>& values, int sweeps, Held& held) {
+  forEachIndex(values.size(), [&](std::uint32_t v) {
+    const float weight = (degree(graph, v) + 1.0f) / float(sweeps);
+    held.hold[v] += weight;
+    held.right[v] += weight * values[v];
+  });
+}
+
+void requireOneEach(std::size_t given, const SurfaceMesh& mesh) {
+  if (given != mesh.positions.size()) throw std::invalid_argument("the field's wishes are not one a vertex");
+}
+
+std::vector<Vec3f> wishedDirections(const OrientWishes& wishes, const SurfaceMesh& mesh) {
+  std::vector<Vec3f> directions;
+  if (!wishes.direction) return directions;
+  directions = wishes.direction(mesh);
+  requireOneEach(directions.size(), mesh);
+  return directions;
+}
+
+std::vector<float> wishedStiffness(const OrientWishes& wishes, const SurfaceMesh& mesh) {
+  std::vector<float> stiffness;
+  if (!wishes.stiffness) return stiffness;
+  stiffness = wishes.stiffness(mesh);
+  requireOneEach(stiffness.size(), mesh);
+  return stiffness;
+}
+
+// `share`: how many vertices of level 0 one of this mesh stands for. False where nothing is wished.
+bool holdToWishes(const SurfaceMesh& mesh, const VertexGraph& graph, const std::vector<Vec3f>& axes,
+                  const std::vector<Vec3f>& directions, double share, int symmetry, Held& held) {
+  constexpr float kLeast = 1e-3f, kMost = 0.999f;
+  std::vector<std::uint8_t> wished(directions.size(), 0);
+  forEachIndex(directions.size(), [&](std::uint32_t v) {
+    const Vec3f& n = mesh.normals[v];
+    const Complexf x = inAxes(directions[v], axes[v], n);
+    const float length = std::abs(x), strength = std::min(directions[v].length(), kMost);
+    if (!(length > 0.0f) || !(strength > kLeast)) return;
+    wished[v] = 1;
+    const float weight = degree(graph, v) * strength / (1.0f - strength) * float(share);
+    held.hold[v] += weight;
+    held.right[v] += weight * power(x / length, symmetry);
+  });
+  return std::find(wished.begin(), wished.end(), 1) != wished.end();
+}
+
+double shareOf(const SurfaceMesh& mesh, const Surface& surface) {
+  const double ratio = mesh.spacing / surface.levels[0].spacing;
+  return ratio * ratio;
+}
+
+// Of the equal directions each vertex takes the one nearest to what is wished there or else to what a
+// neighbour has taken: where the field has no singularities inside, it is then continuous as a field of
+// arrows too.
+void comb(const SurfaceMesh& mesh, const VertexGraph& graph, const Connection& connection,
+          const std::vector<Vec3f>& directions, int symmetry, Field& field) {
+  constexpr float kSaysEnough = 0.1f;
+  const std::size_t count = field.values.size();
+  std::vector<Complexf> chosen(count);
+  std::vector<std::uint8_t> known(count, 0);
+  std::vector<std::uint32_t> queue;
+  const auto choose = [&](std::uint32_t v, const Complexf& near) {
+    // Seen from `near` as the axis, the nearest root is the one wanted.
+    const Complexf unit = near / std::abs(near);
+    const Complexf value = product(field.values[v], std::conj(power(unit, symmetry)));
+    chosen[v] = product(nearestRoot(value, symmetry), unit);
+    known[v] = 1;
+    queue.push_back(v);
+  };
+  for (std::uint32_t v = 0; v < directions.size(); ++v) {
+    const Complexf x = inAxes(directions[v], field.axes[v], mesh.normals[v]);
+    if (std::abs(x) > kSaysEnough) choose(v, x);
+  }
+  std::size_t next = 0;
+  for (std::uint32_t first = 0; first < count; ++first) {
+    if (!known[first] && next == queue.size()) choose(first, Complexf(1.0f, 0.0f));
+    for (; next < queue.size(); ++next) {
+      const std::uint32_t v = queue[next];
+      for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
+        const std::uint32_t u = graph.neighbor[h];
+        if (!known[u]) choose(u, conjugateProduct(connection.rotation[h], chosen[v]));
+      }
+    }
+  }
+  // Each vertex's axis becomes its arrow, so that the nearest root is the arrow.
+  forEachIndex(count, [&](std::uint32_t v) {
+    field.axes[v] =
+        tangentUnit(fromAxes(chosen[v], field.axes[v], mesh.normals[v]), mesh.normals[v], field.axes[v]);
+    field.values[v] = Complexf(1.0f, 0.0f);
+  });
+}
+
+void orientCoarsest(Surface& surface, const OrientOptions& options, const OrientWishes& wishes) {
+  SurfaceMesh& mesh = surface.levels.back();
+  const std::size_t count = mesh.positions.size();
+  const VertexGraph graph = buildVertexGraph(mesh);
+  Field field{referenceVectors(mesh.normals), std::vector<Complexf>(count)};
+  const Connection connection = buildConnection(mesh, graph, field.axes);
+  const FieldGraph smooth = fieldGraph(graph, connection, options.symmetry, wishedStiffness(wishes, mesh));
+  forEachIndex(count, [&](std::uint32_t v) {
+    const double re = 2.0 * randomUnit(0, 2ull * v) - 1.0, im = 2.0 * randomUnit(0, 2ull * v + 1) - 1.0;
+    field.values[v] = Complexf(1.0f, 0.0f) + kStartNoise * Complexf(float(re), float(im));
+  });
+
+  Held wished = heldBy(count);
+  forEachIndex(count, [&](std::uint32_t v) { wished.hold[v] = kShift * degree(graph, v); });
+  const std::vector<Vec3f> directions = wishedDirections(wishes, mesh);
+  if (holdToWishes(mesh, graph, field.axes, directions, shareOf(mesh, surface), options.symmetry, wished)) {
+    solveField(smooth, wished.hold, wished.right, options.coarseSweeps, kTolerance, field.values);
+  } else {
+    for (int solve = 0; solve < kSolves; ++solve) {
+      normalise(field.values);
+      const std::vector<Complexf> right = field.values;
+      solveField(smooth, wished.hold, right, options.coarseSweeps / kSolves, kTolerance, field.values);
+    }
+  }
+  // At unit length the field settles: the linear systems above let it be short near singularities.
+  for (int burst = 0; burst < kBursts; ++burst) {
+    normalise(field.values);
+    Held held = wished;
+    holdToValues(graph, field.values, kSweepsPerBurst, held);
+    solveField(smooth, held.hold, held.right, kDiffusionSteps, kTolerance, field.values);
+  }
+  normalise(field.values);
+  if (options.symmetry > 1) comb(mesh, graph, connection, directions, options.symmetry, field);
+  writeOrientation(field, options.symmetry, mesh);
+}
+
 // The field of one level as seen from the vertices of another: a mean over the near vertices whose normals
-// agree, so that nothing passes through a thin sheet.
-Field handOver(const SurfaceMesh& from, const SurfaceMesh& to) {
+// agree, so that nothing passes through a thin sheet. The axes are those of the nearest of them.
+Field handOver(const SurfaceMesh& from, const SurfaceMesh& to, int symmetry) {
   constexpr float kAgreeingNormals = 0.3f;
   const double reach = 2.0 * std::max(from.spacing, to.spacing);
   const PointGrid grid(from.positions, reach);
-  Field field{referenceVectors(to.normals), std::vector<Complexf>(to.positions.size())};
+  Field field{referenceVectors(to.normals), std::vector<Complexf>(to.positions.size(), Complexf(1.0f, 0.0f))};
   const auto reach2 = float(reach * reach);
   forEachIndex(to.positions.size(), [&](std::uint32_t v) {
     const Vec3f &x = to.positions[v], &n = to.normals[v];
-    Vec3f sum(0.0f);
-    float weights = 0.0f;
-    grid.visitNear(x, [&](std::uint32_t u) {
-      const float distance2 = (from.positions[u] - x).lengthSqr(), agreement = n.dot(from.normals[u]);
-      if (distance2 >= reach2 || agreement < kAgreeingNormals) return;
-      const float weight = agreement * std::exp(-4.0f * distance2 / reach2);
-      sum += turnedTangent(from.orientation[u], from.normals[u], n) * weight;
-      weights += weight;
+    const auto visit = [&](const auto& use) {
+      grid.visitNear(x, [&](std::uint32_t u) {
+        const float distance2 = (from.positions[u] - x).lengthSqr(), agreement = n.dot(from.normals[u]);
+        if (distance2 < reach2 && agreement >= kAgreeingNormals) use(u, distance2, agreement);
+      });
+    };
+    float nearest = reach2;
+    visit([&](std::uint32_t u, float distance2, float) {
+      if (distance2 >= nearest) return;
+      nearest = distance2;
+      field.axes[v] = tangentUnit(turnedTangent(from.orientation[u], from.normals[u], n), n, field.axes[v]);
     });
-    const float length = weights > 0.0f ? sum.length() / weights : 0.0f;
-    if (length > 1e-3f) field.axes[v] = tangentUnit(sum, n, field.axes[v]);
-    field.values[v] = std::max(length, kLeastLength);
+    Complexf sum(0.0f, 0.0f);
+    visit([&](std::uint32_t u, float distance2, float agreement) {
+      const Complexf d = inAxes(turnedTangent(from.orientation[u], from.normals[u], n), field.axes[v], n);
+      sum += agreement * std::exp(-4.0f * distance2 / reach2) * power(d, symmetry);
+    });
+    if (std::abs(sum) > 0.0f) field.values[v] = sum / std::abs(sum);
   });
   return field;
 }
 
-void smooth(SurfaceMesh& mesh, Field field, int sweeps, const std::vector<float>& pull) {
-  const VertexGraph graph = buildVertexGraph(mesh);
-  const Connection connection = buildConnection(mesh, graph, field.axes);
-  diffuse(graph, connection, sweeps, pull, field.values);
-  writeOrientation(field, mesh);
+// Diffuses a field that comes from a coarser level.
+void orientFiner(std::size_t level, Surface& surface, const OrientOptions& options,
+                 const OrientWishes& wishes) {
+  SurfaceMesh& mesh = surface.levels[level];
+  Field field = handOver(surface.levels[level + 1], mesh, options.symmetry);
+  if (options.fineSweeps > 0) {
+    const VertexGraph graph = buildVertexGraph(mesh);
+    const Connection connection = buildConnection(mesh, graph, field.axes);
+    const FieldGraph smooth = fieldGraph(graph, connection, options.symmetry, wishedStiffness(wishes, mesh));
+    Held held = heldBy(mesh.positions.size());
+    holdToValues(graph, field.values, options.fineSweeps, held);
+    holdToWishes(mesh, graph, field.axes, wishedDirections(wishes, mesh), shareOf(mesh, surface),
+                 options.symmetry, held);
+    solveField(smooth, held.hold, held.right, kDiffusionSteps, kTolerance, field.values);
+  }
+  writeOrientation(field, options.symmetry, mesh);
 }
 
-// Four fifths of the sweeps look for the smoothest field; the others let it settle at unit length.
-void orientCoarsest(SurfaceMesh& mesh, int sweeps) {
-  const VertexGraph graph = buildVertexGraph(mesh);
-  Field field{referenceVectors(mesh.normals), std::vector<Complexf>(mesh.positions.size())};
-  const Connection connection = buildConnection(mesh, graph, field.axes);
-  forEachIndex(field.values.size(), [&](std::uint32_t v) {
-    const double re = 2.0 * randomUnit(0, 2ull * v) - 1.0, im = 2.0 * randomUnit(0, 2ull * v + 1) - 1.0;
-    field.values[v] = Complexf(1.0f, 0.0f) + kStartNoise * Complexf(float(re), float(im));
-  });
-  const int plainSweeps = sweeps / 5;
-  for (int solve = 0; solve < kSolves; ++solve) {
-    normalise(field.values);
-    invertLaplacian(graph, connection, (sweeps - plainSweeps) / kSolves, field.values);
-  }
-  for (int left = plainSweeps; left > 0; left -= kSweepsPerBurst) {
-    normalise(field.values);
-    diffuse(graph, connection, std::min(left, kSweepsPerBurst), {}, field.values);
-  }
-  writeOrientation(field, mesh);
-}
-
-// Starts from the carried vectors as axes, each as long as it is trusted: what is not trusted is overruled by
-// what is.
-void orientCarried(SurfaceMesh& mesh, const Carried& carried, const OrientOptions& options) {
+// The carried vectors are the axes, and what the field is held to, each as much as it is trusted.
+void orientCarried(Surface& surface, const Carried& carried, const OrientOptions& options,
+                   const OrientWishes& wishes) {
+  constexpr float kMost = 0.999f;
+  SurfaceMesh& mesh = surface.levels[0];
   const std::size_t count = mesh.positions.size();
-  Field field{referenceVectors(mesh.normals), std::vector<Complexf>(count)};
-  std::vector<float> pull(count);
+  Field field{referenceVectors(mesh.normals), std::vector<Complexf>(count, Complexf(1.0f, 0.0f))};
+  forEachIndex(count, [&](std::uint32_t v) {
+    field.axes[v] = tangentUnit(carried.orientation[v], mesh.normals[v], field.axes[v]);
+  });
+  const VertexGraph graph = buildVertexGraph(mesh);
+  const Connection connection = buildConnection(mesh, graph, field.axes);
+  const FieldGraph smooth = fieldGraph(graph, connection, options.symmetry, wishedStiffness(wishes, mesh));
+  Held held = heldBy(count);
   forEachIndex(count, [&](std::uint32_t v) {
     const float trust = std::clamp(carried.trust[v], 0.0f, 1.0f);
-    field.axes[v] = tangentUnit(carried.orientation[v], mesh.normals[v], field.axes[v]);
-    field.values[v] = std::max(trust, kLeastLength);
-    pull[v] = float(options.carriedWeight) * trust;
+    const float share = std::clamp(float(options.carriedWeight) * trust, kLeastHold, kMost);
+    // Where turning costs more, what was carried counts the less: a singularity that came in moves on.
+    const float stiffness = smooth.stiffness.empty() ? 1.0f : std::max(1.0f, smooth.stiffness[v]);
+    held.hold[v] = degree(graph, v) * share / ((1.0f - share) * stiffness);
+    held.right[v] = held.hold[v];
   });
-  smooth(mesh, std::move(field), options.laterSweeps, pull);
+  holdToWishes(mesh, graph, field.axes, wishedDirections(wishes, mesh), 1.0, options.symmetry, held);
+  solveField(smooth, held.hold, held.right, kDiffusionSteps, kTolerance, field.values);
+  writeOrientation(field, options.symmetry, mesh);
 }
 
 }  // namespace
 
-void orient(Surface& surface, const Carried& carried, const OrientOptions& options) {
+void orient(Surface& surface, const Carried& carried, const OrientOptions& options,
+            const OrientWishes& wishes) {
   if (surface.empty()) return;
   auto& levels = surface.levels;
   if (!carried.empty()) {
-    orientCarried(levels[0], carried, options);
+    orientCarried(surface, carried, options, wishes);
     for (std::size_t level = 1; level < levels.size(); ++level) {
-      writeOrientation(handOver(levels[level - 1], levels[level]), levels[level]);
+      writeOrientation(handOver(levels[level - 1], levels[level], options.symmetry), options.symmetry,
+                       levels[level]);
     }
     return;
   }
-  orientCoarsest(levels.back(), options.coarseSweeps);
-  for (std::size_t level = levels.size() - 1; level-- > 0;) {
-    smooth(levels[level], handOver(levels[level + 1], levels[level]), options.fineSweeps, {});
-  }
-}
-
-std::vector<int> singularities(const SurfaceMesh& mesh) {
-  const VertexGraph graph = buildVertexGraph(mesh);
-  const Connection connection = buildConnection(mesh, graph, mesh.orientation);
-  std::vector<int> indices(mesh.triangles.size());
-  forEachIndex(mesh.triangles.size(), [&](std::uint32_t t) {
-    // Against the field as axes, each edge's rotation is the turn of the field along it; what is left of
-    // their sum once the curvature of the triangle is taken off is a number of full turns.
-    Complexf around(1.0f, 0.0f);
-    double turns = 0.0;
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t from = mesh.triangles[t][i], to = mesh.triangles[t][(i + 1) % 3];
-      // Read from the edge's end with the smaller index, so that both its triangles see the same half turn.
-      const std::uint32_t low = std::min(from, to), high = std::max(from, to);
-      std::uint32_t h = graph.first[low];
-      while (graph.neighbor[h] != high) ++h;
-      const Complexf rotation = low == to ? connection.rotation[h] : std::conj(connection.rotation[h]);
-      const double turn = std::arg(connection.rotation[h]);
-      turns += low == to ? turn : -turn;
-      around = product(around, rotation);
-    }
-    indices[t] = int(std::lround((turns - std::arg(around)) / (2.0 * std::numbers::pi)));
-  });
-  return indices;
+  orientCoarsest(surface, options, wishes);
+  for (std::size_t level = levels.size() - 1; level-- > 0;) orientFiner(level, surface, options, wishes);
 }
 
 }  // namespace fluidtex::texture

@@ -90,6 +90,17 @@ void polarDirections(const SurfaceMesh& mesh, std::uint32_t v, std::span<const s
 
 }  // namespace
 
+Vec3f nearestTurn(const Vec3f& x, const Vec3f& n, const Vec3f& to, int symmetry) {
+  const Vec3f across = rowAxis(x, n);
+  Vec3f best = x;
+  for (int k = 1; k < symmetry; ++k) {
+    const auto angle = static_cast<float>(2.0 * std::numbers::pi * k / symmetry);
+    const Vec3f turned = x * std::cos(angle) + across * std::sin(angle);
+    if (turned.dot(to) > best.dot(to)) best = turned;
+  }
+  return best;
+}
+
 VertexGraph buildVertexGraph(const SurfaceMesh& mesh) {
   const std::size_t vertexCount = mesh.positions.size();
   VertexGraph graph;

@@ -24,6 +24,9 @@ inline Vec3f turnedTangent(const Vec3f& x, const Vec3f& from, const Vec3f& to) {
   return x - (from + to) * (to.dot(x) / (1.0f + from.dot(to)));
 }
 
+// Of the vectors that x becomes by turns of 360 / symmetry degrees about n, the nearest to `to`; x tangent at n.
+Vec3f nearestTurn(const Vec3f& x, const Vec3f& n, const Vec3f& to, int symmetry);
+
 // The neighbours of every vertex in order around it (counter-clockwise seen from outside, i.e. the angle in (d, b) falls),
 // compressed rows: neighbours of v are neighbor[first[v]] .. neighbor[first[v+1]-1].
 struct VertexGraph {

@@ -5,12 +5,12 @@
 #include "sim/pose.h"
 #include "sim/shapes.h"
 #include "sim/solver.h"
-#include "texture/orient.h"
 #include "texture/prepare.h"
 #include "texture/synthesize.h"
 #include "tools/atomic_file.h"
 #include "tools/earlier_run.h"
 #include "tools/errors.h"
+#include "tools/orientation_guide.h"
 #include "tools/ply.h"
 #include "tools/progress.h"
 #include "tools/report.h"
@@ -49,7 +49,7 @@ struct FrameResult {
   sim::Frame motion;
   texture::TexturedSurface surface;
   texture::SynthesisStats synthesis;
-  std::optional<int> singularities;  // of the orientation field; not known without a surface
+  std::optional<std::vector<texture::Singularity>> singularities;  // not known without a surface
   StageSeconds seconds;
 };
 
@@ -69,7 +69,8 @@ class FrameLoop {
         m_synthesizer(
             texture::makeSynthesizer(texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis,
                                                            scene.texture.surface.levels),
-                                     scene.texture.synthesis)) {
+                                     scene.texture.synthesis)),
+        m_guide(orientationGuide(scene)) {
     m_surface.spacing = scene.texture.spacing;
     m_report.scene = Json::parse(scene.resolved);
     m_report.seed = scene.seed;
@@ -156,14 +157,13 @@ class FrameLoop {
     {
       Stopwatch watch(seconds.transport);
       reporter("transport")(0.0);
-      carried = transport::carry(m_surface, motion, surface.levels[0]);
+      carried = transport::carry(m_surface, motion, surface.levels[0], m_guide.options.symmetry);
     }
     {
       Stopwatch watch(seconds.prepare);
-      texture::orient(surface, carried);
-      const std::vector<int> indices = texture::singularities(surface.levels[0]);
-      result.singularities = static_cast<int>(
-          indices.size() - static_cast<std::size_t>(std::count(indices.begin(), indices.end(), 0)));
+      const int symmetry = m_guide.options.symmetry;
+      texture::orient(surface, carried, {.symmetry = symmetry}, wishesFor(m_guide, motion));
+      result.singularities = texture::singularities(surface.levels[0], symmetry);
     }
     {
       Stopwatch watch(seconds.synthesize);
@@ -273,6 +273,7 @@ class FrameLoop {
   const std::atomic<bool>& m_stop;
   int m_last;
   texture::Synthesizer m_synthesizer;
+  OrientationGuide m_guide;
   std::unique_ptr<sim::Solver> m_solver;
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
   std::vector<std::pair<std::size_t, sim::Pose>> m_visible;  // numbers and places of the solids in m_solids

@@ -21,10 +21,19 @@ Json orNull(bool known, T value) {
   return known ? Json(value) : Json(nullptr);
 }
 
+// One [x, y, z, turns] each, metres.
+Json pointsOf(const std::vector<texture::Singularity>& singularities) {
+  Json points = Json::array();
+  for (const texture::Singularity& s : singularities)
+    points.push_back({s.position.x(), s.position.y(), s.position.z(), s.turns});
+  return points;
+}
+
 }  // namespace
 
 Json frameRecord(const sim::Frame& frame, const texture::TexturedSurface& surface,
-                 std::optional<int> singularities, const texture::SynthesisStats& synthesis) {
+                 const std::optional<std::vector<texture::Singularity>>& singularities,
+                 const texture::SynthesisStats& synthesis) {
   const texture::MeshStats mesh = texture::meshStats(surface.positions, surface.triangles);
   const bool textured = !surface.empty(), optimised = textured && synthesis.iterations > 0;
   Json record;
@@ -39,7 +48,8 @@ Json frameRecord(const sim::Frame& frame, const texture::TexturedSurface& surfac
   record["components"] = mesh.components;
   record["edge_mean"] = orNull(textured, mesh.edgeMean);
   record["edge_cv"] = orNull(textured, mesh.edgeCv);
-  record["singularities"] = orNull(singularities.has_value(), singularities.value_or(0));
+  record["singularities"] = singularities ? Json(singularities->size()) : Json(nullptr);
+  record["singular_points"] = singularities ? pointsOf(*singularities) : Json(nullptr);
   record["energy_start"] = orNull(optimised, synthesis.energyStart);
   record["energy_end"] = orNull(optimised, synthesis.energyEnd);
   record["iterations"] = orNull(textured, synthesis.iterations);

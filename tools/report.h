@@ -3,7 +3,7 @@
 
 #include "scenes/scene.h"
 #include "sim/frame.h"
-#include "texture/surface.h"
+#include "texture/orient.h"
 
 #include <nlohmann/json.hpp>
 
@@ -27,9 +27,10 @@ struct Report {
   std::vector<Json> frames;  // one object each
 };
 
-// All about one frame but what it cost.
+// All about one frame but what it cost. singularities: of the orientation field; not known without a surface.
 Json frameRecord(const sim::Frame& frame, const texture::TexturedSurface& surface,
-                 std::optional<int> singularities, const texture::SynthesisStats& synthesis);
+                 const std::optional<std::vector<texture::Singularity>>& singularities,
+                 const texture::SynthesisStats& synthesis);
 
 // Adds to a frame's record, or brings up to date, the time it took and the program's peak memory so far.
 void recordCost(Json& record, const StageSeconds& seconds);

@@ -97,15 +97,19 @@ Vec4f colorAt(const TexturedSurface& previous, const Landing& landing) {
   return {premultiplied[0] / alpha, premultiplied[1] / alpha, premultiplied[2] / alpha, alpha};
 }
 
-// The corners' vectors, each turned from its own tangent plane into the landing point's, averaged.
-Vec3f orientationAt(const TexturedSurface& previous, const Landing& landing) {
-  const Vec3f& to = landing.normal;
+// The corners' vectors, each turned from its own tangent plane into the landing point's, averaged. Of
+// directions that are equal by the field's symmetry, those nearest to the nearest corner's count.
+Vec3f orientationAt(const TexturedSurface& previous, const Landing& landing, int symmetry) {
+  const auto turned = [&](std::uint32_t corner) {
+    const Vec3f &d = previous.orientation[corner], &from = previous.normals[corner], &to = landing.normal;
+    return from.dot(to) > -0.9f ? texture::turnedTangent(d, from, to) : d;
+  };
+  const Vec3f nearest = turned(landing.corners[landing.nearest]);
   Vec3f sum(0.0f);
   for (int i = 0; i < 3; ++i) {
-    const Vec3f &d = previous.orientation[landing.corners[i]], &from = previous.normals[landing.corners[i]];
-    sum += (from.dot(to) > -0.9f ? texture::turnedTangent(d, from, to) : d) * landing.point.weight[i];
+    sum += texture::nearestTurn(turned(landing.corners[i]), landing.normal, nearest, symmetry) *
+           landing.point.weight[i];
   }
-  const Vec3f& nearest = previous.orientation[landing.corners[landing.nearest]];
   // Near a singularity the corners cancel out; there one of them is as good as any.
   return sum.length() > 1e-3f ? sum : nearest;
 }
@@ -175,7 +179,8 @@ std::vector<std::uint8_t> contactAt(const std::vector<Vec3f>& positions, const s
   return result;
 }
 
-texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame, const SurfaceMesh& next) {
+texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame, const SurfaceMesh& next,
+                       int symmetry) {
   Carried carried;
   if (previous.empty() || previous.triangles.empty()) return carried;
   const std::size_t count = next.positions.size();
@@ -207,7 +212,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
         previous.coordinate[corner] + Vec2f(gradient.s.dot(offset), gradient.t.dot(offset));
     carried.gradient[v] = deformed(gradient, map, normal);
     carried.color[v] = colorAt(previous, landing);
-    carried.orientation[v] = turnedWithFlow(orientationAt(previous, landing), map, normal);
+    carried.orientation[v] = turnedWithFlow(orientationAt(previous, landing, symmetry), map, normal);
     for (int i = 0; i < 3; ++i) carried.age[v] += previous.age[landing.corners[i]] * landing.point.weight[i];
     carried.trust[v] = trustOf(landing, scale, trace.known[v], carriedNormal);
     carried.previousPosition[v] = Vec3f(landing.point.position);

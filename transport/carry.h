@@ -20,9 +20,11 @@ std::vector<std::uint8_t> contactAt(const std::vector<texture::Vec3f>& positions
 //  - exemplar coordinate: the nearest corner's plus its gradient times the offset, never averaged across a jump;
 //    its gradient deformed by the flow;
 //  - colour and age by barycentric interpolation;
-//  - orientation, interpolated and turned with the flow by equation (4), tangent to the new surface.
+//  - orientation, interpolated and turned with the flow by equation (4), tangent to the new surface; directions that turns
+//    of 360 / symmetry degrees make equal are interpolated as one.
 // trust falls with the distance of the traced point from the old surface and with missing velocity.
 // previous empty (the first frame with a surface): an empty result.
-texture::Carried carry(const texture::TexturedSurface& previous, const sim::Frame& frame, const texture::SurfaceMesh& next);
+texture::Carried carry(const texture::TexturedSurface& previous, const sim::Frame& frame, const texture::SurfaceMesh& next,
+                       int symmetry = 1);
 
 }  // namespace fluidtex::transport

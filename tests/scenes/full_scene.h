@@ -146,6 +146,14 @@ keep_stretch = 2
 points = "random"
 levels = 4
 repulsion_sweeps = 12
+[texture.orientation]
+symmetry = 2
+align = "field"
+weight = 0.75
+direction = [0, 1, 0]
+field = "f.vdb"
+[[texture.orientation.keep_clear]]
+sphere = { center = [1, 1, 1], radius = 0.25 }
 [camera]
 from = [9, 8, 7]
 at = [1, 2, 3]

@@ -23,6 +23,7 @@ class SceneFolder {
     std::filesystem::create_directories(m_path / "pictures");
     write("e.png", "");  // only its presence is looked at
     write("m.obj", "");
+    write("f.vdb", "");
     write("m_0.obj", "");
     write("m_1.obj", "");
     write("m_2.obj", "");

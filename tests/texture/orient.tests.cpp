@@ -66,11 +66,12 @@ void requireUnitTangent(const SurfaceMesh& mesh) {
   }
 }
 
-int sum(const std::vector<int>& indices) {
-  return std::accumulate(indices.begin(), indices.end(), 0);
+int sum(const std::vector<Singularity>& all) {
+  return std::accumulate(all.begin(), all.end(), 0,
+                         [](int sum, const Singularity& s) { return sum + s.turns; });
 }
-int count(const std::vector<int>& indices) {
-  return int(std::count_if(indices.begin(), indices.end(), [](int i) { return i != 0; }));
+int count(const std::vector<Singularity>& all, int turns) {
+  return int(std::count_if(all.begin(), all.end(), [&](const Singularity& s) { return s.turns == turns; }));
 }
 
 // A unit tangent field of world-space direction x.
@@ -91,27 +92,25 @@ TEST_CASE("singularities: indices of known fields", "[texture]") {
     SurfaceMesh mesh = sphereMesh(9);
     const Vec3f axis = Vec3f(0.31f, 0.52f, 0.8f).unit();
     setField(mesh, [&](const Vec3f& x) { return axis.cross(x); });
-    const std::vector<int> indices = singularities(mesh);
-    CHECK(sum(indices) == 2);
-    CHECK(count(indices) == 2);
-    for (std::size_t t = 0; t < indices.size(); ++t) {
-      if (indices[t] == 0) continue;
-      CHECK(indices[t] == 1);
-      CHECK(std::abs(mesh.positions[mesh.triangles[t][0]].dot(axis)) > 0.97f);
+    const std::vector<Singularity> found = singularities(mesh);
+    CHECK(found.size() == 2);
+    for (const Singularity& s : found) {
+      CHECK(s.turns == 1);
+      CHECK(std::abs(s.position.dot(axis)) > 0.97f);
     }
   }
   SECTION("around the axis of a torus: none") {
     SurfaceMesh mesh = torusMesh(40, 24);
     setField(mesh, [](const Vec3f& x) { return Vec3f(-x.y(), x.x(), 0.0f); });
-    CHECK(count(singularities(mesh)) == 0);
+    CHECK(singularities(mesh).empty());
   }
   SECTION("one direction, projected on a torus: two of each sign") {
     SurfaceMesh mesh = torusMesh(61, 37);
     setField(mesh, [](const Vec3f&) { return Vec3f(0.8f, 0.36f, 0.48f); });
-    const std::vector<int> indices = singularities(mesh);
-    CHECK(sum(indices) == 0);
-    CHECK(std::count(indices.begin(), indices.end(), 1) == 2);
-    CHECK(std::count(indices.begin(), indices.end(), -1) == 2);
+    const std::vector<Singularity> found = singularities(mesh);
+    CHECK(found.size() == 4);
+    CHECK(count(found, 1) == 2);
+    CHECK(count(found, -1) == 2);
   }
 }
 
@@ -120,9 +119,9 @@ TEST_CASE("orientation: unit, tangent and smooth on every level of a sphere", "[
   orient(surface, {});
   for (const SurfaceMesh& mesh : surface.levels) {
     requireUnitTangent(mesh);
-    const std::vector<int> indices = singularities(mesh);
-    CHECK(sum(indices) == 2);
-    CHECK(count(indices) == 2);
+    const std::vector<Singularity> found = singularities(mesh);
+    CHECK(sum(found) == 2);
+    CHECK(found.size() == 2);
   }
   // No smoother field exists than one that turns about an axis; its median turn along an edge is near 0.4
   // edge lengths.
@@ -137,7 +136,7 @@ TEST_CASE("orientation: a torus ends without singularities", "[texture]") {
   orient(surface, {});
   for (const SurfaceMesh& mesh : surface.levels) {
     requireUnitTangent(mesh);
-    CHECK(count(singularities(mesh)) == 0);
+    CHECK(singularities(mesh).empty());
   }
 }
 
@@ -289,7 +288,7 @@ TEST_CASE("orientation: handed on at each side of a thin sheet by itself", "[tex
   setField(fine, [](const Vec3f& x) {
     return x.length() > 0.99f ? Vec3f(-x.y(), x.x(), 0.01f) : Vec3f(0.01f, -x.z(), x.y());
   });
-  orient(surface, carriedFrom(fine), {.laterSweeps = 0});
+  orient(surface, carriedFrom(fine), {.carriedWeight = 1.0});
   SurfaceMesh coarse = surface.levels[1];
   const std::vector<Vec3f> handedOn = coarse.orientation;
   setField(coarse, [](const Vec3f& x) {

@@ -39,7 +39,7 @@ TEST_CASE("run.json: a frame has every key, and null where nothing is known", "[
                           "energy_start", "energy_end", "iterations",        "renewed",
                           "likeness",     "sharpness",  "change_along_flow", "seconds",
                           "simulate",     "prepare",    "transport",         "synthesize",
-                          "render",       "write",      "peak_rss"})
+                          "render",       "write",      "peak_rss",          "singular_points"})
     CHECK_THAT(text, Catch::Contains("\"" + std::string(key) + "\":"));
   CHECK_THAT(text, Catch::Contains("\"energy_end\":null"));
 }
@@ -51,6 +51,13 @@ TEST_CASE("run.json: the energy is known only where something was optimised", "[
   stats.iterations = 1;
   CHECK(record(sampleSurface(), stats)["energy_start"] == 3.0);
   CHECK(record(sampleSurface(), stats)["energy_end"] == 2.0);
+}
+
+TEST_CASE("run.json: points where the orientation turns are counted and listed", "[tools]") {
+  const std::vector<texture::Singularity> two = {{{1, 2, 3}, 1}, {{4, 5, 6}, -2}};
+  const tools::Json record = tools::frameRecord({}, sampleSurface(), two, {});
+  CHECK(record["singularities"] == 2);
+  CHECK(record["singular_points"].dump() == "[[1.0,2.0,3.0,1],[4.0,5.0,6.0,-2]]");
 }
 
 TEST_CASE("run.json: a cost that is recorded again takes the place of the first", "[tools]") {
