@@ -164,6 +164,8 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
         if (!open || out) {
           const float wall = solid.at(m.x, m.y, m.z);
           if (wall < -h) continue;
+          // Liquid that runs over a wall leaves none of the air between; it cannot flow out from there.
+          if (out && m.radius > 0.0f && wall < h) continue;
           // What is left of a film at a wall, with no cell of liquid: nothing would move it any more.
           if (out && wall < h && liesOnWall(m, distance, solid, h)) continue;
         }

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -217,4 +218,25 @@ TEST_CASE("markers: none deep in solids; thinned ones are filled up again") {
   for (MarkerBlock& block : markers) block.markers.resize(block.markers.size() / 4 + 1);
   maintainMarkers(markers, *phi, *floor, 2);
   CHECK(double(countOf(markers)) == Approx(double(full)).epsilon(0.05));
+}
+
+TEST_CASE("markers: liquid that has run over a wall keeps none of the air between") {
+  const auto floorAt = [](const Vec3d& x) { return x.z() - 0.5; };
+  // The liquid lies nine tenths of a cell deep; the marker of the air is six tenths above the floor.
+  const auto phi = makePhi(kVoxel, 6 * kVoxel);
+  unite(
+      *phi, [](const Vec3d& x) { return x.z() - 0.5 - 0.9 * kVoxel; }, Coord(kCells), 8);
+  const auto floor = makePhi(kVoxel, 3 * kVoxel);
+  unite(*floor, floorAt, Coord(kCells), 0);
+  const auto airBelow = [&](const FloatGrid& solid) {
+    // Positions are measured from the centre of the block's first cell, which is half a cell above the floor.
+    Markers markers = {{Coord(8, 8, 16), {{3.3f, 4.2f, 0.1f, 0.1f}}}};
+    maintainMarkers(markers, *phi, solid, 3);
+    const MarkerBlock* block = findBlock(markers, Coord(8, 8, 16));
+    REQUIRE(block != nullptr);
+    return std::count_if(block->markers.begin(), block->markers.end(),
+                         [](const Marker& m) { return m.x == 3.3f && m.y == 4.2f && m.radius > 0.0f; });
+  };
+  CHECK(airBelow(*noSolid()) == 1);
+  CHECK(airBelow(*floor) == 0);
 }
