@@ -20,11 +20,11 @@ constexpr float kLeastWay = 0.5f;
 struct Layers {
   const LeafTable& table;
   float h;
-  std::vector<float> phi;                       // #voxels, metres
-  std::array<std::vector<float*>, 3> speed{};   // by leaf: of its lower faces, m/s
-  std::array<VoxelMask, 3> free{};              // the face may be changed
-  std::array<VoxelMask, kLayers> layer{};       // the cells of each
-  std::vector<float> change{}, bound{};         // #voxels: of the layer at work, 0 elsewhere
+  std::vector<float> phi;                      // #voxels, metres
+  std::array<std::vector<float*>, 3> speed{};  // by leaf: of its lower faces, m/s
+  std::array<VoxelMask, 3> free{};             // the face may be changed
+  std::array<VoxelMask, kLayers> layer{};      // the cells of each
+  std::vector<float> change{}, bound{};        // #voxels: of the layer at work, 0 elsewhere
 
   float& speedAt(int axis, std::int64_t face) const { return speed[axis][face >> 9][face & 511]; }
 

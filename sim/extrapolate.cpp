@@ -19,9 +19,9 @@ namespace {
 template <int kFields>
 struct Sweep {
   const LeafTable& table;
-  std::vector<float> airDistance, solidDepth;      // #voxels, at faces, metres: phi; positive inside solids
-  std::vector<std::array<float, kFields>> value;   // #voxels
-  std::vector<std::uint8_t> known;                 // #voxels: bit n says whether field n is known
+  std::vector<float> airDistance, solidDepth;     // #voxels, at faces, metres: phi; positive inside solids
+  std::vector<std::array<float, kFields>> value;  // #voxels
+  std::vector<std::uint8_t> known;                // #voxels: bit n says whether field n is known
   static constexpr std::uint8_t kAll = (1 << kFields) - 1;
 
   // Each field that is not known: mean of the known neighbours nearer to the liquid, each axis weighted by

@@ -9,12 +9,24 @@ LeafBits besideThose(const LeafTable& table, const VoxelMask& mask, std::size_t 
   LeafBits bits{};
   for (std::size_t i = 0; i < bits.size(); ++i) {
     switch (direction) {
-      case 0: bits[i] = i > 0 ? own[i - 1] : other.back(); break;
-      case 1: bits[i] = i + 1 < bits.size() ? own[i + 1] : other.front(); break;
-      case 2: bits[i] = own[i] << 8 | other[i] >> 56; break;
-      case 3: bits[i] = own[i] >> 8 | other[i] << 56; break;
-      case 4: bits[i] = (own[i] << 1 & ~kFirst) | (other[i] >> 7 & kFirst); break;
-      default: bits[i] = (own[i] >> 1 & ~kLast) | (other[i] << 7 & kLast); break;
+      case 0:
+        bits[i] = i > 0 ? own[i - 1] : other.back();
+        break;
+      case 1:
+        bits[i] = i + 1 < bits.size() ? own[i + 1] : other.front();
+        break;
+      case 2:
+        bits[i] = own[i] << 8 | other[i] >> 56;
+        break;
+      case 3:
+        bits[i] = own[i] >> 8 | other[i] << 56;
+        break;
+      case 4:
+        bits[i] = (own[i] << 1 & ~kFirst) | (other[i] >> 7 & kFirst);
+        break;
+      default:
+        bits[i] = (own[i] >> 1 & ~kLast) | (other[i] << 7 & kLast);
+        break;
     }
   }
   return bits;
