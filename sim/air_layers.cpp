@@ -1,8 +1,7 @@
 #include "sim/air_layers.h"
 
 #include "sim/leaf_table.h"
-
-#include <tbb/parallel_for.h>
+#include "sim/voxel_mask.h"
 
 #include <algorithm>
 
@@ -19,12 +18,15 @@ constexpr float kMostSlope = 0.2f;
 constexpr float kLeastWay = 0.5f;
 
 struct Layers {
-  LeafTable table{};
-  float h = 0.0f;
-  std::vector<float> phi{}, solid{};                // #voxels, metres
-  std::array<std::vector<float>, 3> speed{};        // #voxels, m/s, at lower faces
-  std::array<std::vector<std::uint8_t>, 3> free{};  // #voxels: the face may be changed
-  std::vector<std::uint8_t> layer{};                // #voxels: 0 none, else 1..kLayers
+  const LeafTable& table;
+  float h;
+  std::vector<float> phi;                      // #voxels, metres
+  std::array<std::vector<float*>, 3> speed{};  // by leaf: of its lower faces, m/s
+  std::array<VoxelMask, 3> free{};             // the face may be changed
+  std::array<VoxelMask, kLayers> layer{};      // the cells of each
+  std::vector<float> change{}, bound{};        // #voxels: of the layer at work, 0 elsewhere
+
+  float& speedAt(int axis, std::int64_t face) const { return speed[axis][face >> 9][face & 511]; }
 
   // Whether the face of a cell towards direction 0..5 is free, and how much farther from the liquid the cell
   // behind it is.
@@ -32,7 +34,7 @@ struct Layers {
     const std::int64_t beyond = table.neighbor(cell, direction);
     if (beyond < 0) return 0.0f;
     const std::int64_t face = (direction & 1) != 0 ? beyond : cell;
-    return free[direction >> 1][face] != 0 ? std::max(0.0f, phi[beyond] - phi[cell]) : 0.0f;
+    return isSet(free[direction >> 1], face) ? std::max(0.0f, phi[beyond] - phi[cell]) : 0.0f;
   }
 
   // What a cell adds to the faces that lie farther from the liquid, in m/s for each metre of their way.
@@ -41,7 +43,7 @@ struct Layers {
     for (int axis = 0; axis < 3; ++axis) {
       const std::int64_t up = table.neighbor(cell, 2 * axis + 1);
       if (up < 0) return 0.0f;
-      divergence += speed[axis][up] - speed[axis][cell];
+      divergence += speedAt(axis, up) - speedAt(axis, cell);
       ways += way(cell, 2 * axis) + way(cell, 2 * axis + 1);
     }
     return ways > kLeastWay * h ? -divergence / ways : 0.0f;
@@ -51,125 +53,135 @@ struct Layers {
     float most = 0.0f;
     for (int axis = 0; axis < 3; ++axis) {
       const std::int64_t up = table.neighbor(cell, 2 * axis + 1);
-      most = std::max(most, std::abs(speed[axis][cell]));
-      if (up >= 0) most = std::max(most, std::abs(speed[axis][up]));
+      most = std::max(most, std::abs(speedAt(axis, cell)));
+      if (up >= 0) most = std::max(most, std::abs(speedAt(axis, up)));
     }
     return most;
-  }
-
-  template <typename Body>
-  void forVoxels(const Body& body) const {
-    tbb::parallel_for(std::size_t{0}, table.size(), [&](std::size_t n) {
-      const std::int64_t first = static_cast<std::int64_t>(n) * kLeafSize;
-      for (std::int64_t voxel = first; voxel < first + kLeafSize; ++voxel) body(voxel);
-    });
   }
 };
 
 // The first layer touches liquid, each next one the layer before.
-void number(Layers& layers) {
-  layers.layer.assign(layers.table.voxels(), 0);
-  for (int layer = 1; layer <= kLayers; ++layer) {
-    const std::vector<std::uint8_t> before = layers.layer;
-    layers.forVoxels([&](std::int64_t cell) {
-      if (layers.phi[cell] < 0.0f || layers.solid[cell] <= 0.0f || before[cell] != 0) return;
-      for (int direction = 0; direction < 6; ++direction) {
-        const std::int64_t beside = layers.table.neighbor(cell, direction);
-        if (beside < 0) continue;
-        const bool touches = layer == 1 ? layers.phi[beside] < 0.0f : before[beside] == layer - 1;
-        if (touches) layers.layer[cell] = static_cast<std::uint8_t>(layer);
+void number(Layers& layers, const VoxelMask& liquid, const VoxelMask& open) {
+  VoxelMask taken = liquid;
+  for (int n = 0; n < kLayers; ++n) {
+    const VoxelMask& before = n == 0 ? liquid : layers.layer[n - 1];
+    VoxelMask& layer = layers.layer[n];
+    layer.resize(layers.table.size());
+    forLeaves(layers.table, [&](std::size_t leaf) {
+      layer[leaf] = besideAny(layers.table, before, leaf);
+      for (std::size_t i = 0; i < layer[leaf].size(); ++i) {
+        layer[leaf][i] &= open[leaf][i] & ~taken[leaf][i];
+        taken[leaf][i] |= layer[leaf][i];
       }
     });
   }
 }
 
 // Takes the divergence out of the cells of one layer, all at once.
-void balance(Layers& layers, int layer) {
-  std::vector<float> change(layers.table.voxels()), bound(layers.table.voxels());
-  layers.forVoxels([&](std::int64_t cell) {
-    if (layers.layer[cell] != layer) return;
-    change[cell] = layers.balance(cell);
-    bound[cell] = kMostGrowth * layers.largest(cell);
-  });
+void balance(Layers& layers, const VoxelMask& layer) {
   const LeafTable& table = layers.table;
+  forLeaves(table, [&](std::size_t leaf) {
+    forBits(layer[leaf], leaf, [&](std::int64_t cell) {
+      layers.change[cell] = layers.balance(cell);
+      layers.bound[cell] = kMostGrowth * layers.largest(cell);
+    });
+  });
   for (int axis = 0; axis < 3; ++axis) {
-    std::vector<float>& speed = layers.speed[axis];
-    layers.forVoxels([&](std::int64_t cell) {
-      const std::int64_t below = table.neighbor(cell, 2 * axis);
-      if (below < 0) return;
-      const float fromBelow = change[below] == 0.0f ? 0.0f : change[below] * layers.way(below, 2 * axis + 1);
-      const float fromHere = change[cell] == 0.0f ? 0.0f : change[cell] * layers.way(cell, 2 * axis);
-      if (fromBelow == 0.0f && fromHere == 0.0f) return;
-      const float most = std::max({bound[below], bound[cell], std::abs(speed[cell])});
-      speed[cell] = std::clamp(speed[cell] + fromBelow - fromHere, -most, most);
+    forLeaves(table, [&](std::size_t leaf) {
+      LeafBits faces = besideThose(table, layer, leaf, 2 * axis);
+      for (std::size_t i = 0; i < faces.size(); ++i) faces[i] |= layer[leaf][i];
+      forBits(faces, leaf, [&](std::int64_t cell) {
+        const std::int64_t below = table.neighbor(cell, 2 * axis);
+        if (below < 0) return;
+        const float fromBelow =
+            layers.change[below] == 0.0f ? 0.0f : layers.change[below] * layers.way(below, 2 * axis + 1);
+        const float fromHere =
+            layers.change[cell] == 0.0f ? 0.0f : layers.change[cell] * layers.way(cell, 2 * axis);
+        if (fromBelow == 0.0f && fromHere == 0.0f) return;
+        float& speed = layers.speedAt(axis, cell);
+        const float most = std::max({layers.bound[below], layers.bound[cell], std::abs(speed)});
+        speed = std::clamp(speed + fromBelow - fromHere, -most, most);
+      });
     });
   }
+  forLeaves(table, [&](std::size_t leaf) {
+    forBits(layer[leaf], leaf, [&](std::int64_t cell) { layers.change[cell] = layers.bound[cell] = 0.0f; });
+  });
+}
+
+std::vector<float*> valuesOf(FloatTree& tree) {
+  std::vector<float*> values;
+  for (FloatLeaf* leaf : leavesOf(tree)) values.push_back(leaf->buffer().data());
+  return values;
 }
 
 }  // namespace
 
 void balanceAirLayers(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi,
                       const FloatGrid& solidPhi) {
-  Layers layers{.table = makeLeafTable(velocity.component[0]->constTree()),
-                .h = static_cast<float>(phi.voxelSize()[0])};
-  layers.phi = sampleOn(layers.table, phi.constTree());
-  layers.solid = sampleOn(layers.table, solidPhi.constTree());
-  number(layers);
+  const LeafTable table = makeLeafTable(velocity.component[0]->constTree());
+  Layers layers{table, static_cast<float>(phi.voxelSize()[0]), sampleOn(table, phi.constTree())};
+  layers.change.resize(table.voxels());
+  layers.bound.resize(table.voxels());
+  const VoxelMask liquid = maskOf(table, layers.phi, [](float p) { return p < 0.0f; });
+  const VoxelMask open =
+      maskOf(table, sampleOn(table, solidPhi.constTree()), [](float s) { return s > 0.0f; });
+  number(layers, liquid, open);
   const MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
   for (int axis = 0; axis < 3; ++axis) {
-    layers.speed[axis] = sampleOn(layers.table, velocity.component[axis]->constTree());
-    layers.free[axis].resize(layers.table.voxels());
-    tbb::parallel_for(std::size_t{0}, layers.table.size(), [&](std::size_t n) {
-      const auto* known = masks[axis]->constTree().probeConstLeaf(layers.table.origins[n]);
-      for (int i = 0; i < kLeafSize; ++i) {
-        const std::int64_t face = static_cast<std::int64_t>(n) * kLeafSize + i;
-        const std::int64_t below = layers.table.neighbor(face, 2 * axis);
-        layers.free[axis][face] = below >= 0 && layers.solid[face] > 0.0f && layers.solid[below] > 0.0f &&
-                                  (known == nullptr || !known->isValueOn(i));
+    layers.speed[axis] = valuesOf(velocity.component[axis]->tree());
+    VoxelMask& free = layers.free[axis];
+    free.resize(table.size());
+    forLeaves(table, [&](std::size_t n) {
+      free[n] = besideThose(table, open, n, 2 * axis);
+      const auto* known = masks[axis]->constTree().probeConstLeaf(table.origins[n]);
+      for (std::size_t i = 0; i < free[n].size(); ++i) {
+        free[n][i] &= open[n][i];
+        if (known != nullptr)
+          free[n][i] &= ~known->getValueMask().getWord<std::uint64_t>(static_cast<openvdb::Index>(i));
       }
     });
   }
-  for (int layer = 1; layer <= kLayers; ++layer)
+  for (const VoxelMask& layer : layers.layer)
     for (int sweep = 0; sweep < kSweeps; ++sweep) balance(layers, layer);
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto leaves = leavesOf(velocity.component[axis]->tree());
-    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-      std::copy_n(layers.speed[axis].data() + n * kLeafSize, kLeafSize, leaves[n]->buffer().data());
-    });
-  }
 }
 
 void extendLinearly(Velocity& values, const FloatGrid& phi) {
   const LeafTable table = makeLeafTable(values.component[0]->constTree());
   const std::vector<float> cellPhi = sampleOn(table, phi.constTree());
+  const VoxelMask liquid = maskOf(table, cellPhi, [](float p) { return p < 0.0f; });
   for (int axis = 0; axis < 3; ++axis) {
+    VoxelMask touching(table.size());
+    forLeaves(table, [&](std::size_t n) {
+      touching[n] = besideThose(table, liquid, n, 2 * axis);
+      for (std::size_t i = 0; i < touching[n].size(); ++i) touching[n][i] |= liquid[n][i];
+    });
     const auto below = [&](std::int64_t face) {
       const std::int64_t cell = table.neighbor(face, 2 * axis);
       return cellPhi[cell < 0 ? face : cell];
     };
-    const auto touchesLiquid = [&](std::int64_t face) { return cellPhi[face] < 0.0f || below(face) < 0.0f; };
-    const std::vector<float> was = sampleOn(table, values.component[axis]->constTree());
-    const auto leaves = leavesOf(values.component[axis]->tree());
-    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-      float* out = leaves[n]->buffer().data();
-      for (int i = 0; i < kLeafSize; ++i) {
-        const std::int64_t face = static_cast<std::int64_t>(n) * kLeafSize + i;
-        if (touchesLiquid(face)) continue;
+    // Read only where liquid touches, written only where none does.
+    const std::vector<float*> value = valuesOf(values.component[axis]->tree());
+    const auto valueAt = [&](std::int64_t face) -> float& { return value[face >> 9][face & 511]; };
+    forLeaves(table, [&](std::size_t n) {
+      LeafBits beyond = besideAny(table, touching, n);
+      for (std::size_t i = 0; i < beyond.size(); ++i) beyond[i] &= ~touching[n][i];
+      forBits(beyond, n, [&](std::int64_t face) {
         const float here = cellPhi[face] + below(face);
         float weights = 0.0f, sum = 0.0f;
         for (int direction = 0; direction < 6; ++direction) {
           const std::int64_t near = table.neighbor(face, direction);
-          if (near < 0 || !touchesLiquid(near)) continue;
+          if (near < 0 || !isSet(touching, near)) continue;
           const std::int64_t behind = table.neighbor(near, direction);
-          if (behind < 0 || !touchesLiquid(behind)) continue;
+          if (behind < 0 || !isSet(touching, behind)) continue;
           const float nearer = here - cellPhi[near] - below(near);
           if (nearer <= 0.0f) continue;
           weights += nearer;
-          const float most = kMostSlope * std::max(std::abs(was[near]), std::abs(was[behind]));
-          sum += nearer * (was[near] + std::clamp(was[near] - was[behind], -most, most));
+          const float most = kMostSlope * std::max(std::abs(valueAt(near)), std::abs(valueAt(behind)));
+          sum += nearer * (valueAt(near) + std::clamp(valueAt(near) - valueAt(behind), -most, most));
         }
-        if (weights > 0.0f) out[i] = sum / weights;
-      }
+        if (weights > 0.0f) valueAt(face) = sum / weights;
+      });
     });
   }
 }

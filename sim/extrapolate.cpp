@@ -9,79 +9,106 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
+
 namespace fluidtex::sim {
 namespace {
 
-// One component on flat arrays.
-struct Component {
+// The components along one axis of kFields fields, side by side on flat arrays.
+template <int kFields>
+struct Sweep {
   const LeafTable& table;
-  std::vector<float> value;         // #voxels
-  std::vector<std::uint8_t> known;  // #voxels
-  std::vector<float> airDistance;   // at faces, metres: phi
-  std::vector<float> solidDepth;    // at faces, metres: positive inside solids
+  std::vector<float> airDistance, solidDepth;     // #voxels, at faces, metres: phi; positive inside solids
+  std::vector<std::array<float, kFields>> value;  // #voxels
+  std::vector<std::uint8_t> known;                // #voxels: bit n says whether field n is known
+  static constexpr std::uint8_t kAll = (1 << kFields) - 1;
 
-  // Mean of the known neighbours nearer to the liquid, each axis weighted by how much nearer (upwind); with
-  // no such neighbour, of all known ones. False where no neighbour is known.
+  // Each field that is not known: mean of the known neighbours nearer to the liquid, each axis weighted by
+  // how much nearer (upwind); with no such neighbour, of all known ones. False where no neighbour is known.
   bool fill(std::int64_t voxel) {
     const std::vector<float>& distance = solidDepth[voxel] > 0.0f ? solidDepth : airDistance;
-    double weights = 0.0, sum = 0.0, plainSum = 0.0;
-    int plainCount = 0;
+    double weights[kFields] = {}, sum[kFields] = {}, plainSum[kFields] = {};
+    int plainCount[kFields] = {};
     for (int axis = 0; axis < 3; ++axis) {
-      double best = 0.0, bestValue = 0.0;
+      double best[kFields] = {}, bestValue[kFields] = {};
       for (int up = 0; up < 2; ++up) {
         const std::int64_t n = table.neighbor(voxel, 2 * axis + up);
         if (n < 0 || known[n] == 0) continue;
-        plainSum += value[n];
-        ++plainCount;
         const double nearer = static_cast<double>(distance[voxel]) - distance[n];
-        if (nearer > best) {
-          best = nearer;
-          bestValue = value[n];
+        for (int f = 0; f < kFields; ++f) {
+          if ((known[n] >> f & 1) == 0) continue;
+          plainSum[f] += value[n][f];
+          ++plainCount[f];
+          if (nearer > best[f]) {
+            best[f] = nearer;
+            bestValue[f] = value[n][f];
+          }
         }
       }
-      weights += best;
-      sum += best * bestValue;
+      for (int f = 0; f < kFields; ++f) {
+        weights[f] += best[f];
+        sum[f] += best[f] * bestValue[f];
+      }
     }
-    if (plainCount == 0) return false;
-    value[voxel] = static_cast<float>(weights > 0.0 ? sum / weights : plainSum / plainCount);
-    known[voxel] = 1;
-    return true;
+    const std::uint8_t before = known[voxel];
+    for (int f = 0; f < kFields; ++f) {
+      if ((before >> f & 1) != 0 || plainCount[f] == 0) continue;
+      value[voxel][f] =
+          static_cast<float>(weights[f] > 0.0 ? sum[f] / weights[f] : plainSum[f] / plainCount[f]);
+      known[voxel] |= 1 << f;
+    }
+    return known[voxel] != before;
   }
 };
 
 // Mean of a cell-centred field over the two cells of each face normal to `axis`.
 std::vector<float> atFaces(const LeafTable& table, const std::vector<float>& cells, int axis) {
   std::vector<float> faces(cells.size());
+  const int shift = 6 - 3 * axis, stride = 1 << shift;
   tbb::parallel_for(std::size_t{0}, table.size(), [&](std::size_t n) {
-    for (std::int64_t voxel = static_cast<std::int64_t>(n) * kLeafSize, end = voxel + kLeafSize; voxel < end;
-         ++voxel) {
-      const std::int64_t below = table.neighbor(voxel, 2 * axis);
-      faces[voxel] = below < 0 ? cells[voxel] : 0.5f * (cells[voxel] + cells[below]);
-    }
+    const float* here = cells.data() + n * kLeafSize;
+    const int below = table.next[n][2 * axis];
+    // Without a leaf below, the cell itself stands for the one below it.
+    const float* before = below < 0 ? here : cells.data() + below * std::size_t{kLeafSize} + 7 * stride;
+    float* out = faces.data() + n * kLeafSize;
+    for (int i = 0; i < kLeafSize; ++i)
+      out[i] = 0.5f * (here[i] + ((i >> shift & 7) == 0 ? before[i] : here[i - stride]));
   });
   return faces;
 }
 
-void extrapolateComponent(FloatGrid& grid, const MaskGrid& valid, int axis, const LeafTable& table,
-                          const std::vector<float>& phi, const std::vector<float>& depth) {
-  Component c{table, sampleOn(table, grid.constTree()), std::vector<std::uint8_t>(table.voxels()),
-              atFaces(table, phi, axis), atFaces(table, depth, axis)};
-  const auto leaves = leavesOf(grid.tree());
+template <int kFields>
+void extrapolateAxis(const std::array<const Extrapolated*, kFields>& fields, int axis, const LeafTable& table,
+                     const std::vector<float>& phi, const std::vector<float>& depth) {
+  Sweep<kFields> s{table, atFaces(table, phi, axis), atFaces(table, depth, axis),
+                   std::vector<std::array<float, kFields>>(table.voxels()),
+                   std::vector<std::uint8_t>(table.voxels())};
+  std::array<std::vector<FloatLeaf*>, kFields> leaves;
+  for (int f = 0; f < kFields; ++f) leaves[f] = leavesOf(fields[f]->field.component[axis]->tree());
+  tbb::parallel_for(std::size_t{0}, table.size(), [&](std::size_t n) {
+    for (int f = 0; f < kFields; ++f) {
+      const auto& masks = fields[f]->valid;
+      const MaskTree& valid = (axis == 0 ? masks.u : axis == 1 ? masks.v : masks.w)->constTree();
+      const auto* validLeaf = valid.probeConstLeaf(table.origins[n]);
+      const bool validTile = validLeaf == nullptr && valid.isValueOn(table.origins[n]);
+      const float* from = leaves[f][n]->buffer().data();
+      for (int i = 0; i < kLeafSize; ++i) {
+        s.value[n * kLeafSize + i][f] = from[i];
+        const bool isKnown = validLeaf != nullptr ? validLeaf->isValueOn(i) : validTile;
+        if (isKnown && leaves[f][n]->isValueOn(i)) s.known[n * kLeafSize + i] |= 1 << f;
+      }
+    }
+  });
   // Faces in solids come after those in the air, so that both sides of a contact line are known first.
   std::vector<FarVoxel> order;
-  for (std::size_t n = 0; n < leaves.size(); ++n) {
-    const auto* validLeaf = valid.constTree().probeConstLeaf(leaves[n]->origin());
-    const bool validTile = validLeaf == nullptr && valid.constTree().isValueOn(leaves[n]->origin());
-    for (int offset = 0; offset < kLeafSize; ++offset) {
-      if (!leaves[n]->isValueOn(offset)) continue;
-      const std::int64_t voxel = static_cast<std::int64_t>(n) * kLeafSize + offset;
-      if (validTile || (validLeaf != nullptr && validLeaf->isValueOn(offset))) {
-        c.known[voxel] = 1;
-      } else {
-        const bool inSolid = c.solidDepth[voxel] > 0.0f;
-        order.push_back({sortKey(inSolid ? c.solidDepth[voxel] : c.airDistance[voxel], inSolid),
-                         static_cast<std::uint32_t>(voxel)});
-      }
+  for (std::size_t n = 0; n < table.size(); ++n) {
+    for (auto it = leaves[0][n]->cbeginValueOn(); it; ++it) {
+      const std::size_t voxel = n * kLeafSize + it.pos();
+      if (s.known[voxel] == s.kAll) continue;
+      const bool inSolid = s.solidDepth[voxel] > 0.0f;
+      order.push_back({sortKey(inSolid ? s.solidDepth[voxel] : s.airDistance[voxel], inSolid),
+                       static_cast<std::uint32_t>(voxel)});
     }
   }
   sortByDistance(order);
@@ -89,49 +116,57 @@ void extrapolateComponent(FloatGrid& grid, const MaskGrid& valid, int axis, cons
   // One pass does nearly all; local minima of the distance that hold no valid face wait for their neighbours.
   std::vector<std::int64_t> waiting;
   for (const FarVoxel& e : order) {
-    if (!c.fill(e.voxel)) waiting.push_back(e.voxel);
+    s.fill(e.voxel);
+    if (s.known[e.voxel] != s.kAll) waiting.push_back(e.voxel);
   }
-  while (!waiting.empty()) {
-    std::vector<std::int64_t> still;
-    for (const std::int64_t voxel : waiting) {
-      if (!c.fill(voxel)) still.push_back(voxel);
+  for (bool progress = true; progress;) {
+    progress = false;
+    for (const std::int64_t voxel : waiting) progress = s.fill(voxel) || progress;
+    std::erase_if(waiting, [&](std::int64_t voxel) { return s.known[voxel] == s.kAll; });
+  }
+  for (const std::int64_t voxel : waiting) {
+    for (int f = 0; f < kFields; ++f) {
+      if ((s.known[voxel] >> f & 1) == 0) s.value[voxel][f] = 0.0f;
     }
-    if (still.size() == waiting.size()) break;
-    waiting.swap(still);
   }
-  for (const std::int64_t voxel : waiting) c.value[voxel] = 0.0f;
-
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    std::copy_n(c.value.data() + n * kLeafSize, kLeafSize, leaves[n]->buffer().data());
+  tbb::parallel_for(std::size_t{0}, table.size(), [&](std::size_t n) {
+    for (int f = 0; f < kFields; ++f) {
+      float* to = leaves[f][n]->buffer().data();
+      for (int i = 0; i < kLeafSize; ++i) to[i] = s.value[n * kLeafSize + i][f];
+    }
   });
 }
 
-}  // namespace
-
-void extrapolate(const std::vector<Extrapolated>& fields, const FloatGrid& phi, const FloatGrid& solidPhi) {
-  const LeafTable table = makeLeafTable(fields.front().field.component[0]->constTree());
+template <int kFields>
+void extrapolateFields(const std::array<const Extrapolated*, kFields>& fields, const FloatGrid& phi,
+                       const FloatGrid& solidPhi) {
+  const LeafTable table = makeLeafTable(fields[0]->field.component[0]->constTree());
   const std::vector<float> cellPhi = sampleOn(table, phi.constTree());
   std::vector<float> depth = sampleOn(table, solidPhi.constTree());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, depth.size(), kLeafSize), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) depth[i] = -depth[i];
   });
-  const int count = 3 * static_cast<int>(fields.size());
-  // One component a task: each is a long sweep of one thread.
+  // One axis a task: each is a long sweep of one thread.
   tbb::parallel_for(
-      tbb::blocked_range<int>(0, count, 1),
+      tbb::blocked_range<int>(0, 3, 1),
       [&](const tbb::blocked_range<int>& range) {
-        for (int n = range.begin(); n != range.end(); ++n) {
-          const auto& [field, valid] = fields[n / 3];
-          const MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
-          extrapolateComponent(*field.component[n % 3], *masks[n % 3], n % 3, table, cellPhi, depth);
-        }
+        for (int axis = range.begin(); axis != range.end(); ++axis)
+          extrapolateAxis<kFields>(fields, axis, table, cellPhi, depth);
       },
       tbb::simple_partitioner());
 }
 
+}  // namespace
+
+void extrapolate(const Extrapolated& first, const Extrapolated& second, const FloatGrid& phi,
+                 const FloatGrid& solidPhi) {
+  extrapolateFields<2>({&first, &second}, phi, solidPhi);
+}
+
 void extrapolate(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi,
                  const FloatGrid& solidPhi) {
-  extrapolate({{velocity, valid}}, phi, solidPhi);
+  const Extrapolated field{velocity, valid};
+  extrapolateFields<1>({&field}, phi, solidPhi);
 }
 
 }  // namespace fluidtex::sim

@@ -178,19 +178,21 @@ double maxAbs(const Velocity& velocity) {
           for (std::size_t n = range.begin(); n != range.end(); ++n) {
             const auto& active = leaves[n]->getValueMask();
             const float* values = leaves[n]->buffer().data();
-            // By rows of eight; what is not finite is infinity or NaN, and 0 times it is NaN.
-            float zero = 0.0f, highest = 0.0f;
+            // Eight side by side; what is not finite is infinity or NaN, and 0 times it is NaN.
+            float zero[kLeafDim] = {}, highest[kLeafDim] = {};
             for (int row = 0; row < kLeafSize / kLeafDim; ++row) {
-              const auto on = active.getWord<std::uint8_t>(static_cast<openvdb::Index>(row));
+              const int on = active.getWord<std::uint8_t>(static_cast<openvdb::Index>(row));
               const float* p = values + row * kLeafDim;
               for (int k = 0; k < kLeafDim; ++k) {
-                const float value = (on >> k & 1) != 0 ? std::abs(p[k]) : 0.0f;
-                highest = value > highest ? value : highest;
-                zero += 0.0f * value;
+                const float value = (on & 1 << k) != 0 ? std::abs(p[k]) : 0.0f;
+                highest[k] = value > highest[k] ? value : highest[k];
+                zero[k] += 0.0f * value;
               }
             }
-            if (zero != 0.0f || !std::isfinite(highest)) highest = std::numeric_limits<float>::infinity();
-            most = std::max(most, static_cast<double>(highest));
+            const bool finite = std::all_of(zero, zero + kLeafDim, [](float z) { return z == 0.0f; });
+            const float here = finite ? *std::max_element(highest, highest + kLeafDim)
+                                      : std::numeric_limits<float>::infinity();
+            most = std::max(most, static_cast<double>(here));
           }
           return most;
         },

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace fluidtex::sim {
 namespace {
@@ -123,24 +124,32 @@ struct LeafPlan {
   std::vector<NearCell> near;       // those whose distance comes from the iteration
   std::vector<std::int16_t> held;   // offsets of cells that do not take part in it
   std::vector<CellDistance> moved;  // of those, the ones that get a new value beforehand
+
+  bool rests() const { return held.size() == kLeafSize; }
 };
 
 LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h,
                   bool smoothAtSolids) {
-  static thread_local float block[kBlock];  // 0 where nothing is gathered
-  gather(phi, origin, kHalo, block, true);
   float scratch[kLeafSize];
   const float* solid = leafValues(solidPhi, origin, scratch);
   const float deepest = -kDeepInSolid * h;
   std::array<bool, kLeafSize> held;
   for (int i = 0; i < kLeafSize; ++i) held[i] = solid[i] < deepest;
-  LeafPlan plan{nearCells(block), {}, {}};
+  LeafPlan plan;
+  if (std::all_of(held.begin(), held.end(), std::identity{})) {
+    plan.held.resize(kLeafSize);
+    return plan;
+  }
+  static thread_local float block[kBlock];  // 0 where nothing is gathered
+  gather(phi, origin, kHalo, block, true);
+  plan.near = nearCells(block);
   const float nearest = *std::min_element(solid, solid + kLeafSize);
   const bool smooth = smoothAtSolids || nearest > 2.9f * h;
-  for (const CellDistance& cell : smooth ? surfaceDistances(phi, origin, h) : std::vector<CellDistance>{}) {
-    if (held[cell.offset]) continue;
-    held[cell.offset] = true;
-    if (std::abs(block[blockIndex(cell.offset)] / h - cell.phi) > kRightEnough) plan.moved.push_back(cell);
+  if (smooth) {
+    for (const CellDistance& cell : surfaceDistances(phi, origin, h, held)) {
+      held[cell.offset] = true;
+      if (std::abs(block[blockIndex(cell.offset)] / h - cell.phi) > kRightEnough) plan.moved.push_back(cell);
+    }
   }
   std::erase_if(plan.near, [&](const NearCell& cell) { return held[cell.offset]; });
   for (std::int16_t i = 0; i < kLeafSize; ++i) {
@@ -151,6 +160,7 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
 
 // One step: to = from + dtau L(from).
 void eulerStep(const FloatTree& from, FloatLeaf& to, const LeafPlan& plan, float h, float background) {
+  if (plan.rests()) return;
   static thread_local float block[kBlock];  // 0 where nothing is gathered
   gather(from, to.origin(), kHalo, block, true);
   const float inverse = 1.0f / h;

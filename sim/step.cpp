@@ -144,7 +144,7 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, double kick, co
     const FaceMasks free = drivenFaces(projection.valid, solid);
     if (pressure.keepBefore) arrived = std::move(projection.before);
     liquid.acceleration = accelerationBy(std::move(arrived), liquid.velocity, free, dt);
-    extrapolate({{liquid.velocity, projection.valid}, {liquid.acceleration, free}}, *liquid.phi, *solid.phi);
+    extrapolate({liquid.velocity, projection.valid}, {liquid.acceleration, free}, *liquid.phi, *solid.phi);
   } else {
     extrapolate(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
   }

@@ -223,7 +223,8 @@ bool advance(Search& search, const Block& block, double& distance) {
 
 }  // namespace
 
-std::vector<CellDistance> surfaceDistances(const FloatTree& phi, const Coord& origin, float h) {
+std::vector<CellDistance> surfaceDistances(const FloatTree& phi, const Coord& origin, float h,
+                                           const std::array<bool, kLeafSize>& notAsked) {
   thread_local Block block;
   thread_local std::vector<Search> searches;
   gather(phi, origin, kHalo, block.value.data());
@@ -234,7 +235,7 @@ std::vector<CellDistance> surfaceDistances(const FloatTree& phi, const Coord& or
   for (float& value : block.value) value *= inverse;
   searches.clear();
   for (std::int16_t offset = 0; offset < kLeafSize; ++offset) {
-    if ((near[std::size_t(offset >> 3)] >> (offset & 7) & 1) == 0) continue;
+    if ((near[std::size_t(offset >> 3)] >> (offset & 7) & 1) == 0 || notAsked[offset]) continue;
     const Vec3 cell(offset >> 6, (offset >> 3) & 7, offset & 7);
     searches.push_back({cell, block.guess(offset, block.crossing(offset)), {}, offset, true});
   }
