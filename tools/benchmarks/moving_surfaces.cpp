@@ -204,8 +204,8 @@ MovingSurface river(int points) {
 
 MovingSurface damBreak(int points) {
   constexpr int kLast = 30;
-  // Its surface is about four square metres by then.
-  const int resolution = std::max(16, int(std::sqrt(points / 4.0)));
+  // Its surface is about three square metres by then.
+  const int resolution = std::max(16, int(std::sqrt(points / 3.0)));
   sim::Solver solver(closedDamBreak(resolution));
   sim::Frame frame;
   MovingSurface surface;
