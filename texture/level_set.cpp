@@ -333,4 +333,17 @@ LevelSet::Projection LevelSet::project(const Vec3f& x, float reach) const {
   return best;
 }
 
+LevelSet::Projection LevelSet::slide(const Vec3f& x, float reach) const {
+  constexpr float kNear = 0.05f;  // voxels: one step is enough from here
+  constexpr float kSteep = 0.5f;  // so steep must the gradient be for it
+  const Sample s = sample(x);
+  const float length2 = s.gradient.lengthSqr();
+  if (!s.known || std::abs(s.value) > kNear || length2 < kSteep * kSteep) return project(x, reach);
+  Projection result;
+  result.position = x - s.gradient * (s.value / length2);
+  result.normal = s.gradient / std::sqrt(length2);
+  result.known = true;
+  return result;
+}
+
 }  // namespace fluidtex::texture

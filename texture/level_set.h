@@ -46,6 +46,9 @@ class LevelSet {
   };
   // Newton steps along the gradient to the zero set, at most `reach` voxels from x.
   Projection project(const Vec3f& x, float reach = 1.0f) const;
+  // One Newton step, for a point that has left the zero set by a little only: what it leaves is of the second
+  // order. `distance` is not filled in.
+  Projection slide(const Vec3f& x, float reach = 1.0f) const;
 
  private:
   std::vector<openvdb::Coord> m_origins;

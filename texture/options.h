@@ -24,7 +24,7 @@ enum class Points {
 struct SurfaceOptions {
   Points points = Points::seeds;
   int levels = 3;                 // of the hierarchy on the first frame that has a surface
-  int repulsionSweeps = 30;       // on the first frame and for random points; seeds need a quarter of them
+  int repulsionSweeps = 16;       // on the first frame and for random points; seeds need a quarter of them
   std::uint64_t seed = 1;
 };
 

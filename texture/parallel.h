@@ -5,9 +5,11 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace fluidtex::texture {
 
@@ -34,6 +36,23 @@ double sumOf(std::size_t count, const Term& term, std::size_t grain = kGrain) {
         return sum;
       },
       std::plus<>());
+}
+
+// What make(i, list) adds to the list for each i < count, in the order of i.
+template <typename Value, typename Make>
+std::vector<Value> gathered(std::size_t count, const Make& make, std::size_t chunk = 4 * kGrain) {
+  std::vector<std::vector<Value>> parts((count + chunk - 1) / chunk);
+  tbb::parallel_for(std::size_t(0), parts.size(), [&](std::size_t part) {
+    const std::size_t end = std::min(count, (part + 1) * chunk);
+    for (std::size_t i = part * chunk; i < end; ++i) make(std::uint32_t(i), parts[part]);
+  });
+  std::vector<Value> all;
+  if (parts.size() == 1) all.swap(parts[0]);
+  std::size_t size = all.size();
+  for (const auto& part : parts) size += part.size();
+  all.reserve(size);
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
 }
 
 }  // namespace fluidtex::texture

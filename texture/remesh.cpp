@@ -2,6 +2,8 @@
 // (2004).
 #include "texture/remesh.h"
 
+#include "texture/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,17 +14,16 @@ constexpr std::uint32_t kNone = EditableMesh::kNone;
 
 // Whether the angles opposite to an edge sum to more than pi, by more than rounding.
 bool violatesDelaunay(const EditableMesh& mesh, std::uint32_t h) {
-  constexpr double kSlack = 1e-4;
+  constexpr float kSlack = 1e-4f;
   const std::uint32_t t = mesh.twin[h];
-  using Vec3d = openvdb::Vec3d;
-  const Vec3d a(mesh.position[mesh.origin[h]]), b(mesh.position[mesh.origin[t]]);
-  const Vec3d c(mesh.position[mesh.opposite(h)]), d(mesh.position[mesh.opposite(t)]);
-  const Vec3d ca = a - c, cb = b - c, da = a - d, db = b - d;
-  const double cosC = ca.dot(cb), cosD = da.dot(db);
-  if (cosC >= 0.0 && cosD >= 0.0) return false;
-  const double sinC = ca.cross(cb).length(), sinD = da.cross(db).length();
-  const double excess = cosC * sinD + cosD * sinC;
-  return excess < 0.0 &&
+  const Vec3f &a = mesh.position[mesh.origin[h]], &b = mesh.position[mesh.origin[t]];
+  const Vec3f &c = mesh.position[mesh.opposite(h)], &d = mesh.position[mesh.opposite(t)];
+  const Vec3f ca = a - c, cb = b - c, da = a - d, db = b - d;
+  const float cosC = ca.dot(cb), cosD = da.dot(db);
+  if (cosC >= 0.0f && cosD >= 0.0f) return false;
+  const float sinC = ca.cross(cb).length(), sinD = da.cross(db).length();
+  const float excess = cosC * sinD + cosD * sinC;
+  return excess < 0.0f &&
          excess * excess > kSlack * kSlack * (cosC * cosC + sinC * sinC) * (cosD * cosD + sinD * sinD);
 }
 
@@ -48,6 +49,18 @@ float facing(const Vec3f (&p)[3], const Vec3f (&n)[3]) {
       std::max({(p[1] - p[0]).lengthSqr(), (p[2] - p[0]).lengthSqr(), (p[2] - p[1]).lengthSqr()});
   if (!(length > 1e-5f * longest2)) return -1.0f;
   return std::min({normal.dot(n[0]), normal.dot(n[1]), normal.dot(n[2])}) / length;
+}
+
+bool facesOutward(const EditableMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  const Vec3f &p0 = mesh.position[a], &p1 = mesh.position[b], &p2 = mesh.position[c];
+  const Vec3f u = p1 - p0, v = p2 - p0, w = p2 - p1;
+  const Vec3f normal = u.cross(v);
+  const float length2 = normal.lengthSqr();
+  const float longest2 = std::max({u.lengthSqr(), v.lengthSqr(), w.lengthSqr()});
+  const float worst =
+      std::min({normal.dot(mesh.normal[a]), normal.dot(mesh.normal[b]), normal.dot(mesh.normal[c])});
+  return worst > 0.0f && worst * worst >= kFacing * kFacing * length2 &&
+         length2 > 1e-10f * longest2 * longest2;
 }
 
 float worstFacingAt(const EditableMesh& mesh, std::uint32_t v, const Vec3f& at, const Vec3f& atNormal,
@@ -87,22 +100,25 @@ void flipToDelaunay(EditableMesh& mesh, const std::vector<std::uint32_t>* dirty)
     }
     stack.clear();
   };
-  if (dirty) {
-    std::vector<std::uint32_t> edges;
-    for (std::uint32_t v : *dirty) {
-      if (mesh.outgoing[v] == kNone) continue;
-      edges.clear();
+  // Most edges are right as they are, and that is found out in parallel.
+  using Edges = std::vector<std::uint32_t>;
+  Edges wrong;
+  if (dirty && dirty->size() < mesh.vertexCount() / 4) {
+    wrong = gathered<std::uint32_t>(dirty->size(), [&](std::uint32_t i, Edges& found) {
+      const std::uint32_t v = (*dirty)[i];
+      if (mesh.outgoing[v] == kNone) return;
       mesh.around(v, [&](std::uint32_t h) {
-        edges.push_back(h);
-        edges.push_back(EditableMesh::next(h));
+        for (std::uint32_t e : {h, EditableMesh::next(h)}) {
+          if (violatesDelaunay(mesh, e)) found.push_back(e);
+        }
       });
-      for (std::uint32_t h : edges) settle(h);
-    }
+    });
   } else {
-    for (std::uint32_t h = 0; h < mesh.halfEdgeCount(); ++h) {
-      if (mesh.alive(h) && h < mesh.twin[h]) settle(h);
-    }
+    wrong = gathered<std::uint32_t>(mesh.halfEdgeCount(), [&](std::uint32_t h, Edges& found) {
+      if (mesh.alive(h) && h < mesh.twin[h] && violatesDelaunay(mesh, h)) found.push_back(h);
+    });
   }
+  for (std::uint32_t h : wrong) settle(h);
 }
 
 bool tryCollapse(EditableMesh& mesh, std::uint32_t h) {

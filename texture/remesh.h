@@ -21,6 +21,9 @@ inline bool mayFace(float now, float before) {
   return now >= kFacing || now >= before;
 }
 
+// Whether the triangle's facing() is at least kFacing.
+bool facesOutward(const EditableMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c);
+
 // Smallest facing() of the triangles around v, without those that also touch `except`.
 float worstFacing(const EditableMesh& mesh, std::uint32_t v, std::uint32_t except = EditableMesh::kNone);
 

@@ -3,11 +3,12 @@
 
 int main(int argc, char** argv) {
   using namespace fluidtex::benchmarks;
-  if (answerSelf(argc, argv)) return 0;
+  if (answerSelf(argc, argv) || answerSurfaceMemory(argc, argv)) return 0;
   registerPressure();
   registerDamBreak();
   registerMemory();
   registerScaling();
+  registerSurface();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

@@ -27,13 +27,16 @@ void printRatios();
 // Runs this very program with these arguments and gives what it prints; empty where it fails.
 std::string runSelf(const std::string& arguments);
 
-// Called with the arguments that runSelf was given; false when they are none of its own. See memory.cpp.
+// Called with the arguments that runSelf was given; false when they are none of their own. See memory.cpp and
+// surface.cpp.
 bool answerSelf(int argc, char** argv);
+bool answerSurfaceMemory(int argc, char** argv);
 
 // Each file's benchmarks.
 void registerDamBreak();
 void registerPressure();
 void registerMemory();
 void registerScaling();
+void registerSurface();
 
 }  // namespace fluidtex::benchmarks

@@ -1,0 +1,113 @@
+#include "texture/adjust.h"
+
+#include "texture/parallel.h"
+#include "texture/remesh.h"
+
+#include <algorithm>
+
+namespace fluidtex::texture {
+namespace {
+
+constexpr std::uint32_t kNone = EditableMesh::kNone;
+
+// How large a gap an edge crosses: its own length, or the wider of the circles around its triangles. For
+// the four corners of a rectangle it does not matter which diagonal the mesh has.
+float gap(const EditableMesh& mesh, std::uint32_t h, float ownLength) {
+  float widest = ownLength;
+  for (std::uint32_t side : {h, mesh.twin[h]}) {
+    const Vec3f c = mesh.position[mesh.opposite(side)];
+    const Vec3f u = mesh.position[mesh.origin[side]] - c, v = mesh.position[mesh.target(side)] - c;
+    const float area2 = u.cross(v).length();
+    if (area2 > 0.0f) widest = std::max(widest, ownLength * u.length() * v.length() / area2);
+  }
+  return widest;
+}
+
+struct Candidate {
+  float length;  // mean edge lengths
+  std::uint32_t halfEdge;
+  std::uint32_t a, b;
+};
+
+bool shorter(const Candidate& x, const Candidate& y) {
+  return x.length != y.length ? x.length < y.length : x.halfEdge < y.halfEdge;
+}
+
+bool longer(const Candidate& x, const Candidate& y) {
+  return x.length != y.length ? x.length > y.length : x.halfEdge > y.halfEdge;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi,
+                                        const AdjustOptions& options) {
+  // Mean edge lengths. Points that were even in the last frame get some margin, so that nothing flickers at
+  // the limits.
+  const float tooShort = options.settled ? 0.6f : 0.63f, tooLong = options.settled ? 1.8f : 1.7f;
+  constexpr float kShort = 0.95f, kLong = 1.1f;  // only these are touched for the sake of the number
+  constexpr float kMaybeLong = 1.4f;             // shorter edges cross no gap
+  const auto alive = static_cast<double>(
+      std::count_if(mesh.outgoing.begin(), mesh.outgoing.end(), [](std::uint32_t h) { return h != kNone; }));
+  const double excess = alive - options.points;
+  const bool many = excess > options.slack * options.points, few = -excess > options.slack * options.points;
+
+  using Candidates = std::vector<Candidate>;
+  const float shortLimit = many ? kShort : tooShort, longLimit = few ? kLong : tooLong;
+  Candidates shortest = gathered<Candidate>(mesh.halfEdgeCount(), [&](std::uint32_t h, Candidates& found) {
+    if (!mesh.alive(h) || h > mesh.twin[h]) return;
+    const std::uint32_t a = mesh.origin[h], b = mesh.target(h);
+    const float l = (mesh.position[a] - mesh.position[b]).length() / options.edge;
+    if (l < shortLimit) found.push_back({l, h, a, b});
+    if (l > std::min(longLimit, kMaybeLong)) {
+      const float across = l > kMaybeLong ? gap(mesh, h, l) : l;
+      if (across > longLimit) found.push_back({across, h, a, b});
+    }
+  });
+  // No edge is in both: shortLimit < longLimit.
+  const auto firstLong = std::stable_partition(shortest.begin(), shortest.end(),
+                                               [&](const Candidate& c) { return c.length < shortLimit; });
+  Candidates longest(firstLong, shortest.end());
+  shortest.erase(firstLong, shortest.end());
+  std::sort(shortest.begin(), shortest.end(), shorter);
+  std::sort(longest.begin(), longest.end(), longer);
+
+  std::vector<std::uint32_t> changed;
+  std::vector<std::uint8_t> touched;
+  if (!shortest.empty() || !longest.empty()) touched.assign(mesh.vertexCount(), 0);
+  const auto same = [&](const Candidate& c) {  // the candidate's half-edge is still the edge it was
+    return mesh.alive(c.halfEdge) && mesh.origin[c.halfEdge] == c.a && mesh.target(c.halfEdge) == c.b &&
+           !touched[c.a] && !touched[c.b];
+  };
+  const auto touch = [&](std::uint32_t v) {
+    mesh.around(v, [&](std::uint32_t h) {
+      touched[mesh.target(h)] = 1;
+      changed.push_back(mesh.target(h));
+    });
+    touched[v] = 1;
+    changed.push_back(v);
+  };
+  double toRemove = many ? excess : 0.0, toAdd = few ? -excess : 0.0;
+  for (const Candidate& c : shortest) {
+    if (c.length >= tooShort && toRemove < 1.0) break;
+    if (!same(c)) continue;
+    if (tryCollapse(mesh, c.halfEdge)) {
+      touch(c.b);
+    } else if (tryCollapse(mesh, mesh.twin[c.halfEdge])) {
+      touch(c.a);
+    } else {
+      continue;
+    }
+    toRemove -= 1.0;
+  }
+  for (const Candidate& c : longest) {
+    if (c.length <= tooLong && toAdd < 1.0) break;
+    if (!same(c)) continue;
+    const std::uint32_t m = splitOnSurface(mesh, c.halfEdge, phi);
+    touched.push_back(1);
+    touch(m);
+    toAdd -= 1.0;
+  }
+  return changed;
+}
+
+}  // namespace fluidtex::texture

@@ -1,0 +1,134 @@
+#include "texture/repulsion.h"
+
+#include "texture/parallel.h"
+#include "texture/remesh.h"
+
+#include <atomic>
+#include <cmath>
+
+namespace fluidtex::texture {
+namespace {
+
+constexpr float kLongest = 0.25f;  // move in one sweep, mean edge lengths
+
+}  // namespace
+
+// Where repulsion drives a vertex in one sweep, tangent to the surface.
+Vec3f Repulsion::push(std::uint32_t v) const {
+  // Neighbours repel up to 1.25 mean edge lengths: beyond it a Delaunay flip turns edges, and no force may
+  // jump there.
+  constexpr float kRange = 1.25f;
+  constexpr float kStep = 0.2f;  // of the distance that would undo the overlap: stable for six neighbours
+  const float range = kRange * m_edge;
+  const Vec3f at = m_mesh.position[v];
+  Vec3f sum(0.0f);
+  m_mesh.around(v, [&](std::uint32_t h) {
+    const Vec3f away = at - m_mesh.position[m_mesh.target(h)];
+    const float distance2 = away.lengthSqr();
+    if (distance2 > 0.0f && distance2 < range * range) sum += away * (range / std::sqrt(distance2) - 1.0f);
+  });
+  sum *= kStep;
+  sum -= m_mesh.normal[v] * m_mesh.normal[v].dot(sum);
+  return sum;
+}
+
+void Repulsion::sweep(std::vector<std::uint32_t>& active, float wake, float sleep) {
+  // Where the movers go; then where they were.
+  m_position.resize(active.size());
+  m_normal.resize(active.size());
+  // Of the last sweep's move: long waves of density level out in half as many sweeps.
+  constexpr float kMomentum = 0.5f;
+  const float longest = kLongest * m_edge;
+  m_last.resize(m_mesh.vertexCount(), Vec3f(0.0f));
+  forEachIndex(active.size(), [&](std::uint32_t i) {
+    const std::uint32_t v = active[i];
+    Vec3f move = push(v);
+    const float limit = (awake[v] ? sleep : wake) * m_edge;
+    awake[v] = move.lengthSqr() > limit * limit;
+    if (!awake[v]) return;
+    move += m_last[v] * kMomentum;
+    const float size = move.length();
+    if (size > longest) move *= longest / size;
+    const LevelSet::Projection p = m_phi.slide(m_mesh.position[v] + move, m_edge);
+    m_position[i] = p.known ? p.position : m_mesh.position[v];
+    m_normal[i] = p.known ? p.normal : m_mesh.normal[v];
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    if (!awake[active[i]]) {
+      m_last[active[i]] = Vec3f(0.0f);
+      continue;
+    }
+    active[kept] = active[i];
+    m_position[kept] = m_position[i];
+    m_normal[kept++] = m_normal[i];
+  }
+  active.resize(kept);
+  forEachIndex(kept, [&](std::uint32_t i) {
+    std::swap(m_mesh.position[active[i]], m_position[i]);
+    std::swap(m_mesh.normal[active[i]], m_normal[i]);
+  });
+  revertFolds(active);
+  // At a crease, or where a move was taken back, a push moves nothing: such vertices are at rest as well.
+  kept = 0;
+  const float least2 = sleep * sleep * m_edge * m_edge;
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const std::uint32_t v = active[i];
+    m_last[v] = m_mesh.position[v] - m_position[i];
+    if (m_last[v].lengthSqr() > least2) {
+      active[kept++] = v;
+      continue;
+    }
+    awake[v] = 0;
+    m_last[v] = Vec3f(0.0f);
+    m_mesh.position[v] = m_position[i];
+    m_mesh.normal[v] = m_normal[i];
+  }
+  active.resize(kept);
+}
+
+// Takes back moves until no triangle is folded that was not before. Ends: at worst all moves are taken back.
+void Repulsion::revertFolds(const std::vector<std::uint32_t>& movers) {
+  m_undo.resize(m_mesh.vertexCount(), 0);
+  const auto raise = [&](std::uint32_t v) {
+    std::atomic_ref<std::uint8_t>(m_undo[v]).store(1, std::memory_order_relaxed);
+  };
+  // Each triangle is looked at by the first of its corners that moves.
+  const auto inspect = [&](std::uint32_t v) {
+    m_mesh.around(v, [&](std::uint32_t h) {
+      const std::uint32_t b = m_mesh.target(h), c = m_mesh.opposite(h);
+      if ((b < v && awake[b]) || (c < v && awake[c]) || facesOutward(m_mesh, v, b, c)) return;
+      raise(v);
+      if (awake[b]) raise(b);
+      if (awake[c]) raise(c);
+    });
+  };
+  forEachIndex(movers.size(), [&](std::uint32_t i) { inspect(movers[i]); });
+  while (true) {
+    std::vector<std::uint32_t> reverted;  // numbers in movers
+    for (std::uint32_t i = 0; i < movers.size(); ++i) {
+      if (m_undo[movers[i]] == 1) reverted.push_back(i);
+    }
+    if (reverted.empty()) break;
+    for (std::uint32_t i : reverted) {
+      const std::uint32_t v = movers[i];
+      m_mesh.position[v] = m_position[i];
+      m_mesh.normal[v] = m_normal[i];
+      m_undo[v] = 2;
+    }
+    // Its neighbours may be in the way now.
+    for (std::uint32_t i : reverted) {
+      const std::uint32_t v = movers[i];
+      m_mesh.around(v, [&](std::uint32_t h) {
+        const std::uint32_t b = m_mesh.target(h), c = m_mesh.opposite(h);
+        if (facesOutward(m_mesh, v, b, c)) return;
+        for (std::uint32_t u : {b, c}) {
+          if (awake[u] && m_undo[u] == 0) m_undo[u] = 1;
+        }
+      });
+    }
+  }
+  for (std::uint32_t v : movers) m_undo[v] = 0;
+}
+
+}  // namespace fluidtex::texture
