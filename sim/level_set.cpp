@@ -206,7 +206,7 @@ FloatGrid::Ptr visibleSurface(const FloatGrid& phi, const SolidField& solid, int
     }
   });
   const auto nothing = FloatGrid::create(static_cast<float>(3.0 * h));
-  reinitialize(*surface, *nothing, {.iterations = 2 * halfWidth + 2});
+  reinitialize(*surface, *nothing, 2 * halfWidth + 2);
   setBand(surface->tree(), nullptr, static_cast<float>(h));
   return surface;
 }

@@ -27,17 +27,10 @@ inline constexpr float kSolidLayers = 2.99f;
 // How much farther from the surface the distance is made right by an iteration of reinitialize, in voxels.
 inline constexpr double kReinitReach = 0.4;
 
-struct ReinitOptions {
-  int iterations = 8;
-  // Take the surface for smooth, where phi is, within three cells of solids too. Not where phi is still the
-  // distance to a body's own faces at a wall.
-  bool smoothAtSolids = true;
-};
-
 // Turns phi into a signed distance near the surface, which itself stays where it is: cells next to it use its
-// place between the cell centres, to fourth order where it is smooth. Cells in solids more than half a cell
-// deep are left alone (see extendIntoSolids).
-void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, const ReinitOptions& options = {});
+// place between the cell centres, to fourth order where it is smooth and three cells from solids. Cells in
+// solids more than half a cell deep are left alone (see extendIntoSolids).
+void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, int iterations = 8);
 
 // Asked of cells in the open beside a solid: has the liquid there let go of the solid, or, where the cell is
 // air, does the velocity lead away from the solid?

@@ -17,7 +17,7 @@ void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, con
   correctPhi(phi, markers);
   applyFlows(phi, markers, flows);
   extendIntoSolids(phi, solidPhi);
-  reinitialize(phi, solidPhi, {.iterations = kReinitIterations});
+  reinitialize(phi, solidPhi, kReinitIterations);
   correctPhi(phi, markers);
   applyFlows(phi, markers, flows);
   maintainMarkers(markers, phi, solidPhi, seed);

@@ -27,6 +27,10 @@ constexpr float kCourant = kReinitReach;
 // move at all, however often it is reinitialised.
 constexpr float kRightEnough = 1e-3f;
 
+// Nearer to solids than this, in cells, the surface is not taken for smooth: phi has been made to go on
+// behind them.
+constexpr float kAwayFromSolids = 2.9f;
+
 // By value and without branches, so that loops over them vectorise.
 inline float least(float a, float b) {
   return a < b ? a : b;
@@ -128,8 +132,7 @@ struct LeafPlan {
   bool rests() const { return held.size() == kLeafSize; }
 };
 
-LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h,
-                  bool smoothAtSolids) {
+LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h) {
   float scratch[kLeafSize];
   const float* solid = leafValues(solidPhi, origin, scratch);
   const float deepest = -kDeepInSolid * h;
@@ -143,13 +146,11 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
   static thread_local float block[kBlock];  // 0 where nothing is gathered
   gather(phi, origin, kHalo, block, true);
   plan.near = nearCells(block);
-  const float nearest = *std::min_element(solid, solid + kLeafSize);
-  const bool smooth = smoothAtSolids || nearest > 2.9f * h;
-  if (smooth) {
-    for (const CellDistance& cell : surfaceDistances(phi, origin, h, held)) {
-      held[cell.offset] = true;
-      if (std::abs(block[blockIndex(cell.offset)] / h - cell.phi) > kRightEnough) plan.moved.push_back(cell);
-    }
+  std::array<bool, kLeafSize> notAsked;
+  for (int i = 0; i < kLeafSize; ++i) notAsked[i] = solid[i] < kAwayFromSolids * h;
+  for (const CellDistance& cell : surfaceDistances(phi, origin, h, notAsked)) {
+    held[cell.offset] = true;
+    if (std::abs(block[blockIndex(cell.offset)] / h - cell.phi) > kRightEnough) plan.moved.push_back(cell);
   }
   std::erase_if(plan.near, [&](const NearCell& cell) { return held[cell.offset]; });
   for (std::int16_t i = 0; i < kLeafSize; ++i) {
@@ -195,27 +196,26 @@ void eulerStep(const FloatTree& from, FloatLeaf& to, const LeafPlan& plan, float
 
 }  // namespace
 
-void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, const ReinitOptions& options) {
+void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, int iterations) {
   const float h = static_cast<float>(phi.voxelSize()[0]);
   const auto leaves = leavesOf(phi.tree());
   std::vector<LeafPlan> plans(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    plans[n] =
-        planLeaf(phi.constTree(), solidPhi.constTree(), leaves[n]->origin(), h, options.smoothAtSolids);
+    plans[n] = planLeaf(phi.constTree(), solidPhi.constTree(), leaves[n]->origin(), h);
   });
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     for (const CellDistance& cell : plans[n].moved) leaves[n]->setValueOnly(cell.offset, h * cell.phi);
   });
   FloatTree other(phi.constTree());
   const auto otherLeaves = leavesOf(other);
-  for (int iteration = 0; iteration < options.iterations; ++iteration) {
+  for (int iteration = 0; iteration < iterations; ++iteration) {
     const bool back = iteration % 2 == 1;
     const FloatTree& from = back ? other : phi.constTree();
     const auto& to = back ? leaves : otherLeaves;
     tbb::parallel_for(std::size_t{0}, to.size(),
                       [&](std::size_t n) { eulerStep(from, *to[n], plans[n], h, phi.background()); });
   }
-  if (options.iterations % 2 == 0) return;
+  if (iterations % 2 == 0) return;
   tbb::parallel_for(std::size_t{0}, leaves.size(),
                     [&](std::size_t n) { leaves[n]->swap(otherLeaves[n]->buffer()); });
 }

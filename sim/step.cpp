@@ -298,7 +298,7 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   const LetGo never = [](const Coord&) { return false; };
   for (int n = 0; n < rounds; ++n) {
     extendIntoSolids(phi, *solid.phi, never);
-    reinitialize(phi, *solid.phi, {.iterations = kIterations, .smoothAtSolids = false});
+    reinitialize(phi, *solid.phi, kIterations);
   }
   extendIntoSolids(phi, *solid.phi, never);
   trimBand(phi, *solid.phi);

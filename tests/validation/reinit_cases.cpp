@@ -148,7 +148,7 @@ Result ellipse(int resolution, const Progress& progress) {
   };
   const auto solid = noSolid(h);
   auto phi = slabOf(upright(field), resolution, h);
-  sim::reinitialize(*phi, *solid, {.iterations = 2 * resolution});
+  sim::reinitialize(*phi, *solid, 2 * resolution);
   const BandError error = bandError(*phi, distance, resolution, 1.2 * h);
   level(*phi);
   const sim::FloatGrid::Ptr once = phi->deepCopy();

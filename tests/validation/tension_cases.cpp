@@ -53,7 +53,7 @@ sim::Solver shaped(const sim::Options& options, const std::function<double(const
   for (auto it = state.phi->beginValueOn(); it; ++it)
     it.setValue(static_cast<float>(distance(state.phi->indexToWorld(it.getCoord()))));
   const auto nothing = sim::makePhi(options.voxelSize(), 3.0 * options.voxelSize());
-  sim::reinitialize(*state.phi, *nothing, {.iterations = 30});
+  sim::reinitialize(*state.phi, *nothing, 30);
   state.markers = sim::seedMarkers(*state.phi, *nothing, 0);
   for (auto* grid : {&state.u, &state.v, &state.w}) {
     *grid = (*grid)->deepCopy();
