@@ -52,8 +52,7 @@ struct Motion {
   void load(const Velocity& velocity, const Coord& origin, int halo, float scale) {
     for (int a = 0; a < 3; ++a) {
       if (speed[a].halo != halo) speed[a] = BlockSamples(halo);
-      speed[a].load(velocity.component[a]->constTree(), origin);
-      for (float& value : speed[a].value) value *= scale;
+      speed[a].load(velocity.component[a]->constTree(), origin, scale);
     }
     const std::ptrdiff_t side = speed[0].side;
     anySqueeze = false;

@@ -18,7 +18,11 @@ struct BlockSamples {
   explicit BlockSamples(int width)
       : halo(width), side(kLeafDim + 2 * width), value(std::size_t(side) * side * side) {}
 
-  void load(const FloatTree& tree, const Coord& origin) { gather(tree, origin, halo, value.data()); }
+  void load(const FloatTree& tree, const Coord& origin, float scale = 1.0f) {
+    gather(tree, origin, halo, value.data());
+    if (scale == 1.0f) return;
+    for (float& v : value) v *= scale;
+  }
 
   // The sample at i, j, k.
   const float* sample(int i, int j, int k) const {
