@@ -15,8 +15,14 @@ struct BlockSamples {
   int halo, side;
   std::vector<float> value;
 
-  explicit BlockSamples(int width)
-      : halo(width), side(kLeafDim + 2 * width), value(std::size_t(side) * side * side) {}
+  explicit BlockSamples(int width) { setHalo(width); }
+
+  // Before load().
+  void setHalo(int width) {
+    halo = width;
+    side = kLeafDim + 2 * width;
+    value.resize(std::size_t(side) * side * side);
+  }
 
   void load(const FloatTree& tree, const Coord& origin, float scale = 1.0f) {
     gather(tree, origin, halo, value.data());
