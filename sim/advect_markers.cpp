@@ -1,4 +1,5 @@
 #include "sim/block_samples.h"
+#include "sim/local_reach.h"
 #include "sim/markers.h"
 
 #include <tbb/parallel_for.h>
@@ -51,9 +52,8 @@ struct Motion {
 
   void load(const Velocity& velocity, const Coord& origin, int halo, float scale) {
     for (int a = 0; a < 3; ++a) {
-      if (speed[a].halo != halo) speed[a] = BlockSamples(halo);
-      speed[a].load(velocity.component[a]->constTree(), origin);
-      for (float& value : speed[a].value) value *= scale;
+      speed[a].setHalo(halo);
+      speed[a].load(velocity.component[a]->constTree(), origin, scale);
     }
     const std::ptrdiff_t side = speed[0].side;
     anySqueeze = false;
@@ -88,7 +88,7 @@ Markers advectMarkers(const Markers& markers, const Velocity& velocity, double d
   if (markers.empty()) return {};
   const double h = velocity.component[0]->voxelSize()[0];
   const float scale = static_cast<float>(dt / h);
-  const int halo = static_cast<int>(std::ceil(dt / h * maxAbs(velocity))) + 2;
+  const LocalReach reach(velocity, dt);
   // Of a block: the markers that stay in it, and those that leave, by the neighbour they end in.
   struct Moved {
     std::vector<Marker> stay, leave;
@@ -99,6 +99,7 @@ Markers advectMarkers(const Markers& markers, const Velocity& velocity, double d
     thread_local Motion motion;
     thread_local std::vector<Marker> stay;
     thread_local std::vector<std::pair<int, Marker>> leave;
+    const int halo = static_cast<int>(std::ceil(reach.from(markers[n].origin))) + 2;
     motion.load(velocity, markers[n].origin, halo, scale);
     stay.clear();
     leave.clear();

@@ -2,6 +2,7 @@
 // with minimum error bounds", 1962 (third-order trace).
 #include "sim/leaf_table.h"
 #include "sim/level_set.h"
+#include "sim/local_reach.h"
 #include "sim/velocity_window.h"
 
 #include <openvdb/tools/Morphology.h>
@@ -36,12 +37,16 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
   const float deepest = -kSolidLayers * h, far = kFar * h;
   const auto leaves = leavesOf(phi.tree());
   std::vector<std::unique_ptr<LeafBuffer>> moved(leaves.size());
+  const LocalReach local(velocity, dt);
   using Range = tbb::blocked_range<std::size_t>;
   tbb::parallel_for(Range(0, leaves.size()), [&](const Range& range) {
     VelocityWindow window(reach + 1);
     Window before(reach + 2, Vec3f(0.5f));
     for (std::size_t n = range.begin(); n != range.end(); ++n) {
       const Coord origin = leaves[n]->origin();
+      const int near = std::min(reach, static_cast<int>(std::ceil(local.from(origin))) + 1);
+      window.setHalo(near + 1);
+      before.setHalo(near + 2);
       before.load(phi.constTree(), origin);
       if (isFlat(before)) continue;
       window.load(velocity, origin);

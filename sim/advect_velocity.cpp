@@ -4,6 +4,7 @@
 #include "sim/advect_velocity.h"
 
 #include "sim/leaf_table.h"
+#include "sim/local_reach.h"
 #include "sim/velocity_window.h"
 
 #include <tbb/parallel_for.h>
@@ -35,8 +36,10 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
                     const FloatGrid& phiTo, double dt) {
   const float h = static_cast<float>(phiFrom.voxelSize()[0]);
   const float step = static_cast<float>(dt) / h;
-  const double reach = dt * maxAbs(from) / h;
-  const int halo = std::min(kLeafDim, static_cast<int>(std::ceil(reach)) + 2);
+  const LocalReach reach(from, dt);
+  const auto haloOf = [&](const Coord& origin) {
+    return std::min(kLeafDim, static_cast<int>(std::ceil(reach.from(origin))) + 2);
+  };
 
   std::array<std::vector<FloatLeaf*>, 3> target;
   for (int a = 0; a < 3; ++a) target[a] = leavesOf(to.component[a]->tree());
@@ -50,8 +53,8 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
   const float inside = kWellInside * h;
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, leafCount), [&](const tbb::blocked_range<std::size_t>& range) {
-        VelocityWindow window(halo), content(halo);
-        Window before(halo, centre), after(1, centre);
+        VelocityWindow window(kLeafDim), content(kLeafDim);
+        Window before(kLeafDim, centre), after(1, centre);
         for (std::size_t n = range.begin(); n != range.end(); ++n) {
           const Coord origin = target[0][n]->origin();
           after.load(phiTo.constTree(), origin);
@@ -61,6 +64,10 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
             continue;
           passes[n] = std::make_unique<LeafPass>();
           LeafPass& pass = *passes[n];
+          const int halo = haloOf(origin);
+          window.setHalo(halo);
+          content.setHalo(halo);
+          before.setHalo(halo);
           window.load(from, origin);
           content.load(carried, origin);
           before.load(phiFrom.constTree(), origin);
@@ -86,12 +93,16 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
 
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, leafCount), [&](const tbb::blocked_range<std::size_t>& range) {
-        VelocityWindow window(halo), content(0), ahead(halo);
-        Window after(halo, centre);
+        VelocityWindow window(kLeafDim), content(0), ahead(kLeafDim);
+        Window after(kLeafDim, centre);
         for (std::size_t n = range.begin(); n != range.end(); ++n) {
           if (!passes[n]) continue;
           const LeafPass& pass = *passes[n];
           const Coord origin = target[0][n]->origin();
+          const int halo = haloOf(origin);
+          window.setHalo(halo);
+          ahead.setHalo(halo);
+          after.setHalo(halo);
           window.load(from, origin);
           content.load(carried, origin);
           ahead.load(predicted, origin);

@@ -15,10 +15,20 @@ struct BlockSamples {
   int halo, side;
   std::vector<float> value;
 
-  explicit BlockSamples(int width)
-      : halo(width), side(kLeafDim + 2 * width), value(std::size_t(side) * side * side) {}
+  explicit BlockSamples(int width) { setHalo(width); }
 
-  void load(const FloatTree& tree, const Coord& origin) { gather(tree, origin, halo, value.data()); }
+  // Before load().
+  void setHalo(int width) {
+    halo = width;
+    side = kLeafDim + 2 * width;
+    value.resize(std::size_t(side) * side * side);
+  }
+
+  void load(const FloatTree& tree, const Coord& origin, float scale = 1.0f) {
+    gather(tree, origin, halo, value.data());
+    if (scale == 1.0f) return;
+    for (float& v : value) v *= scale;
+  }
 
   // The sample at i, j, k.
   const float* sample(int i, int j, int k) const {

@@ -2,13 +2,14 @@
 // (constant and linear extension), solved upwind in the order of depth instead of in artificial time.
 #include "sim/leaf_table.h"
 #include "sim/level_set.h"
-#include "sim/sort_by_distance.h"
+#include "sim/voxel_mask.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 namespace fluidtex::sim {
 namespace {
@@ -23,10 +24,10 @@ struct Extension {
   const LeafTable& table;
   const LetGo& letGo;
   float h;
-  std::vector<float> value;         // #voxels: phi
-  std::vector<float> depth;         // #voxels: -solidPhi
-  std::vector<Vec3> gradient;       // #voxels: of phi in solids, as far as it may be used
-  std::vector<std::uint8_t> known;  // #voxels
+  std::vector<float> value;          // #voxels: phi
+  std::vector<float> depth;          // #voxels: -solidPhi
+  VoxelMask known;                   // all that is not deep in solids, and what has been found there
+  std::unique_ptr<Vec3[]> gradient;  // #voxels: of phi in solids, as far as it may be used
 
   // Gradient of phi at a cell in the open, from those of its neighbours that are in the open too.
   Vec3 openGradient(std::int64_t cell) const {
@@ -56,22 +57,23 @@ struct Extension {
   Guess ask(std::int64_t cell, std::int64_t from, const Vec3& normal) const {
     if (depth[from] > kDeepInSolid * h) return {value[from], gradient[from], gradient[from]};
     const bool liquid = value[from] < 0.0f;
-    const bool away = letGo ? letGo(table.coord(from)) : value[cell] >= 0.0f;
+    const auto away = [&] { return letGo ? letGo(table.coord(from)) : value[cell] >= 0.0f; };
     // Air behind the solid's surface, which has moved with the flow since the liquid let go.
-    if (liquid && away) return {std::max(value[cell], depth[cell]), Vec3(0.0f), normal};
+    if (liquid && away()) return {std::max(value[cell], depth[cell]), Vec3(0.0f), normal};
     const Vec3 slope = openGradient(from);
     const float inward = slope.dot(normal);
     const Vec3 along = slope - inward * normal;
     if (inward > kAlongWall) return {value[from], along, along};
-    const auto becomesFilm = [&](float layers) {
-      return !liquid && away && value[from] + layers * h * inward < 0.0f;
-    };
-    return {value[from], becomesFilm(1.0f) ? along : slope, becomesFilm(kSolidLayers) ? along : slope};
+    const auto reachesLiquid = [&](float layers) { return value[from] + layers * h * inward < 0.0f; };
+    if (liquid || !reachesLiquid(kSolidLayers) || !away()) return {value[from], slope, slope};
+    // A film would begin.
+    return {value[from], reachesLiquid(1.0f) ? along : slope, along};
   }
 
   // The cell's value from its known neighbours nearer to the open, each axis weighted by how much nearer;
-  // with no such neighbour, from all known ones. False where none is known.
-  bool extend(std::int64_t cell) {
+  // with no such neighbour, from all known ones. False where one nearer to the open is not known yet, unless
+  // that does not matter.
+  bool extend(std::int64_t cell, bool withoutNearest) {
     std::array<std::int64_t, 3> nearest{-1, -1, -1};
     Vec3 way(0.0f);  // into the solid, by how much nearer the neighbours are
     std::array<std::int64_t, 6> all;
@@ -79,15 +81,18 @@ struct Extension {
     for (int axis = 0; axis < 3; ++axis) {
       for (int up = 0; up < 2; ++up) {
         const std::int64_t n = table.neighbor(cell, 2 * axis + up);
-        if (n < 0 || known[n] == 0) continue;
-        all[count++] = n;
+        if (n < 0) continue;
         const float shallower = depth[cell] - depth[n];
+        if (!isSet(known, n)) {
+          if (shallower > 0.0f && !withoutNearest) return false;
+          continue;
+        }
+        all[count++] = n;
         if (shallower <= std::abs(way[axis])) continue;
         way[axis] = up != 0 ? -shallower : shallower;
         nearest[axis] = n;
       }
     }
-    if (count == 0) return false;
     const float length = way.length();
     const Vec3 normal = length > 0.0f ? way / length : Vec3(0.0f);
     float weights = 0.0f, sum = 0.0f;
@@ -108,7 +113,6 @@ struct Extension {
     }
     value[cell] = sum / weights;
     gradient[cell] = carried / weights;
-    known[cell] = 1;
     return true;
   }
 };
@@ -118,37 +122,40 @@ struct Extension {
 void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo) {
   const LeafTable table = makeLeafTable(phi.constTree());
   const float h = static_cast<float>(phi.voxelSize()[0]), background = phi.background();
-  Extension extension{table,
-                      letGo,
-                      h,
-                      sampleOn(table, phi.constTree()),
-                      sampleOn(table, solidPhi.constTree()),
-                      std::vector<Vec3>(table.voxels(), Vec3(0.0f)),
-                      std::vector<std::uint8_t>(table.voxels())};
-  std::vector<FarVoxel> order;
-  for (std::size_t n = 0; n < table.voxels(); ++n) {
-    extension.depth[n] = -extension.depth[n];
-    if (extension.depth[n] > kDeepInSolid * h) {
-      order.push_back({sortKey(extension.depth[n]), static_cast<std::uint32_t>(n)});
-    } else {
-      extension.known[n] = 1;
-    }
-  }
-  if (order.empty()) return;
-  sortByDistance(order);
+  Extension extension{
+      table, letGo, h, sampleOn(table, phi.constTree()), sampleOn(table, solidPhi.constTree()), {}, nullptr};
+  forLeaves(table, [&](std::size_t n) {
+    for (std::size_t i = n * kLeafSize; i < (n + 1) * kLeafSize; ++i)
+      extension.depth[i] = -extension.depth[i];
+  });
+  extension.known = maskOf(table, extension.depth, [&](float d) { return !(d > kDeepInSolid * h); });
+  std::vector<std::size_t> open;  // leaves that are not known wholly
+  for (std::size_t n = 0; n < table.size(); ++n)
+    if (!allSet(extension.known[n])) open.push_back(n);
+  if (open.empty()) return;
+  extension.gradient = std::make_unique_for_overwrite<Vec3[]>(table.voxels());
 
-  // Where the solid's distance ends, layers of equal depth wait for each other.
-  std::vector<std::int64_t> waiting;
-  for (const FarVoxel& e : order) {
-    if (!extension.extend(e.voxel)) waiting.push_back(e.voxel);
-  }
-  for (bool progress = true; progress && !waiting.empty();) {
-    std::vector<std::int64_t> still;
-    for (const std::int64_t cell : waiting) {
-      if (!extension.extend(cell)) still.push_back(cell);
+  // From the open inwards, all cells beside known ones at once.
+  bool progress = true, withoutNearest = false;
+  while (!open.empty() && (progress || !withoutNearest)) {
+    // Cells that wait for each other stop waiting.
+    withoutNearest = !progress;
+    std::vector<LeafBits> found(open.size());
+    tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t n) {
+      LeafBits next = besideAny(table, extension.known, open[n]);
+      for (std::size_t i = 0; i < next.size(); ++i) next[i] &= ~extension.known[open[n]][i];
+      forBits(next, open[n], [&](std::int64_t cell) {
+        if (extension.extend(cell, withoutNearest)) setBit(found[n], cell);
+      });
+    });
+    progress = false;
+    for (std::size_t n = 0; n < open.size(); ++n) {
+      for (std::size_t i = 0; i < found[n].size(); ++i) {
+        extension.known[open[n]][i] |= found[n][i];
+        progress = progress || found[n][i] != 0;
+      }
     }
-    progress = still.size() < waiting.size();
-    waiting.swap(still);
+    std::erase_if(open, [&](std::size_t leaf) { return allSet(extension.known[leaf]); });
   }
 
   const auto leaves = leavesOf(phi.tree());

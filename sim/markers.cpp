@@ -11,21 +11,40 @@
 namespace fluidtex::sim {
 namespace {
 
+using Vec3f = openvdb::Vec3f;
+
+// Distances here are in cells.
 constexpr float kSmallest = 0.1f, kLargest = 0.5f;  // radii [Enright02 sec. 3.1]
 constexpr int kPerCell = 16;                        // markers of a full cell
 constexpr float kBand = 1.5f;                       // cells: how far from the surface markers are kept
+// How deep in solids markers are put.
+constexpr float kWallDepth = 0.5f;
 // Markers of the air this many cells inside the liquid belong to a bubble that has closed.
 constexpr float kDeepestAir = 1.0f;
 
-// Counter-based: the same for any order of cells.
-float unitRandom(std::uint64_t seed, const Coord& cell, std::uint32_t n) {
-  std::uint64_t z = seed * 0x9e3779b97f4a7c15ull + n * 0xd1b54a32d192ed03ull;
-  for (int a = 0; a < 3; ++a) z = (z ^ static_cast<std::uint32_t>(cell[a])) * 0xff51afd7ed558ccdull;
+// Counter-based: the same for any order of cells. 20 bits each, so that 7 + x stays below 8.
+std::uint64_t mixed(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-  z ^= z >> 31;
-  return static_cast<float>(z >> 44) * 0x1p-20f;  // 20 bits: 7 + this stays below 8
+  return z ^ (z >> 31);
 }
+class CellRandom {
+ public:
+  CellRandom(std::uint64_t seed, const Coord& cell) : m_state(seed * 0x9e3779b97f4a7c15ull) {
+    for (int a = 0; a < 3; ++a)
+      m_state = mixed(m_state ^ static_cast<std::uint32_t>(cell[a])) * 0xff51afd7ed558ccdull;
+  }
+
+  // The n-th point of the unit cube.
+  Vec3f point(std::uint32_t n) const {
+    const std::uint64_t bits = mixed(m_state + n * 0x9e3779b97f4a7c15ull);
+    const auto part = [&](int shift) { return static_cast<float>(bits >> shift & 0xfffff) * 0x1p-20f; };
+    return Vec3f(part(44), part(24), part(4));
+  }
+
+ private:
+  std::uint64_t m_state;
+};
 
 int cellOf(const Marker& m) {
   return 64 * int(m.x) + 8 * int(m.y) + int(m.z);
@@ -41,15 +60,15 @@ bool escaped(const Marker& m, float phi) {
 
 // Whether the liquid here is no more than a film on the wall: no cell around is liquid, and it gets farther
 // one cell away from the wall. (A thread that stands on a wall is as near there as here.)
-bool liesOnWall(const Marker& m, const BlockSamples& distance, const BlockSamples& solid, float h) {
+bool liesOnWall(const Marker& m, const BlockSamples& distance, const BlockSamples& solid) {
   if (distance.anyNegative(m.x, m.y, m.z)) return false;
-  const openvdb::Vec3f slope(solid.at(m.x + 0.5f, m.y, m.z) - solid.at(m.x - 0.5f, m.y, m.z),
-                             solid.at(m.x, m.y + 0.5f, m.z) - solid.at(m.x, m.y - 0.5f, m.z),
-                             solid.at(m.x, m.y, m.z + 0.5f) - solid.at(m.x, m.y, m.z - 0.5f));
+  const Vec3f slope(solid.at(m.x + 0.5f, m.y, m.z) - solid.at(m.x - 0.5f, m.y, m.z),
+                    solid.at(m.x, m.y + 0.5f, m.z) - solid.at(m.x, m.y - 0.5f, m.z),
+                    solid.at(m.x, m.y, m.z + 0.5f) - solid.at(m.x, m.y, m.z - 0.5f));
   const float length = slope.length();
-  if (length < 0.1f * h) return true;  // in the middle of a solid
-  const openvdb::Vec3f away = openvdb::Vec3f(m.x, m.y, m.z) + slope / length;
-  return distance.at(away[0], away[1], away[2]) > distance.at(m.x, m.y, m.z) + 0.5f * h;
+  if (length < 0.1f) return true;  // in the middle of a solid
+  const Vec3f away = Vec3f(m.x, m.y, m.z) + slope / length;
+  return distance.at(away[0], away[1], away[2]) > distance.at(m.x, m.y, m.z) + 0.5f;
 }
 
 void measure(Marker& m, float phi) {
@@ -64,14 +83,14 @@ void correctPhi(FloatGrid& phi, const Markers& markers) {
   tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
     thread_local BlockSamples distance(1);
     thread_local CellRanges range;
-    distance.load(phi.constTree(), markers[n].origin);
+    distance.load(phi.constTree(), markers[n].origin, 1.0f / h);
     range.find(distance);
     out[n].origin = markers[n].origin;
-    const float wrong = (kSmallest - CellRanges::kRounding) * h;
+    const float wrong = kSmallest - CellRanges::kRounding;
     for (const Marker& m : markers[n].markers) {
       const auto cell = std::size_t(cellOf(m));
       if (m.radius < 0.0f ? range.high[cell] < wrong : range.low[cell] > -wrong) continue;
-      if (escaped(m, distance.at(m.x, m.y, m.z) / h)) out[n].markers.push_back(m);
+      if (escaped(m, distance.at(m.x, m.y, m.z))) out[n].markers.push_back(m);
     }
   });
   std::erase_if(out, [](const MarkerBlock& block) { return block.markers.empty(); });
@@ -133,41 +152,31 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
   tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
     thread_local BlockSamples distance(2), solid(2);
     thread_local CellRanges range, wallRange;
-    distance.load(phi.constTree(), origins[n]);
-    solid.load(solidPhi.constTree(), origins[n]);
+    distance.load(phi.constTree(), origins[n], 1.0f / h);
+    solid.load(solidPhi.constTree(), origins[n], 1.0f / h);
     range.find(distance);
     wallRange.find(solid);
     next[n].origin = origins[n];
     thread_local std::vector<Marker> kept;
     kept.clear();
     std::array<int, kLeafSize> count{};
+    constexpr float kRounding = CellRanges::kRounding;
     if (MarkerBlock* block = findBlock(markers, origins[n])) {
-      constexpr float kRounding = CellRanges::kRounding;
       for (Marker m : block->markers) {
         const auto cell = std::size_t(cellOf(m));
         int& there = count[cell];
-        const bool open = wallRange.low[cell] > (kRounding - 1.0f) * h;
-        // Most markers are known to have the largest radius.
-        const float least = (m.radius < 0.0f ? -range.high[cell] : range.low[cell]) / h,
-                    most = (m.radius < 0.0f ? -range.low[cell] : range.high[cell]) / h;
-        if (open && least > kLargest + kRounding && most < kBand - kRounding) {
-          if (there >= 2 * kPerCell) continue;
-          ++there;
-          m.radius = side(m) * kLargest;
-          kept.push_back(m);
-          continue;
-        }
-        const float here = distance.at(m.x, m.y, m.z) / h;
+        const bool open = wallRange.low[cell] > kRounding - 1.0f;
+        const float here = distance.at(m.x, m.y, m.z);
         const bool out = escaped(m, here);
         if (side(m) * here > kBand) continue;
         if (out && m.radius > 0.0f && -here > kDeepestAir) continue;
         if (!open || out) {
           const float wall = solid.at(m.x, m.y, m.z);
-          if (wall < -h) continue;
+          if (wall < -1.0f) continue;
           // Liquid that runs over a wall leaves none of the air between; it cannot flow out from there.
-          if (out && m.radius > 0.0f && wall < h) continue;
+          if (out && m.radius > 0.0f && wall < 1.0f) continue;
           // What is left of a film at a wall, with no cell of liquid: nothing would move it any more.
-          if (out && wall < h && liesOnWall(m, distance, solid, h)) continue;
+          if (out && wall < 1.0f && liesOnWall(m, distance, solid)) continue;
         }
         if (!out && there >= 2 * kPerCell) continue;
         ++there;
@@ -176,21 +185,21 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
       }
       block->markers = {};  // nobody else wants them
     }
-    for (int c = 0; c < kLeafSize; ++c) {
-      if (count[std::size_t(c)] > kPerCell / 2) continue;
-      if (range.low[std::size_t(c)] > (kBand + CellRanges::kRounding) * h ||
-          range.high[std::size_t(c)] < -(kBand + CellRanges::kRounding) * h)
-        continue;
-      const auto i = float(c >> 6), j = float((c >> 3) & 7), k = float(c & 7);
+    for (std::size_t c = 0; c < kLeafSize; ++c) {
+      if (count[c] > kPerCell / 2) continue;
+      if (range.low[c] > kBand + kRounding || range.high[c] < -kBand - kRounding) continue;
+      if (wallRange.high[c] < -kWallDepth - kRounding) continue;
+      const Coord local(int(c >> 6), int(c >> 3 & 7), int(c & 7));
+      const Vec3f corner(local.asVec3s());
       // From the middle to a corner it is less than a cell.
-      if (std::abs(distance.at(i + 0.5f, j + 0.5f, k + 0.5f)) > (kBand + 1.0f) * h) continue;
-      const Coord cell = origins[n].offsetBy(c >> 6, (c >> 3) & 7, c & 7);
-      for (int m = count[std::size_t(c)]; m < kPerCell; ++m) {
-        const auto random = [&](int axis) { return unitRandom(seed, cell, 3 * std::uint32_t(m) + axis); };
-        Marker added{i + random(0), j + random(1), k + random(2), 0.0f};
-        const float here = distance.at(added.x, added.y, added.z) / h;
-        if (std::abs(here) > kBand || solid.at(added.x, added.y, added.z) < -0.5f * h) continue;
-        added.radius = here < 0.0f ? -kSmallest : kSmallest;
+      if (std::abs(distance.at(corner[0] + 0.5f, corner[1] + 0.5f, corner[2] + 0.5f)) > kBand + 1.0f)
+        continue;
+      const CellRandom random(seed, origins[n] + local);
+      for (int m = count[c]; m < kPerCell; ++m) {
+        const Vec3f at = corner + random.point(std::uint32_t(m));
+        const float here = distance.at(at[0], at[1], at[2]);
+        if (std::abs(here) > kBand || solid.at(at[0], at[1], at[2]) < -kWallDepth) continue;
+        Marker added{at[0], at[1], at[2], here < 0.0f ? -kSmallest : kSmallest};
         measure(added, here);
         kept.push_back(added);
       }

@@ -20,11 +20,17 @@ struct Window {
   std::unique_ptr<float[]> values;
   Vec3f shift{0.0f};  // of the samples within the cell
 
-  Window(int width, const Vec3f& sampleShift)
-      : halo(width),
-        side(kLeafDim + 2 * width),
+  Window(int widest, const Vec3f& sampleShift)
+      : halo(widest),
+        side(kLeafDim + 2 * widest),
         values(std::make_unique<float[]>(side * side * side)),
         shift(sampleShift) {}
+
+  // Before load(); no more than the halo it was made with.
+  void setHalo(int width) {
+    halo = width;
+    side = kLeafDim + 2 * width;
+  }
 
   void load(const FloatTree& tree, const Coord& origin) { gather(tree, origin, halo, values.get()); }
 
@@ -78,7 +84,14 @@ inline Vec3f faceShift(int axis) {
 
 struct VelocityWindow {
   Window u, v, w;
-  explicit VelocityWindow(int halo) : u(halo, faceShift(0)), v(halo, faceShift(1)), w(halo, faceShift(2)) {}
+  explicit VelocityWindow(int widest)
+      : u(widest, faceShift(0)), v(widest, faceShift(1)), w(widest, faceShift(2)) {}
+
+  void setHalo(int width) {
+    u.setHalo(width);
+    v.setHalo(width);
+    w.setHalo(width);
+  }
 
   void load(const Velocity& velocity, const Coord& origin) {
     u.load(velocity.component[0]->constTree(), origin);

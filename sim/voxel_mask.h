@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -19,6 +20,14 @@ using VoxelMask = std::vector<LeafBits>;
 
 inline bool isSet(const VoxelMask& mask, std::int64_t voxel) {
   return (mask[static_cast<std::size_t>(voxel >> 9)][voxel >> 6 & 7] >> (voxel & 63) & 1) != 0;
+}
+
+inline void setBit(LeafBits& bits, std::int64_t voxel) {
+  bits[voxel >> 6 & 7] |= std::uint64_t{1} << (voxel & 63);
+}
+
+inline bool allSet(const LeafBits& bits) {
+  return std::all_of(bits.begin(), bits.end(), [](std::uint64_t word) { return word == ~std::uint64_t{0}; });
 }
 
 // Calls body(leaf) for all leaves, in parallel.
