@@ -4,6 +4,7 @@
 #include "texture/remesh.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fluidtex::texture {
 namespace {
@@ -39,8 +40,8 @@ bool longer(const Candidate& x, const Candidate& y) {
 
 }  // namespace
 
-std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi,
-                                        const AdjustOptions& options) {
+std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi, const AdjustOptions& options,
+                                        const std::vector<std::uint32_t>* moved) {
   // Mean edge lengths. Points that were even in the last frame get some margin, so that nothing flickers at
   // the limits.
   const float tooShort = options.settled ? 0.6f : 0.63f, tooLong = options.settled ? 1.8f : 1.7f;
@@ -53,16 +54,32 @@ std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi,
 
   using Candidates = std::vector<Candidate>;
   const float shortLimit = many ? kShort : tooShort, longLimit = few ? kLong : tooLong;
-  Candidates shortest = gathered<Candidate>(mesh.halfEdgeCount(), [&](std::uint32_t h, Candidates& found) {
-    if (!mesh.alive(h) || h > mesh.twin[h]) return;
+  const float perEdge2 = 1.0f / (options.edge * options.edge);
+  const float shortLimit2 = shortLimit * shortLimit,
+              longLimit2 = std::min(longLimit, kMaybeLong) * std::min(longLimit, kMaybeLong);
+  const auto judge = [&](std::uint32_t h, Candidates& found) {
     const std::uint32_t a = mesh.origin[h], b = mesh.target(h);
-    const float l = (mesh.position[a] - mesh.position[b]).length() / options.edge;
-    if (l < shortLimit) found.push_back({l, h, a, b});
-    if (l > std::min(longLimit, kMaybeLong)) {
-      const float across = l > kMaybeLong ? gap(mesh, h, l) : l;
-      if (across > longLimit) found.push_back({across, h, a, b});
+    const float l2 = (mesh.position[a] - mesh.position[b]).lengthSqr() * perEdge2;
+    if (l2 >= shortLimit2 && l2 <= longLimit2) return;
+    const float l = std::sqrt(l2);
+    if (l2 < shortLimit2) {
+      found.push_back({l, h, a, b});
+      return;
     }
-  });
+    const float across = l > kMaybeLong ? gap(mesh, h, l) : l;
+    if (across > longLimit) found.push_back({across, h, a, b});
+  };
+  Candidates shortest;
+  if (moved && !many && !few) {
+    shortest = gathered<Candidate>(moved->size(), [&](std::uint32_t i, Candidates& found) {
+      if (mesh.outgoing[(*moved)[i]] != kNone)
+        mesh.around((*moved)[i], [&](std::uint32_t h) { judge(std::min(h, mesh.twin[h]), found); });
+    });
+  } else {
+    shortest = gathered<Candidate>(mesh.halfEdgeCount(), [&](std::uint32_t h, Candidates& found) {
+      if (h < mesh.twin[h] && mesh.alive(h)) judge(h, found);
+    });
+  }
   // No edge is in both: shortLimit < longLimit.
   const auto firstLong = std::stable_partition(shortest.begin(), shortest.end(),
                                                [&](const Candidate& c) { return c.length < shortLimit; });

@@ -15,8 +15,9 @@ struct AdjustOptions {
 
 // Splits what is far too long, collapses what is far too short, and then the worst edges until the number
 // of points is within `slack` of what it should be. Lists all vertices whose surroundings changed; the mesh
-// there may no longer be Delaunay.
-std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi,
-                                        const AdjustOptions& options);
+// there may no longer be Delaunay. `moved`: where given, and the number is right, only edges at these
+// vertices are looked at.
+std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi, const AdjustOptions& options,
+                                        const std::vector<std::uint32_t>* moved = nullptr);
 
 }  // namespace fluidtex::texture

@@ -21,7 +21,7 @@ class VertexGrid {
  public:
   VertexGrid(const std::vector<Vec3f>& positions, float cell) : m_inverse(1.0f / cell) {
     std::size_t capacity = 64;
-    while (capacity < positions.size()) capacity *= 2;
+    while (capacity < 2 * positions.size()) capacity *= 2;
     m_mask = capacity - 1;
     m_first.assign(capacity + 1, 0);
     std::vector<std::uint32_t> slots(positions.size());
@@ -59,7 +59,7 @@ class VertexGrid {
     Vec3f position;
     std::uint32_t vertex;
   };
-  std::uint32_t slot(int x, int y, int z) const { return std::uint32_t(cellHash({x, y, z}) & m_mask); }
+  std::uint32_t slot(int x, int y, int z) const { return std::uint32_t(nearbySlot(x, y, z, m_mask)); }
   float m_inverse;
   std::size_t m_mask = 0;
   std::vector<std::uint32_t> m_first;

@@ -44,7 +44,8 @@ void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options
     const bool adjusting = sweep < 4 || sweep % 5 == 0 || active.empty();
     if (adjusting) {
       const double slack = sweep > counted ? 1.0 : options.settled ? kSettledSlack : kSlack;
-      changed = adjustNumber(mesh, phi, {edge, options.points, slack, options.settled});
+      changed = adjustNumber(mesh, phi, {edge, options.points, slack, options.settled},
+                             sweep < 4 || active.empty() ? nullptr : &active);
       repulsion.awake.resize(mesh.vertexCount(), 1);
       for (std::uint32_t v : changed) repulsion.awake[v] = 1;
       if (!changed.empty()) flipToDelaunay(mesh, &changed);

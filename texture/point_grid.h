@@ -26,6 +26,13 @@ inline std::size_t cellHash(const Cell& cell) {
   return std::size_t(h >> 32);
 }
 
+// The same, with the cells of a cube of 4x4x4 next to each other: what is near in space is near in memory.
+// For a surface the table should have about four slots a point, and at least 64.
+inline std::size_t nearbySlot(int x, int y, int z, std::size_t mask) {
+  const std::size_t cube = cellHash({x >> 2, y >> 2, z >> 2});
+  return (cube << 6 | std::size_t((x & 3) << 4 | (y & 3) << 2 | (z & 3))) & mask;
+}
+
 // Points that stay, for looking up those near a position.
 class PointGrid {
  public:

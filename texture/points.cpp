@@ -23,7 +23,7 @@ class GrowingGrid {
  public:
   GrowingGrid(float cell, std::size_t expected) : m_inverse(1.0f / cell) {
     std::size_t capacity = 64;
-    while (capacity < 2 * expected) capacity *= 2;
+    while (capacity < 3 * expected) capacity *= 2;
     m_head.assign(capacity, kNone);
   }
   void insert(const Vec3f& p, std::uint32_t index) {
@@ -54,7 +54,7 @@ class GrowingGrid {
     std::uint32_t index, next;
   };
   int index3(float x) const { return int(std::floor(x * m_inverse)); }
-  std::size_t slot(int x, int y, int z) const { return cellHash({x, y, z}) & (m_head.size() - 1); }
+  std::size_t slot(int x, int y, int z) const { return nearbySlot(x, y, z, m_head.size() - 1); }
   template <class Hit>
   bool cellHas(std::size_t s, const Vec3f& p, float radius, const Hit& hit) const {
     for (std::uint32_t i = m_head[s]; i != kNone; i = m_items[i].next) {
@@ -102,7 +102,8 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
   constexpr float kSeedDistance = 0.5f;
   // Where points are even already no place on the surface is further than about 0.8 spacings from one.
   constexpr float kDartDistance = 0.8f, kFillDistance = 0.95f;
-  constexpr float kDartsPerPoint = 5.0f;
+  // Between seeds there are few gaps, and long edges are split later.
+  const float dartsPerPoint = seeds.empty() ? 5.0f : 2.0f;
   constexpr float kSameSide =
       -0.3f;  // cosine of normals: across a right-angled crease points still see each other
   constexpr float kReach = 1.5f;     // voxels from which a seed is still brought back
@@ -139,7 +140,7 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
   // Darts that a seed keeps out are dropped in parallel: mostly that is all of them. The others are placed
   // one after the other.
   constexpr std::size_t kChunk = 512;  // triangles
-  const float perArea = kDartsPerPoint / (spacing * spacing);
+  const float perArea = dartsPerPoint / (spacing * spacing);
   const std::size_t count = surface.triangles.size();
   std::vector<std::vector<Dart>> darts((count + kChunk - 1) / kChunk);
   tbb::parallel_for(std::size_t(0), darts.size(), [&](std::size_t chunk) {

@@ -3,6 +3,7 @@
 #include "texture/parallel.h"
 #include "texture/remesh.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -33,62 +34,54 @@ Vec3f Repulsion::push(std::uint32_t v) const {
 }
 
 void Repulsion::sweep(std::vector<std::uint32_t>& active, float wake, float sleep) {
+  // Of the last sweep's move: long waves of density level out in half as many sweeps.
+  constexpr float kMomentum = 0.5f;
+  const float longest = kLongest * m_edge, asleep = sleep * m_edge;
+  m_last.resize(m_mesh.vertexCount(), Vec3f(0.0f));
   // Where the movers go; then where they were.
   m_position.resize(active.size());
   m_normal.resize(active.size());
-  // Of the last sweep's move: long waves of density level out in half as many sweeps.
-  constexpr float kMomentum = 0.5f;
-  const float longest = kLongest * m_edge;
-  m_last.resize(m_mesh.vertexCount(), Vec3f(0.0f));
   forEachIndex(active.size(), [&](std::uint32_t i) {
     const std::uint32_t v = active[i];
+    const Vec3f from = m_mesh.position[v];
     Vec3f move = push(v);
-    const float limit = (awake[v] ? sleep : wake) * m_edge;
+    const float limit = awake[v] ? asleep : wake * m_edge;
     awake[v] = move.lengthSqr() > limit * limit;
-    if (!awake[v]) return;
-    move += m_last[v] * kMomentum;
-    const float size = move.length();
-    if (size > longest) move *= longest / size;
-    const LevelSet::Projection p = m_phi.slide(m_mesh.position[v] + move, m_edge);
-    m_position[i] = p.known ? p.position : m_mesh.position[v];
-    m_normal[i] = p.known ? p.normal : m_mesh.normal[v];
+    if (awake[v]) {
+      move += m_last[v] * kMomentum;
+      const float size = move.length();
+      if (size > longest) move *= longest / size;
+      const LevelSet::Projection p = m_phi.slide(from + move, m_edge);
+      // At a crease a push moves nothing: such vertices are at rest as well.
+      awake[v] = p.known && (p.position - from).lengthSqr() > asleep * asleep;
+      m_position[i] = p.position;
+      m_normal[i] = p.normal;
+    }
+    m_last[v] = awake[v] ? m_position[i] - from : Vec3f(0.0f);
   });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < active.size(); ++i) {
-    if (!awake[active[i]]) {
-      m_last[active[i]] = Vec3f(0.0f);
-      continue;
+    if (!awake[active[i]]) continue;
+    if (kept != i) {
+      active[kept] = active[i];
+      m_position[kept] = m_position[i];
+      m_normal[kept] = m_normal[i];
     }
-    active[kept] = active[i];
-    m_position[kept] = m_position[i];
-    m_normal[kept++] = m_normal[i];
+    ++kept;
   }
   active.resize(kept);
   forEachIndex(kept, [&](std::uint32_t i) {
     std::swap(m_mesh.position[active[i]], m_position[i]);
     std::swap(m_mesh.normal[active[i]], m_normal[i]);
   });
-  revertFolds(active);
-  // At a crease, or where a move was taken back, a push moves nothing: such vertices are at rest as well.
-  kept = 0;
-  const float least2 = sleep * sleep * m_edge * m_edge;
-  for (std::size_t i = 0; i < active.size(); ++i) {
-    const std::uint32_t v = active[i];
-    m_last[v] = m_mesh.position[v] - m_position[i];
-    if (m_last[v].lengthSqr() > least2) {
-      active[kept++] = v;
-      continue;
-    }
-    awake[v] = 0;
-    m_last[v] = Vec3f(0.0f);
-    m_mesh.position[v] = m_position[i];
-    m_mesh.normal[v] = m_normal[i];
-  }
-  active.resize(kept);
+  if (revertFolds(active))
+    active.erase(std::remove_if(active.begin(), active.end(), [&](std::uint32_t v) { return !awake[v]; }),
+                 active.end());
 }
 
 // Takes back moves until no triangle is folded that was not before. Ends: at worst all moves are taken back.
-void Repulsion::revertFolds(const std::vector<std::uint32_t>& movers) {
+// Those whose move was taken back go to sleep. Whether there were any.
+bool Repulsion::revertFolds(const std::vector<std::uint32_t>& movers) {
   m_undo.resize(m_mesh.vertexCount(), 0);
   const auto raise = [&](std::uint32_t v) {
     std::atomic_ref<std::uint8_t>(m_undo[v]).store(1, std::memory_order_relaxed);
@@ -104,12 +97,14 @@ void Repulsion::revertFolds(const std::vector<std::uint32_t>& movers) {
     });
   };
   forEachIndex(movers.size(), [&](std::uint32_t i) { inspect(movers[i]); });
+  bool any = false;
   while (true) {
     std::vector<std::uint32_t> reverted;  // numbers in movers
     for (std::uint32_t i = 0; i < movers.size(); ++i) {
       if (m_undo[movers[i]] == 1) reverted.push_back(i);
     }
     if (reverted.empty()) break;
+    any = true;
     for (std::uint32_t i : reverted) {
       const std::uint32_t v = movers[i];
       m_mesh.position[v] = m_position[i];
@@ -128,7 +123,15 @@ void Repulsion::revertFolds(const std::vector<std::uint32_t>& movers) {
       });
     }
   }
-  for (std::uint32_t v : movers) m_undo[v] = 0;
+  if (!any) return false;
+  for (std::uint32_t v : movers) {
+    if (m_undo[v] == 2) {
+      awake[v] = 0;
+      m_last[v] = Vec3f(0.0f);
+    }
+    m_undo[v] = 0;
+  }
+  return true;
 }
 
 }  // namespace fluidtex::texture

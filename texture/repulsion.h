@@ -26,7 +26,7 @@ class Repulsion {
 
  private:
   Vec3f push(std::uint32_t v) const;
-  void revertFolds(const std::vector<std::uint32_t>& movers);
+  bool revertFolds(const std::vector<std::uint32_t>& movers);
 
   EditableMesh& m_mesh;
   const LevelSet& m_phi;
