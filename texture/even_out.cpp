@@ -2,6 +2,7 @@
 // mesh neighbours instead of all points near by, with the mesh kept Delaunay as in Persson, Strang, "A simple
 // mesh generator in MATLAB" (2004).
 #include "texture/adjust.h"
+#include "texture/mend.h"
 #include "texture/remesh.h"
 #include "texture/repulsion.h"
 
@@ -78,6 +79,7 @@ void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options
     if (active.empty() && changed.empty() && adjusting) break;
     flipToDelaunay(mesh, &active);
   }
+  mend(mesh, phi, options.spacing);
   mesh.compact(fresh);
 }
 

@@ -81,13 +81,14 @@ FloatGrid::Ptr levelSetOf(const Shape& shape, double voxel) {
       const openvdb::Coord ijk = it.getCoord();
       Vec3d slope(0.0);
       for (int axis = 0; axis < 3; ++axis) {
-        openvdb::Coord low = ijk, high = ijk;
-        --low[axis];
-        ++high[axis];
-        if (!values.isValueOn(low)) low = ijk;
-        if (!values.isValueOn(high)) high = ijk;
-        if (low != high)
-          slope[axis] = double(values.getValue(high) - values.getValue(low)) / (high[axis] - low[axis]);
+        // The steeper side: in the middle of a thin sheet or between two drops their mean says nothing.
+        for (const int side : {-1, 1}) {
+          openvdb::Coord next = ijk;
+          next[axis] += side;
+          if (!values.isValueOn(next)) continue;
+          const double step = double(values.getValue(next)) - double(values.getValue(ijk));
+          slope[axis] = std::max(slope[axis], std::abs(step));
+        }
       }
       it.setValue(values.getValue(ijk) / float(std::max(slope.length(), 1e-3)));
     }

@@ -1,0 +1,14 @@
+// The last repairs of a mesh on a level set, where the surface is too sharp or too thin for its points.
+#pragma once
+
+#include "texture/editable_mesh.h"
+#include "texture/level_set.h"
+
+namespace fluidtex::texture {
+
+// Flips, collapses and splits edges and moves vertices at triangles that face inwards, lie far from the level
+// set or are too slim, one after the other, as long as that helps. Keeps the mesh closed and manifold and its
+// topology. `spacing` in voxels.
+void mend(EditableMesh& mesh, const LevelSet& phi, float spacing);
+
+}  // namespace fluidtex::texture
