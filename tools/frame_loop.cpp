@@ -53,10 +53,10 @@ struct FrameResult {
   StageSeconds seconds;
 };
 
-std::vector<texture::Vec3f> seedsFor(const texture::TexturedSurface& last, const sim::Frame& frame,
+texture::Seeds seedsFor(const texture::TexturedSurface& last, const sim::Frame& frame,
                                      const texture::SurfaceOptions& options) {
   if (options.points == texture::Points::random) return {};
-  return transport::moved(last.positions, frame);
+  return {transport::moved(last.positions, frame), last.positions, last.triangles};
 }
 
 class FrameLoop {

@@ -27,7 +27,7 @@ enum class Start { seeds, random, first };
 
 struct Problem {
   MovingSurface surface;
-  std::vector<texture::Vec3f> seeds;
+  texture::Seeds seeds;
 };
 
 // The last one made is kept: its rows follow each other.
@@ -40,8 +40,9 @@ std::shared_ptr<const Problem> problem(const std::string& shape, int points) {
   auto made = std::make_shared<Problem>();
   made->surface = movingSurface(shape, points);
   const texture::Surface before =
-      texture::prepareSurface(*made->surface.before, made->surface.spacing, {}, 1, {});
-  made->seeds = made->surface.moved(before.levels[0].positions);
+      texture::prepareSurface(*made->surface.before, made->surface.spacing, texture::Seeds{}, 1, {});
+  const texture::SurfaceMesh& mesh = before.levels[0];
+  made->seeds = {made->surface.moved(mesh.positions), mesh.positions, mesh.triangles};
   key = wanted;
   last = made;
   return last;
@@ -51,7 +52,7 @@ std::shared_ptr<const Problem> problem(const std::string& shape, int points) {
 // was carried.
 texture::Surface prepared(const Problem& p, Start start) {
   texture::Surface surface = texture::prepareSurface(
-      *p.surface.now, p.surface.spacing, start == Start::seeds ? p.seeds : std::vector<texture::Vec3f>{},
+      *p.surface.now, p.surface.spacing, start == Start::seeds ? p.seeds : texture::Seeds{},
       start == Start::first ? texture::SurfaceOptions{}.levels : 1, {});
   texture::Carried carried;
   if (start != Start::first) {
