@@ -111,6 +111,7 @@ void describeOrientation(Visitor& visitor, Scene& scene) {
   visitor.integer("symmetry", orientation.symmetry, {.low = 1, .high = 4});
   choice(visitor, "align", orientation.align, {"none", "gravity", "flow", "curvature", "direction", "field"});
   visitor.number("weight", orientation.weight, kShare);
+  visitor.number("angle", orientation.angle, {.low = -360.0, .high = 360.0});
   visitor.vector("direction", orientation.direction, kAny);
   if (orientation.align == texture::Align::field)
     visitor.file("field", orientation.field, {".vdb"});

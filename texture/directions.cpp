@@ -13,8 +13,11 @@
 namespace fluidtex::texture {
 namespace {
 
+// Of a unit vector, as long as the square of its tangent part: where the surface nearly faces it, it says
+// little.
 Vec3f tangentPart(const Vec3f& x, const Vec3f& n) {
-  return x - n * n.dot(x);
+  const Vec3f tangent = x - n * n.dot(x);
+  return tangent * tangent.length();
 }
 
 // A line in the tangent plane as twice its angle (N = 2 of tangent_field.h), as long as the surface bends
@@ -63,7 +66,8 @@ std::vector<Vec3f> alongFlow(const SurfaceMesh& mesh, const std::vector<Vec3f>& 
   std::vector<Vec3f> result(mesh.positions.size());
   const auto still2 = static_cast<float>(still * still);
   forEachIndex(result.size(), [&](std::uint32_t v) {
-    const Vec3f tangent = tangentPart(velocity[v], mesh.normals[v]);
+    const Vec3f& n = mesh.normals[v];
+    const Vec3f tangent = velocity[v] - n * n.dot(velocity[v]);
     const float speed = tangent.length();
     result[v] = tangent * (speed / (speed * speed + still2));
   });

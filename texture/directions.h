@@ -10,7 +10,7 @@
 
 namespace fluidtex::texture {
 
-// The tangent part of one direction, which need not be of unit length; shorter where the surface faces it.
+// The tangent part of one direction, which need not be of unit length; the less, the more the surface faces it.
 std::vector<Vec3f> alongDirection(const SurfaceMesh& mesh, const Vec3f& direction);
 
 // Along velocities (#V, m/s). What is slower than `still` (m/s, > 0) means little.

@@ -42,6 +42,7 @@ struct OrientationOptions {
   int symmetry = 1;               // equal directions in a full turn: 1, 2 (bricks) or 4 (squares)
   Align align = Align::none;
   double weight = 0.2;            // 0 not at all, 0.5 as much as the neighbouring vertices, 1 whatever they are
+  double angle = 0.0;             // degrees from there to the columns, counter-clockwise seen from outside
   openvdb::Vec3d direction{1.0, 0.0, 0.0};
   std::filesystem::path field;    // OpenVDB; its first grid of float vectors
 };

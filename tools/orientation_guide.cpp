@@ -5,6 +5,8 @@
 #include "transport/carry.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace fluidtex::tools {
 namespace {
@@ -66,8 +68,12 @@ texture::OrientWishes wishesFor(const OrientationGuide& guide, const sim::Frame&
   if (guide.options.align != Align::none && guide.options.weight > 0.0) {
     wishes.direction = [&](const texture::SurfaceMesh& mesh) {
       std::vector<Vec3f> result = directions(guide, frame, mesh);
-      const auto weight = static_cast<float>(guide.options.weight);
-      for (Vec3f& x : result) x *= weight;
+      const double angle = guide.options.angle * std::numbers::pi / 180.0;
+      const auto along = static_cast<float>(guide.options.weight * std::cos(angle)),
+                 across = static_cast<float>(guide.options.weight * std::sin(angle));
+      texture::forEachIndex(result.size(), [&](std::uint32_t v) {
+        result[v] = result[v] * along + mesh.normals[v].cross(result[v]) * across;
+      });
       return result;
     };
   }

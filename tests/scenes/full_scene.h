@@ -150,6 +150,7 @@ repulsion_sweeps = 12
 symmetry = 2
 align = "field"
 weight = 0.75
+angle = 30
 direction = [0, 1, 0]
 field = "f.vdb"
 [[texture.orientation.keep_clear]]
