@@ -84,7 +84,7 @@ struct Motion {
 
 }  // namespace
 
-Markers advectMarkers(const Markers& markers, const Velocity& velocity, double dt) {
+Markers advectMarkers(Markers markers, const Velocity& velocity, double dt) {
   if (markers.empty()) return {};
   const double h = velocity.component[0]->voxelSize()[0];
   const float scale = static_cast<float>(dt / h);
@@ -115,6 +115,7 @@ Markers advectMarkers(const Markers& markers, const Velocity& velocity, double d
         leave.emplace_back(to, m);
       }
     }
+    markers[n].markers = {};
     for (int to = 0; to < 27; ++to) start[to + 1] += start[to];
     std::array<std::int32_t, 28> next = start;
     parts[n].stay = stay;

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <tuple>
 #include <utility>
 
 namespace fluidtex::sim {
@@ -24,7 +23,7 @@ enum : std::uint8_t { kWanted = 1, kCorrect = 2 };
 // What the first pass keeps of a leaf for the second, for each component and voxel.
 struct LeafPass {
   std::uint8_t flags[3][kLeafSize] = {};
-  float low[3][kLeafSize], high[3][kLeafSize];
+  std::vector<std::pair<float, float>> bounds;  // of the values to be corrected, in order
 };
 
 // Samples this deep in the liquid (in cells) have only liquid's velocities around them.
@@ -84,7 +83,7 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
               pass.flags[axis][i] = kWanted;
               if (std::max(p[0], p[-below]) < inside && before.at(origin3) < inside) {
                 pass.flags[axis][i] |= kCorrect;
-                std::tie(pass.low[axis][i], pass.high[axis][i]) = own.range(origin3);
+                pass.bounds.push_back(own.range(origin3));
               }
             }
           }
@@ -98,6 +97,7 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
         for (std::size_t n = range.begin(); n != range.end(); ++n) {
           if (!passes[n]) continue;
           const LeafPass& pass = *passes[n];
+          auto bounds = pass.bounds.begin();
           const Coord origin = target[0][n]->origin();
           const int halo = haloOf(origin);
           window.setHalo(halo);
@@ -114,11 +114,12 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
               if ((pass.flags[axis][i] & kWanted) == 0) continue;
               out[i] = first[i];
               if ((pass.flags[axis][i] & kCorrect) == 0) continue;
+              const auto [low, high] = *bounds++;
               const Vec3f goal = window.traceFace(i, axis, step);
               if (after.at(goal) >= inside) continue;
               const float back = ahead.component(axis).at(goal);
               const float corrected = first[i] + 0.5f * (content.component(axis).values[i] - back);
-              out[i] = std::clamp(corrected, pass.low[axis][i], pass.high[axis][i]);
+              out[i] = std::clamp(corrected, low, high);
             }
           }
         }

@@ -40,9 +40,10 @@ auto findBlock(Blocks& markers, const Coord& origin) {
 // solids.
 Markers seedMarkers(const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed);
 
-// The markers dt seconds later: third-order Runge-Kutta, velocity trilinear. dt max|u| / h must be below 5.
+// The markers dt seconds later (give them away: there are too many to keep twice): third-order Runge-Kutta,
+// velocity trilinear. dt max|u| / h must be below 5.
 // Markers of the air that the flow squeezes out between liquid and liquid are dropped.
-Markers advectMarkers(const Markers& markers, const Velocity& velocity, double dt);
+Markers advectMarkers(Markers markers, const Velocity& velocity, double dt);
 
 // Puts phi right at the corners of cells with escaped markers, those farther on the wrong side than their
 // radius.

@@ -2,6 +2,8 @@
 
 #include "sim/level_set.h"
 
+#include <utility>
+
 namespace fluidtex::sim {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr int kReinitIterations = 8;
 
 void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const FloatGrid& solidPhi,
                  double dt, std::uint64_t seed, const RunningFlows& flows) {
-  markers = advectMarkers(markers, velocity, dt);
+  markers = advectMarkers(std::move(markers), velocity, dt);
   advectPhi(phi, velocity, solidPhi, dt);
   correctPhi(phi, markers);
   applyFlows(phi, markers, flows);
