@@ -3,7 +3,7 @@
 
 int main(int argc, char** argv) {
   using namespace fluidtex::benchmarks;
-  if (answerSelf(argc, argv) || answerSurfaceMemory(argc, argv)) return 0;
+  if (answerSelf(argc, argv) || answerSurface(argc, argv)) return 0;
   registerPressure();
   registerDamBreak();
   registerMemory();

@@ -30,7 +30,7 @@ std::string runSelf(const std::string& arguments);
 // Called with the arguments that runSelf was given; false when they are none of their own. See memory.cpp and
 // surface.cpp.
 bool answerSelf(int argc, char** argv);
-bool answerSurfaceMemory(int argc, char** argv);
+bool answerSurface(int argc, char** argv);
 
 // Each file's benchmarks.
 void registerDamBreak();
