@@ -5,7 +5,6 @@
 #include "texture/orient.h"
 #include "texture/prepare.h"
 #include "tools/benchmarks/cgal_remeshing.h"
-#include "tools/benchmarks/draw_mesh.h"
 #include "tools/benchmarks/measure.h"
 #include "tools/benchmarks/moving_surfaces.h"
 
@@ -23,7 +22,6 @@ namespace fluidtex::benchmarks {
 namespace {
 
 constexpr const char* kAsk = "--measure-surface-memory";
-constexpr const char* kDraw = "--draw-surface";  // SHAPE POINTS ZOOM FILE
 
 enum class Start { seeds, random, first };
 
@@ -141,11 +139,6 @@ double heldBytes(const char* what) {
 }  // namespace
 
 bool answerSurface(int argc, char** argv) {
-  if (argc == 6 && std::strcmp(argv[1], kDraw) == 0) {
-    drawMesh(prepared(*problem(argv[2], std::atoi(argv[3])), Start::seeds).levels[0], std::atof(argv[4]),
-             argv[5]);
-    return true;
-  }
   if (argc != 5 || std::strcmp(argv[1], kAsk) != 0) return false;
   const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
   const std::shared_ptr<const Problem> p = problem(argv[2], std::atoi(argv[3]));
