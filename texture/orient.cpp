@@ -86,24 +86,15 @@ void holdToValues(const VertexGraph& graph, const std::vector<Complexf>& values,
   });
 }
 
-void requireOneEach(std::size_t given, const SurfaceMesh& mesh) {
-  if (given != mesh.positions.size()) throw std::invalid_argument("the field's wishes are not one a vertex");
-}
-
-std::vector<Vec3f> wishedDirections(const OrientWishes& wishes, const SurfaceMesh& mesh) {
-  std::vector<Vec3f> directions;
-  if (!wishes.direction) return directions;
-  directions = wishes.direction(mesh);
-  requireOneEach(directions.size(), mesh);
-  return directions;
-}
-
-std::vector<float> wishedStiffness(const OrientWishes& wishes, const SurfaceMesh& mesh) {
-  std::vector<float> stiffness;
-  if (!wishes.stiffness) return stiffness;
-  stiffness = wishes.stiffness(mesh);
-  requireOneEach(stiffness.size(), mesh);
-  return stiffness;
+// What is wished of the mesh's vertices; nothing where there is no wish.
+template <class Value>
+std::vector<Value> asked(const std::function<std::vector<Value>(const SurfaceMesh&)>& wish,
+                         const SurfaceMesh& mesh) {
+  if (!wish) return {};
+  std::vector<Value> values = wish(mesh);
+  if (values.size() != mesh.positions.size())
+    throw std::invalid_argument("the field's wishes are not one a vertex");
+  return values;
 }
 
 // `share`: how many vertices of level 0 one of this mesh stands for. False where nothing is wished.
@@ -176,7 +167,7 @@ void orientCoarsest(Surface& surface, const OrientOptions& options, const Orient
   const VertexGraph graph = buildVertexGraph(mesh);
   Field field{referenceVectors(mesh.normals), std::vector<Complexf>(count)};
   const Connection connection = buildConnection(mesh, graph, field.axes);
-  const FieldGraph smooth = fieldGraph(graph, connection, options.symmetry, wishedStiffness(wishes, mesh));
+  const FieldGraph smooth = fieldGraph(graph, connection, options.symmetry, asked(wishes.stiffness, mesh));
   forEachIndex(count, [&](std::uint32_t v) {
     const double re = 2.0 * randomUnit(0, 2ull * v) - 1.0, im = 2.0 * randomUnit(0, 2ull * v + 1) - 1.0;
     field.values[v] = Complexf(1.0f, 0.0f) + kStartNoise * Complexf(float(re), float(im));
@@ -184,7 +175,7 @@ void orientCoarsest(Surface& surface, const OrientOptions& options, const Orient
 
   Held wished = heldBy(count);
   forEachIndex(count, [&](std::uint32_t v) { wished.hold[v] = kShift * degree(graph, v); });
-  const std::vector<Vec3f> directions = wishedDirections(wishes, mesh);
+  const std::vector<Vec3f> directions = asked(wishes.direction, mesh);
   if (holdToWishes(mesh, graph, field.axes, directions, shareOf(mesh, surface), options.symmetry, wished)) {
     solveField(smooth, wished.hold, wished.right, options.coarseSweeps, kTolerance, field.values);
   } else {
@@ -246,10 +237,10 @@ void orientFiner(std::size_t level, Surface& surface, const OrientOptions& optio
   if (options.fineSweeps > 0) {
     const VertexGraph graph = buildVertexGraph(mesh);
     const Connection connection = buildConnection(mesh, graph, field.axes);
-    const FieldGraph smooth = fieldGraph(graph, connection, options.symmetry, wishedStiffness(wishes, mesh));
+    const FieldGraph smooth = fieldGraph(graph, connection, options.symmetry, asked(wishes.stiffness, mesh));
     Held held = heldBy(mesh.positions.size());
     holdToValues(graph, field.values, options.fineSweeps, held);
-    holdToWishes(mesh, graph, field.axes, wishedDirections(wishes, mesh), shareOf(mesh, surface),
+    holdToWishes(mesh, graph, field.axes, asked(wishes.direction, mesh), shareOf(mesh, surface),
                  options.symmetry, held);
     solveField(smooth, held.hold, held.right, kDiffusionSteps, kTolerance, field.values);
   }
@@ -268,7 +259,7 @@ void orientCarried(Surface& surface, const Carried& carried, const OrientOptions
   });
   const VertexGraph graph = buildVertexGraph(mesh);
   const Connection connection = buildConnection(mesh, graph, field.axes);
-  const FieldGraph smooth = fieldGraph(graph, connection, options.symmetry, wishedStiffness(wishes, mesh));
+  const FieldGraph smooth = fieldGraph(graph, connection, options.symmetry, asked(wishes.stiffness, mesh));
   Held held = heldBy(count);
   forEachIndex(count, [&](std::uint32_t v) {
     const float trust = std::clamp(carried.trust[v], 0.0f, 1.0f);
@@ -278,7 +269,7 @@ void orientCarried(Surface& surface, const Carried& carried, const OrientOptions
     held.hold[v] = degree(graph, v) * share / ((1.0f - share) * stiffness);
     held.right[v] = held.hold[v];
   });
-  holdToWishes(mesh, graph, field.axes, wishedDirections(wishes, mesh), 1.0, options.symmetry, held);
+  holdToWishes(mesh, graph, field.axes, asked(wishes.direction, mesh), 1.0, options.symmetry, held);
   solveField(smooth, held.hold, held.right, kDiffusionSteps, kTolerance, field.values);
   writeOrientation(field, options.symmetry, mesh);
 }

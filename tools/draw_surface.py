@@ -123,7 +123,7 @@ def main():
     camera = Camera(camera_of, run["scene"]["render"]["size"])
     rows, triangles = read_ply(options.out / "surface" / f"{options.frame:04d}.ply")
     drawn = sorted(shapes(rows, triangles, frame["singular_points"], camera, options.every, frame["edge_mean"]), key=lambda item: -item[0])
-    style = f"polygon{{stroke:#777;stroke-width:.4}} .a{{stroke:#063;stroke-width:1.6;fill:none}} circle{{stroke:#fff;stroke-width:1.5}}"
+    style = "polygon{stroke:#777;stroke-width:.4} .a{stroke:#063;stroke-width:1.6;fill:none} circle{stroke:#fff;stroke-width:1.5}"
     options.file.write_text(
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{camera.height:.0f}"><style>{style}</style>'
         '<rect width="100%" height="100%" fill="#fff"/>' + "\n".join(svg for _, svg in drawn) + "</svg>\n"

@@ -65,6 +65,14 @@ inline void requireSound(const SurfaceMesh& mesh, const FloatGrid& grid) {
   for (const Vec3f& p : mesh.positions) CHECK(std::isfinite(p.lengthSqr()));
 }
 
+// What is promised besides, but for the share of slim triangles, while the spacing is at most one voxel.
+inline void checkPromises(const Quality& q) {
+  CHECK(q.distance < 0.1);
+  CHECK(q.worstDistance < 0.5);
+  CHECK(q.folded == 0);
+  CHECK(q.variation <= 0.15);
+}
+
 // Signed volume inside a closed mesh.
 inline double enclosed(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles) {
   double six = 0.0;

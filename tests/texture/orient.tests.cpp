@@ -1,6 +1,6 @@
 #include "texture/orient.h"
 
-#include "tests/texture/closed_meshes.h"
+#include "tests/texture/orientation_fields.h"
 #include "texture/tangent.h"
 
 #include <tbb/global_control.h>
@@ -16,33 +16,6 @@ using namespace fluidtex::texture;
 using namespace fluidtex::testing;
 
 namespace {
-
-Surface onlyLevel(SurfaceMesh mesh) {
-  Surface surface;
-  surface.levels.push_back(std::move(mesh));
-  return surface;
-}
-
-Surface sphereLevels() {
-  Surface surface;
-  for (const int subdivisions : {24, 12, 6}) surface.levels.push_back(sphereMesh(subdivisions));
-  return surface;
-}
-
-// Carried onto the same surface: nothing has moved, everything is trusted.
-Carried carriedFrom(const SurfaceMesh& mesh, float trust = 1.0f) {
-  Carried carried;
-  carried.orientation = mesh.orientation;
-  carried.trust.assign(mesh.positions.size(), trust);
-  carried.previousPosition = mesh.positions;
-  return carried;
-}
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-double angleBetween(const Vec3f& a, const Vec3f& b) {
-  return std::atan2(double(a.cross(b).length()), double(a.dot(b)));
-}
 
 // Angles between each vertex's field and what its neighbours predict, radians.
 std::vector<double> neighborAngles(const SurfaceMesh& mesh) {
@@ -66,10 +39,6 @@ void requireUnitTangent(const SurfaceMesh& mesh) {
   }
 }
 
-int sum(const std::vector<Singularity>& all) {
-  return std::accumulate(all.begin(), all.end(), 0,
-                         [](int sum, const Singularity& s) { return sum + s.turns; });
-}
 int count(const std::vector<Singularity>& all, int turns) {
   return int(std::count_if(all.begin(), all.end(), [&](const Singularity& s) { return s.turns == turns; }));
 }
@@ -120,7 +89,7 @@ TEST_CASE("orientation: unit, tangent and smooth on every level of a sphere", "[
   for (const SurfaceMesh& mesh : surface.levels) {
     requireUnitTangent(mesh);
     const std::vector<Singularity> found = singularities(mesh);
-    CHECK(sum(found) == 2);
+    CHECK(sumOfTurns(found) == 2);
     CHECK(found.size() == 2);
   }
   // No smoother field exists than one that turns about an axis; its median turn along an edge is near 0.4
@@ -149,7 +118,7 @@ TEST_CASE("orientation: as smooth as the smoothest field known in closed form", 
   };
   const auto round = [](const Vec3f& x) { return Vec3f(-x.y(), x.x(), 0.0f); };
   for (const SurfaceMesh& mesh : {sphereMesh(12), sphereMesh(20), torusMesh(60, 30)}) {
-    Surface surface = onlyLevel(mesh), known = surface;
+    Surface surface = levelsOf({mesh}), known = surface;
     orient(surface, {});
     setField(known.levels[0], round);
     CHECK(energy(surface.levels[0]) < 1.02 * energy(known.levels[0]));
@@ -217,14 +186,14 @@ TEST_CASE("orientation: what is not trusted follows what is", "[texture]") {
     carried.orientation[v] = -carried.orientation[v];
     carried.trust[v] = 0.0f;
   }
-  Surface surface = onlyLevel(std::move(mesh));
+  Surface surface = levelsOf({std::move(mesh)});
   orient(surface, carried);
   for (const std::size_t v : strip)
     CHECK(angleBetween(surface.levels[0].orientation[v], right[v]) < 2.0 * kDegree);
 }
 
 TEST_CASE("orientation: carried vectors that are not tangent or null are made usable", "[texture]") {
-  Surface surface = onlyLevel(sphereMesh(10));
+  Surface surface = levelsOf({sphereMesh(10)});
   orient(surface, {});
   Carried carried = carriedFrom(surface.levels[0]);
   carried.orientation[7] = Vec3f(0.0f);
@@ -243,7 +212,7 @@ TEST_CASE("orientation: turns with the surface", "[texture]") {
     return x * std::cos(angle) + axis.cross(x) * std::sin(angle) +
            axis * (axis.dot(x) * (1 - std::cos(angle)));
   };
-  Surface still = onlyLevel(mesh);
+  Surface still = levelsOf({mesh});
   setField(still.levels[0], [](const Vec3f& x) { return Vec3f(0.3f + x.z(), x.x(), 0.5f); });
   const Carried carried = carriedFrom(still.levels[0], 0.6f);
   Surface turned = still;

@@ -1,7 +1,7 @@
 // Symmetry, alignment and places kept clear of singularities.
 #include "texture/orient.h"
 
-#include "tests/texture/closed_meshes.h"
+#include "tests/texture/orientation_fields.h"
 #include "texture/directions.h"
 #include "texture/tangent.h"
 
@@ -19,35 +19,10 @@ using namespace fluidtex::testing;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-Surface levels(std::vector<SurfaceMesh> meshes) {
-  Surface surface;
-  surface.levels = std::move(meshes);
-  return surface;
-}
-
-Surface sphereLevels() {
-  return levels({sphereMesh(24), sphereMesh(12), sphereMesh(6)});
-}
-
-int sum(const std::vector<Singularity>& all) {
-  return std::accumulate(all.begin(), all.end(), 0,
-                         [](int sum, const Singularity& s) { return sum + s.turns; });
-}
-
-Carried carriedFrom(const SurfaceMesh& mesh, float trust = 1.0f) {
-  Carried carried;
-  carried.orientation = mesh.orientation;
-  carried.trust.assign(mesh.positions.size(), trust);
-  carried.previousPosition = mesh.positions;
-  return carried;
-}
-
 // Of the directions equal by symmetry, how far the nearest is from `to`, radians.
 double offBy(const Vec3f& d, const Vec3f& n, const Vec3f& to, int symmetry) {
   const Vec3f nearest = nearestTurn(d, n, to, symmetry);
-  return std::atan2(double(nearest.cross(to).length()), double(nearest.dot(to)));
+  return angleBetween(nearest, to);
 }
 
 double meanOffBy(const SurfaceMesh& mesh, const std::vector<Vec3f>& to, int symmetry) {
@@ -76,20 +51,20 @@ TEST_CASE("orientation: with a symmetry, turns sum to it times the Euler charact
   for (const int symmetry : {1, 2, 4}) {
     Surface sphere = sphereLevels();
     orient(sphere, {}, {.symmetry = symmetry});
-    Surface torus = levels({torusMesh(48, 24), torusMesh(24, 12)});
+    Surface torus = levelsOf({torusMesh(48, 24), torusMesh(24, 12)});
     orient(torus, {}, {.symmetry = symmetry});
     for (const SurfaceMesh& mesh : sphere.levels) {
       const std::vector<Singularity> found = singularities(mesh, symmetry);
-      CHECK(sum(found) == 2 * symmetry);
+      CHECK(sumOfTurns(found) == 2 * symmetry);
       // The smoothest field has the smallest turns, as far from each other as they can be.
       CHECK(found.size() == 2u * unsigned(symmetry));
     }
-    for (const SurfaceMesh& mesh : torus.levels) CHECK(sum(singularities(mesh, symmetry)) == 0);
+    for (const SurfaceMesh& mesh : torus.levels) CHECK(sumOfTurns(singularities(mesh, symmetry)) == 0);
   }
 }
 
 TEST_CASE("orientation: equal directions are chosen so that arrows seldom jump", "[texture]") {
-  Surface torus = levels({torusMesh(96, 12, 1.0, 0.1), torusMesh(48, 6, 1.0, 0.1)});
+  Surface torus = levelsOf({torusMesh(96, 12, 1.0, 0.1), torusMesh(48, 6, 1.0, 0.1)});
   orient(torus, {}, {.symmetry = 4});
   CHECK(singularities(torus.levels[0], 4).empty());
   CHECK(seams(torus.levels[0]) == 0.0);
@@ -110,7 +85,7 @@ TEST_CASE("orientation: carried on with a symmetry, no vertex takes another of i
       orient(surface, carriedFrom(surface.levels[0]), {.symmetry = symmetry});
     for (std::size_t v = 0; v < start.size(); ++v)
       REQUIRE(surface.levels[0].orientation[v].dot(start[v]) > std::cos(0.9 * std::numbers::pi / symmetry));
-    CHECK(sum(singularities(surface.levels[0], symmetry)) == 2 * symmetry);
+    CHECK(sumOfTurns(singularities(surface.levels[0], symmetry)) == 2 * symmetry);
   }
 }
 
@@ -119,7 +94,7 @@ TEST_CASE("orientation: follows a direction, more closely with more weight", "[t
   for (const int symmetry : {1, 2, 4}) {
     double last = 1e9;
     for (const float weight : {0.001f, 0.02f, 0.3f, 1.0f}) {
-      Surface surface = levels({torusMesh(48, 24), torusMesh(24, 12)});
+      Surface surface = levelsOf({torusMesh(48, 24), torusMesh(24, 12)});
       const auto wished = [&](const SurfaceMesh& mesh) {
         std::vector<Vec3f> result = alongDirection(mesh, down);
         for (Vec3f& x : result) x *= weight;
@@ -135,7 +110,7 @@ TEST_CASE("orientation: follows a direction, more closely with more weight", "[t
 }
 
 TEST_CASE("orientation: turns towards a direction over some frames", "[texture]") {
-  Surface surface = levels({torusMesh(48, 24)});
+  Surface surface = levelsOf({torusMesh(48, 24)});
   orient(surface, {});
   const auto along = [](const SurfaceMesh& mesh) { return alongDirection(mesh, Vec3f(0.0f, 0.0f, -1.0f)); };
   const auto wished = [&](const SurfaceMesh& mesh) {
@@ -166,7 +141,7 @@ TEST_CASE("orientation: singularities keep out of marked places, at once and whe
   };
   const auto marked = [&](const SurfaceMesh& mesh, int symmetry) {
     const std::vector<Singularity> found = singularities(mesh, symmetry);
-    CHECK(sum(found) == 2 * symmetry);
+    CHECK(sumOfTurns(found) == 2 * symmetry);
     return std::count_if(found.begin(), found.end(),
                          [&](const Singularity& s) { return inside(s.position); });
   };
@@ -175,7 +150,7 @@ TEST_CASE("orientation: singularities keep out of marked places, at once and whe
     orient(surface, {}, {.symmetry = symmetry}, {.direction = {}, .stiffness = stiff});
     CHECK(marked(surface.levels[0], symmetry) == 0);
   }
-  Surface carried = levels({sphereMesh(24)});
+  Surface carried = levelsOf({sphereMesh(24)});
   SurfaceMesh& mesh = carried.levels[0];
   const Vec3f tilted = (axis + Vec3f(0.15f, 0.1f, 0.0f)).unit();
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -189,7 +164,7 @@ TEST_CASE("orientation: singularities keep out of marked places, at once and whe
 }
 
 TEST_CASE("orientation: wishes that are not one a vertex are refused", "[texture]") {
-  Surface surface = levels({sphereMesh(6)});
+  Surface surface = levelsOf({sphereMesh(6)});
   const auto few = [](const SurfaceMesh&) { return std::vector<Vec3f>(3); };
   const auto none = [](const SurfaceMesh&) { return std::vector<float>(); };
   CHECK_THROWS_AS(orient(surface, {}, {}, {.direction = few, .stiffness = {}}), std::invalid_argument);

@@ -1,5 +1,7 @@
 #include "tools/benchmarks/measure.h"
 
+#include <nlohmann/json.hpp>
+
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -27,6 +29,17 @@ double secondsOf(clockid_t clock) {
   timespec now{};
   clock_gettime(clock, &now);
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+// Runs this very program with these arguments and gives what it prints; empty where it fails.
+std::string runSelf(const std::string& arguments) {
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  FILE* pipe = popen(("\"" + program + "\" " + arguments).c_str(), "r");
+  if (pipe == nullptr) return {};
+  std::string text;
+  std::array<char, 4096> buffer;
+  while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) text += buffer.data();
+  return pclose(pipe) == 0 ? text : std::string();
 }
 
 }  // namespace
@@ -77,14 +90,19 @@ void printRatios() {
   }
 }
 
-std::string runSelf(const std::string& arguments) {
-  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
-  FILE* pipe = popen(("\"" + program + "\" " + arguments).c_str(), "r");
-  if (pipe == nullptr) return {};
-  std::string text;
-  std::array<char, 4096> buffer;
-  while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) text += buffer.data();
-  return pclose(pipe) == 0 ? text : std::string();
+std::optional<double> measureMemory(benchmark::State& state, const std::string& arguments,
+                                    const std::string& unit) {
+  const auto told = nlohmann::json::parse(runSelf(arguments), nullptr, false);
+  if (!told.is_object()) {
+    state.SkipWithError("the program that measures memory failed");
+    return {};
+  }
+  const double bytes = told.at("bytes"), count = told.at(unit + "s");
+  state.SetIterationTime(told.at("seconds").get<double>());
+  state.counters["bytes_per_" + unit] = bytes / count;
+  state.counters["peak_MB"] = bytes / 1e6;
+  state.counters[unit + "s"] = count;
+  return bytes / count;
 }
 
 }  // namespace fluidtex::benchmarks

@@ -3,6 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,11 +25,13 @@ void keep(const std::string& name, const std::string& quantity, double value);
 // For each row of ours that ran beside peers: how many times as much they need.
 void printRatios();
 
-// Runs this very program with these arguments and gives what it prints; empty where it fails.
-std::string runSelf(const std::string& arguments);
+// Runs this very program with these arguments, which answers {"bytes", "UNITs", "seconds"}, and counts
+// bytes_per_UNIT. Gives those; nothing where it fails.
+std::optional<double> measureMemory(benchmark::State& state, const std::string& arguments,
+                                    const std::string& unit);
 
-// Called with the arguments that runSelf was given; false when they are none of their own. See memory.cpp and
-// surface.cpp.
+// Called with the arguments that measureMemory was given; false when they are none of their own. See
+// memory.cpp and surface.cpp.
 bool answerSelf(int argc, char** argv);
 bool answerSurface(int argc, char** argv);
 

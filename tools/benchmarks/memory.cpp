@@ -5,7 +5,6 @@
 #include "tools/benchmarks/measure.h"
 
 #include <tbb/global_control.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -18,20 +17,11 @@ constexpr const char* kAsk = "--measure-memory";
 
 void memory(benchmark::State& state, const std::string& row, int resolution, int frames) {
   for ([[maybe_unused]] auto _ : state) {
-    const std::string text =
-        runSelf(std::string(kAsk) + " " + std::to_string(resolution) + " " + std::to_string(frames));
-    const auto told = nlohmann::json::parse(text, nullptr, false);
-    if (!told.is_object()) {
-      state.SkipWithError("the program that measures memory failed");
-      return;
-    }
-    const double bytes = told.at("bytes"), cells = told.at("cells");
-    state.SetIterationTime(told.at("seconds").get<double>());
-    state.counters["bytes_per_cell"] = bytes / cells;
-    state.counters["peak_MB"] = bytes / 1e6;
-    state.counters["cells"] = cells;
+    const auto bytes = measureMemory(
+        state, std::string(kAsk) + " " + std::to_string(resolution) + " " + std::to_string(frames), "cell");
+    if (!bytes) return;
     state.counters["frames"] = frames;
-    keep(row, "bytes / cell", bytes / cells);
+    keep(row, "bytes / cell", *bytes);
   }
 }
 

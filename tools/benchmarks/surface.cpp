@@ -9,7 +9,6 @@
 #include "tools/benchmarks/moving_surfaces.h"
 
 #include <tbb/global_control.h>
-#include <nlohmann/json.hpp>
 
 #include <malloc.h>
 
@@ -112,18 +111,10 @@ void cgal(benchmark::State& state, const std::vector<std::string>& rows, const s
 
 void memory(benchmark::State& state, const std::string& shape, int points, Start start) {
   for ([[maybe_unused]] auto _ : state) {
-    const std::string text = runSelf(std::string(kAsk) + " " + shape + " " + std::to_string(points) + " " +
-                                     std::to_string(int(start)));
-    const auto told = nlohmann::json::parse(text, nullptr, false);
-    if (!told.is_object()) {
-      state.SkipWithError("the program that measures memory failed");
-      return;
-    }
-    const double bytes = told.at("bytes"), count = told.at("points");
-    state.SetIterationTime(told.at("seconds").get<double>());
-    state.counters["bytes_per_point"] = bytes / count;
-    state.counters["peak_MB"] = bytes / 1e6;
-    state.counters["points"] = count;
+    measureMemory(
+        state,
+        std::string(kAsk) + " " + shape + " " + std::to_string(points) + " " + std::to_string(int(start)),
+        "point");
   }
 }
 
