@@ -1,9 +1,10 @@
 // Candidates from neighbours and at random as in PatchMatch [Barnes09], from lists of similar windows
-// [Tong02], from a tree [Kwatra05]. Usage of the exemplar is held even as in [Kaspar15].
+// [Tong02], from a tree [Kwatra05].
 #include "texture/matches.h"
 
 #include "texture/complex.h"
 #include "texture/random.h"
+#include "texture/usage.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -74,52 +75,6 @@ void fillQuery(const Windows& windows, std::size_t p, const Values& value, Windo
     for (int c = 0; c < channels; ++c) query.pixels[i * std::size_t(channels) + std::size_t(c)] = sum[c];
   }
 }
-
-// How often each part of the exemplar is used: windows counted in square cells of about a window's size,
-// spread linearly over the four nearest.
-class Usage {
- public:
-  Usage(const TexelImage& image, int window, std::size_t count)
-      : m_toroidal(image.toroidal),
-        m_columns(std::max(1, image.width / std::max(8, window))),
-        m_rows(std::max(1, image.height / std::max(8, window))),
-        m_toCell(float(m_columns) / float(image.width), float(m_rows) / float(image.height)),
-        m_perMean(float(m_columns * m_rows) / float(std::max<std::size_t>(count, 1))),
-        m_count(std::size_t(m_columns) * std::size_t(m_rows), 0.0f) {}
-
-  void add(const Vec2f& texel, float amount) {
-    visit(texel, [&](std::size_t cell, float weight) { m_count[cell] += amount * weight; });
-  }
-
-  // Of the mean: 1 where this part is used as often as the others.
-  float at(const Vec2f& texel) const {
-    float sum = 0.0f;
-    visit(texel, [&](std::size_t cell, float weight) { sum += m_count[cell] * weight; });
-    return sum * m_perMean;
-  }
-
- private:
-  template <typename Body>
-  void visit(const Vec2f& texel, const Body& body) const {
-    const float x = (texel[0] + 0.5f) * m_toCell[0] - 0.5f, y = (texel[1] + 0.5f) * m_toCell[1] - 0.5f;
-    const int i = int(std::floor(x)), j = int(std::floor(y));
-    const float fx = x - float(i), fy = y - float(j);
-    for (int dj = 0; dj < 2; ++dj)
-      for (int di = 0; di < 2; ++di)
-        body(std::size_t(bring(j + dj, m_rows)) * std::size_t(m_columns) +
-                 std::size_t(bring(i + di, m_columns)),
-             (di ? fx : 1.0f - fx) * (dj ? fy : 1.0f - fy));
-  }
-  int bring(int i, int size) const {
-    return m_toroidal ? ((i % size) + size) % size : std::clamp(i, 0, size - 1);
-  }
-
-  bool m_toroidal;
-  int m_columns, m_rows;
-  Vec2f m_toCell;
-  float m_perMean;
-  std::vector<float> m_count;
-};
 
 // What the threads keep while they search.
 struct Searcher {
@@ -197,7 +152,7 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
   std::vector<std::vector<std::uint32_t>> batches(kBatches);
   for (std::uint32_t p = 0; p < n.size(); ++p) batches[randomBits(key, p) % kBatches].push_back(p);
 
-  Usage used(image, n.window, n.size());
+  Usage used(image, std::max(8, n.window), n.size());
   if (usage > 0.0)
     for (const Vec2f& match : windows.match) used.add(match, 1.0f);
 

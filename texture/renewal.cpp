@@ -13,14 +13,17 @@ namespace {
 constexpr float kSeamWeight = 0.75f;
 constexpr float kLostStretch = 4.0f;
 constexpr float kLowTrust = 0.3f;
-constexpr float kSameTexel = 0.7f;      // a proposal this near to the carried texel says the same
-constexpr float kRestSeconds = 0.4f;    // ten frames of a film: as long as the eye needs to follow a patch
-constexpr float kYoungPatience = 1.2f;  // new texture must be this much worse again before it is renewed
-constexpr float kLeastGain = 0.05f;     // a piece is renewed if its badness falls by this on average
-constexpr int kBlurSweeps = 8;          // badness is averaged over about this many edges' reach in all
+constexpr float kSameTexel = 0.7f;   // a proposal this near to the carried texel says the same
+constexpr float kLeastGain = 0.05f;  // a piece is renewed if its badness falls by this on average
+constexpr int kBlurSweeps = 16;      // badness is averaged over about this many edges' reach in all
+constexpr float kDiscShare = 0.8f, kDiscsApart = 1.6f;  // of a disc's nominal radius
+constexpr float kMostYoung = 0.35f;                     // share of a disc
+// Where badness is this many times what is kept, discs may cover more than the budget.
+constexpr float kUrgent = 2.0f;
+constexpr double kUrgentBudget = 3.0;
 
 bool lost(const TexelImage& image, const Label& label, float trust) {
-  if (trust < kLowTrust) return true;
+  if (!believed(trust)) return true;
   if (image.toroidal) return false;
   return (label.texel - image.brought(label.texel)).lengthSqr() > 0.25f;
 }
@@ -54,26 +57,102 @@ std::vector<float> badness(const SeamModel& model, const Labels& labels, const s
   return result;
 }
 
-std::vector<std::uint8_t> worthRenewing(const SeamModel& model, const Labels& labels,
-                                        const std::vector<float>& trust, const std::vector<float>& age,
-                                        double keepStretch, std::uint64_t seed) {
-  std::vector<float> bad = badness(model, labels, trust), blurred(bad.size());
+bool believed(float trust) {
+  return trust >= kLowTrust;
+}
+
+namespace {
+
+std::vector<float> blurred(const VertexGraph& graph, std::vector<float> value) {
+  std::vector<float> next(value.size());
   for (int sweep = 0; sweep < kBlurSweeps; ++sweep) {
-    forEachIndex(bad.size(), [&](std::uint32_t v) {
-      float sum = bad[v];
-      const auto around = model.view.graph.around(v);
-      for (const std::uint32_t u : around) sum += bad[u];
-      blurred[v] = sum / float(around.size() + 1);
+    forEachIndex(value.size(), [&](std::uint32_t v) {
+      float sum = value[v];
+      const auto around = graph.around(v);
+      for (const std::uint32_t u : around) sum += value[u];
+      next[v] = sum / float(around.size() + 1);
     });
-    bad.swap(blurred);
+    value.swap(next);
   }
-  const auto kept = float(std::log(keepStretch));
-  std::vector<std::uint8_t> result(labels.size());
-  forEachIndex(labels.size(), [&](std::uint32_t v) {
-    const float young = std::max(0.0f, 1.0f - age[v] / kRestSeconds);
-    const float threshold = kept * (0.8f + 0.4f * noiseAt(labels[v].texel, seed));
-    result[v] = bad[v] > threshold * (1.0f + kYoungPatience * young);
+  return value;
+}
+
+// Walks over the surface around a vertex, as far as it hangs together within a distance of it.
+class Surroundings {
+ public:
+  explicit Surroundings(const MeshView& view) : m_view(view), m_stamp(view.mesh.positions.size(), 0) {}
+
+  const std::vector<std::uint32_t>& within(std::uint32_t center, double pixels) {
+    const std::vector<Vec3f>& x = m_view.mesh.positions;
+    const auto reach = float(pixels * m_view.mesh.spacing);
+    m_found.assign(1, center);
+    m_stamp[center] = ++m_current;
+    for (std::size_t i = 0; i < m_found.size(); ++i)
+      for (const std::uint32_t u : m_view.graph.around(m_found[i])) {
+        if (m_stamp[u] == m_current || (x[u] - x[center]).lengthSqr() > reach * reach) continue;
+        m_stamp[u] = m_current;
+        m_found.push_back(u);
+      }
+    return m_found;
+  }
+
+ private:
+  const MeshView& m_view;
+  std::vector<std::uint32_t> m_stamp, m_found;
+  std::uint32_t m_current = 0;
+};
+
+float growthOf(const Labels& labels, const std::vector<std::uint32_t>& members) {
+  double texels = 0.0;
+  for (const std::uint32_t v : members) {
+    const std::array<float, 4>& j = labels[v].jacobian;
+    texels += std::clamp(std::abs(double(j[0]) * double(j[3]) - double(j[1]) * double(j[2])), 0.01, 100.0);
+  }
+  return float(double(members.size()) / texels);
+}
+
+}  // namespace
+
+std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const std::vector<float>& trust,
+                             const std::vector<float>& fading, const DiscOptions& options,
+                             std::uint64_t seed) {
+  const std::size_t count = labels.size();
+  const std::vector<float> bad = blurred(model.view.graph, badness(model, labels, trust));
+  const auto young = [&](std::uint32_t v) { return fading[v] > 0.0f && believed(trust[v]); };
+  const auto kept = float(std::log(options.keepStretch));
+  std::vector<std::uint32_t> candidates = gathered<std::uint32_t>(count, [&](std::uint32_t v, auto& list) {
+    if (!young(v) && bad[v] > kept * (0.8f + 0.4f * noiseAt(labels[v].texel, seed))) list.push_back(v);
   });
+  std::sort(candidates.begin(), candidates.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return bad[a] > bad[b] || (bad[a] == bad[b] && a < b); });
+
+  std::vector<Disc> discs;
+  std::vector<std::uint8_t> near(count, 0);  // to the centre of a disc, or found too young
+  Surroundings surroundings(model.view);
+  double covered = 0.0;
+  for (const std::uint32_t center : candidates) {
+    const double urgency = bad[center] > kUrgent * kept ? kUrgentBudget : 1.0;
+    if (covered >= urgency * options.budget * double(count)) break;
+    if (near[center]) continue;
+    Disc disc{center, surroundings.within(center, double(kDiscShare) * options.radius), 1.0f};
+    const auto fresh = std::count_if(disc.members.begin(), disc.members.end(), young);
+    if (float(fresh) > kMostYoung * float(disc.members.size())) {
+      near[center] = 1;
+      continue;
+    }
+    disc.growth = growthOf(labels, disc.members);
+    covered += double(disc.members.size());
+    for (const std::uint32_t v : surroundings.within(center, double(kDiscsApart) * options.radius))
+      near[v] = 1;
+    discs.push_back(std::move(disc));
+  }
+  return discs;
+}
+
+std::vector<std::uint8_t> lostLabels(const SeamModel& model, const Labels& labels,
+                                     const std::vector<float>& trust) {
+  std::vector<std::uint8_t> result(labels.size());
+  forEachIndex(labels.size(), [&](std::uint32_t v) { result[v] = lost(model.image, labels[v], trust[v]); });
   return result;
 }
 

@@ -14,21 +14,45 @@ namespace fluidtex::texture {
 // exemplar that does not wrap, or whose `trust` is low, counts as stretched kLostStretch times.
 std::vector<float> badness(const SeamModel& model, const Labels& labels, const std::vector<float>& trust);
 
-// 1 where labels should be renewed: where badness, averaged over a few rings, exceeds that of texture
-// stretched by keepStretch. The threshold varies by a fifth, smoothly over the exemplar, so that neighbours
-// do not renew at once; and it is higher where `age`, seconds since the last renewal, is young, so that what
-// has just been laid down rests a while instead of boiling.
-std::vector<std::uint8_t> worthRenewing(const SeamModel& model, const Labels& labels,
-                                        const std::vector<float>& trust, const std::vector<float>& age,
-                                        double keepStretch, std::uint64_t seed);
+// Whether a carried label means anything: where trust is low, nothing was there before.
+bool believed(float trust);
+
+// A piece of the surface that is renewed at once.
+struct Disc {
+  std::uint32_t center = 0;
+  std::vector<std::uint32_t> members;  // from the centre outwards
+  // Area that a texel covers now, in those it covered when it was laid, on average: above 1 where the surface
+  // grows.
+  float growth = 1.0f;
+};
+
+struct DiscOptions {
+  double keepStretch = 1.35;  // what is coherent and stretched less is kept
+  double radius = 36.0;       // pixels; discs reach 0.8 of it, and their centres are at least 1.6 of it apart
+  double budget =
+      0.1;  // share of the vertices that discs may cover; three times as much where it is very bad
+};
+
+// Discs around the worst places, worst first, until the budget is used: where badness, averaged over half a
+// small window, exceeds that of texture stretched by keepStretch. The threshold varies by a fifth, smoothly
+// over the exemplar, so that neighbours do not renew at once. What still takes the place of older texture
+// (`fading`, its weight) is left alone, and discs that hold much of it are left for later.
+std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const std::vector<float>& trust,
+                             const std::vector<float>& fading, const DiscOptions& options,
+                             std::uint64_t seed);
+
+// 1 where labels must be renewed whatever else is: beyond the edge of an exemplar that does not wrap, or
+// hardly trusted.
+std::vector<std::uint8_t> lostLabels(const SeamModel& model, const Labels& labels,
+                                     const std::vector<float>& trust);
 
 // The mask grown by `rings` rings of neighbours.
 std::vector<std::uint8_t> grown(const VertexGraph& graph, std::vector<std::uint8_t> mask, int rings);
 
 // Merges proposed labels into carried ones. Where they continue each other the carried one stays. The others
 // form connected pieces, and a piece is renewed if that lowers the summed badness of the surface: the piece's
-// own and that of the vertices around it, whose seams change with it. renewed[v] says where. A surface at rest
-// therefore comes to rest: every renewal lowers a sum that has a bound.
+// own and that of the vertices around it, whose seams change with it. renewed[v] says where. A surface at
+// rest therefore comes to rest: every renewal lowers a sum that has a bound.
 Labels settle(const SeamModel& model, const Labels& carried, const Labels& proposed,
               const std::vector<float>& trust, std::vector<std::uint8_t>& renewed);
 

@@ -18,12 +18,20 @@ float length(const Float8& difference, const Float8& weight) {
   return std::sqrt(sum8(weight * difference * difference));
 }
 
-float ownCost(const SeamModel& model, const LabelTerms& terms, const Label& label, std::uint32_t v) {
-  float cost = terms.stretch * std::log(stretch(label));
-  if (terms.wanted)
-    cost += terms.data * length(model.image.sample(label.texel) - (*terms.wanted)[v], model.channelWeight) /
-            model.unit;
-  return cost;
+// What the label of each end of an edge puts at the other end.
+struct Across {
+  Vec2f vThere, uHere;
+};
+
+Across acrossEdge(const SeamModel& model, const Label& atV, const Label& atU, std::uint32_t h) {
+  const Complexf& edge = model.view.connection.edge[h];
+  return {atV.at(edge), atU.at(-conjugateProduct(model.view.connection.rotation[h], edge))};
+}
+
+bool continues(const SeamModel& model, const Label& atV, const Label& atU, const Across& across) {
+  const float here = texelDifference(model.image, across.uHere, atV.texel).length();
+  const float there = texelDifference(model.image, across.vThere, atU.texel).length();
+  return here + there < 2.0f * kCoherent;
 }
 
 // The free vertices by colour, no two neighbours in one.
@@ -49,6 +57,14 @@ std::vector<std::vector<std::uint32_t>> colored(const VertexGraph& graph,
 
 }  // namespace
 
+float labelCost(const SeamModel& model, const LabelTerms& terms, const Label& label, std::uint32_t v) {
+  float cost = terms.stretch * std::log(stretch(label));
+  if (terms.wanted)
+    cost += terms.data * length(model.image.sample(label.texel) - (*terms.wanted)[v], model.channelWeight) /
+            model.unit;
+  return cost;
+}
+
 float seamUnit(const TexelImage& image, const Float8& channelWeight) {
   return std::max(randomDifference(image, channelWeight), 1e-6f);
 }
@@ -57,15 +73,15 @@ SeamModel makeSeamModel(const MeshView& view, const TexelImage& image, const Flo
   return {view, image, channelWeight, seamUnit(image, channelWeight)};
 }
 
+bool continues(const SeamModel& model, const Label& atV, const Label& atU, std::uint32_t h) {
+  return continues(model, atV, atU, acrossEdge(model, atV, atU, h));
+}
+
 float seamCost(const SeamModel& model, const Label& atV, const Label& atU, std::uint32_t h) {
-  const Complexf& edge = model.view.connection.edge[h];
-  const Complexf back = -conjugateProduct(model.view.connection.rotation[h], edge);
-  const Vec2f vThere = atV.at(edge), uHere = atU.at(back);
-  const float here = texelDifference(model.image, uHere, atV.texel).length();
-  const float there = texelDifference(model.image, vThere, atU.texel).length();
-  if (here + there < 2.0f * kCoherent) return 0.0f;
-  const Float8 atEnd = model.image.sample(vThere) - model.image.sample(atU.texel);
-  const Float8 atStart = model.image.sample(uHere) - model.image.sample(atV.texel);
+  const Across across = acrossEdge(model, atV, atU, h);
+  if (continues(model, atV, atU, across)) return 0.0f;
+  const Float8 atEnd = model.image.sample(across.vThere) - model.image.sample(atU.texel);
+  const Float8 atStart = model.image.sample(across.uHere) - model.image.sample(atV.texel);
   return kSeamLength +
          (length(atEnd, model.channelWeight) + length(atStart, model.channelWeight)) / model.unit;
 }
@@ -98,7 +114,7 @@ void straightenSeams(const SeamModel& model, const LabelTerms& terms, const std:
             if (!active[v]) return;
             const std::uint32_t begin = graph.first[v], end = graph.first[v + 1];
             const auto costOf = [&](const Label& label, float bound) {
-              float cost = ownCost(model, terms, label, v);
+              float cost = labelCost(model, terms, label, v);
               for (std::uint32_t h = begin; h < end && cost < bound; ++h)
                 cost += seamCost(model, label, labels[graph.neighbor[h]], h);
               return cost;

@@ -19,6 +19,9 @@ struct SeamModel {
 float seamUnit(const TexelImage& image, const Float8& channelWeight);
 SeamModel makeSeamModel(const MeshView& view, const TexelImage& image, const Float8& channelWeight);
 
+// Whether two labels at the ends of edge h, from v to u, continue each other (kCoherent).
+bool continues(const SeamModel& model, const Label& atV, const Label& atU, std::uint32_t h);
+
 // Cost of edge h, from v to u, between two labels: zero where they continue each other, else kSeamLength +
 // |A(v) - B(v)| + |A(u) - B(u)|, A and B being what the two put at a place; differences are not squared, so
 // that this is a metric in the labels [Kwatra03].
@@ -33,7 +36,12 @@ struct LabelTerms {
   float stretch = 1.0f;            // times log stretch()
   float data = 0.0f;               // times the difference, in units, of its texel and `wanted`
   const Values* wanted = nullptr;  // #V, the picture to stay near to; null: none
+  float usage =
+      0.0f;  // times how much more than the mean its part of the exemplar is used; label expansion only
 };
+
+// A label's own cost at v, without usage.
+float labelCost(const SeamModel& model, const LabelTerms& terms, const Label& label, std::uint32_t v);
 
 // Straightens seams and moves them to where they show least: each free vertex (free empty: all) takes, of its
 // own label, its neighbours' continued ones and `alternative`'s (null: none), the one of least cost: its

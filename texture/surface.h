@@ -44,6 +44,13 @@ struct Surface {
   bool empty() const { return levels.empty() || levels[0].positions.empty(); }
 };
 
+// What renewed vertices showed before. Their colour is mixed from the old place and the new until the old one has faded.
+struct Fading {
+  std::vector<Vec2f> coordinate;         // exemplar coordinate, texels
+  std::vector<TexelGradient> gradient;
+  std::vector<float> weight;             // 1: all of the colour is the old place's, 0: none, and the place means nothing
+};
+
 // The earlier frame's texture brought onto a new surface. Every array has one entry per vertex of levels[0], or none at all
 // on the first frame.
 struct Carried {
@@ -51,6 +58,7 @@ struct Carried {
   std::vector<Vec4f> color;              // linear RGBA, barycentric: what method kwatra07 carries
   std::vector<Vec2f> coordinate;         // exemplar coordinate, texels; texel centres at integers
   std::vector<TexelGradient> gradient;   // its gradient after the flow's deformation
+  Fading fading;                         // brought along in the same way; weights are those of the earlier frame
   std::vector<float> age;                // s since the texture here was last renewed
   std::vector<float> trust;              // 0..1
   std::vector<Vec3f> previousPosition;   // where the vertex was one frame ago, on the old surface
@@ -72,6 +80,7 @@ struct TexturedSurface {
   std::vector<Vec4f> color;             // linear RGBA, straight alpha
   std::vector<Vec2f> coordinate;        // exemplar coordinate, texels; texel centres at integers, origin top left
   std::vector<TexelGradient> gradient;
+  Fading fading;
   std::vector<float> age, trust;
   std::vector<Vec3f> previousPosition;
   std::vector<Vec3f> velocity;          // m/s

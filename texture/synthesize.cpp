@@ -1,111 +1,19 @@
-// The passes of a frame: which levels, windows and starts, and what is made of the result.
+// What is made of a frame's labels: coordinates, what fades, colours.
 #include "texture/synthesize.h"
 
-#include "texture/optimize.h"
+#include "texture/first_frame.h"
+#include "texture/later_frame.h"
 #include "texture/parallel.h"
-#include "texture/random.h"
 #include "texture/renewal.h"
 #include "texture/srgb.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <stdexcept>
 
 namespace fluidtex::texture {
-
-struct SearchTables {
-  // By level.
-  std::vector<TexelImage> image;
-  std::vector<HistogramTarget> histogram;
-  std::vector<float> seamUnit;
-  // By level and window.
-  std::map<std::pair<int, int>, SearchTable> table;
-};
-
 namespace {
-
-// Side of the blocks that a first frame starts from, texels of the full exemplar.
-constexpr float kBlockSize = 64.0f;
-// Coarser levels decide the layout and are cheap: they iterate longer.
-constexpr int kCoarseIterations = 3;
-// Around what is worth renewing, this many rings may change with it, so that seams find a place.
-constexpr int kRenewalRim = 3;
-// How near straightened seams stay to the last average, on the first frame and later.
-constexpr float kFirstData = 0.15f, kLaterData = 0.4f;
-constexpr float kStretchCost = 1.0f;
-constexpr int kSeamSweeps = 8;
-
-// Later frames start near their best: instead of the tree they search windows like the best so far.
-constexpr int kSimilar = 4;
-
-using Progress = std::function<void(double)>;
-
-// A level's mesh with graph and connection.
-struct PreparedMesh {
-  explicit PreparedMesh(const SurfaceMesh& surface)
-      : mesh(surface),
-        graph(buildVertexGraph(surface)),
-        connection(buildConnection(surface, graph, surface.orientation)) {}
-  MeshView view() const { return {mesh, graph, connection}; }
-
-  const SurfaceMesh& mesh;
-  VertexGraph graph;
-  Connection connection;
-};
-
-const SearchTable& tableFor(Synthesizer& synthesizer, int level, int window) {
-  const auto key = std::make_pair(level, window);
-  auto it = synthesizer.tables->table.find(key);
-  if (it == synthesizer.tables->table.end()) {
-    const bool labels = synthesizer.options.method == Method::coordinates;
-    SearchTable table =
-        buildSearchTable(synthesizer.exemplar.match[std::size_t(level)], synthesizer.exemplar.toroidal,
-                         window, synthesizer.options.seed, level == 0 && labels ? kSimilar : 0);
-    table.padded = {};  // distances are taken from the level's TexelImage
-    it = synthesizer.tables->table.emplace(key, std::move(table)).first;
-  }
-  return it->second;
-}
-
-// Windows that fit a level's exemplar, without repetition, each with its place in the options.
-std::vector<std::pair<int, std::size_t>> windowsOf(const Synthesizer& synthesizer, int level) {
-  std::vector<std::pair<int, std::size_t>> result;
-  for (std::size_t i = 0; i < synthesizer.options.windows.size(); ++i) {
-    const int window = fittingWindow(synthesizer.exemplar.match[std::size_t(level)],
-                                     synthesizer.exemplar.toroidal, synthesizer.options.windows[i]);
-    if (window >= kSmallestWindow && (result.empty() || window < result.back().first))
-      result.emplace_back(window, i);
-  }
-  return result;
-}
-
-int iterationsOf(const std::vector<int>& iterations, std::size_t i) {
-  return iterations.empty() ? 1 : iterations[std::min(i, iterations.size() - 1)];
-}
-
-void record(SynthesisStats& stats, const EnergyTrace& trace) {
-  if (trace.empty()) return;
-  stats.energyStart = trace.front();
-  stats.energyEnd = trace.back();
-  stats.iterations += int(trace.size()) - 1;
-}
-
-// Channels whose seams are seen: all but the gradient's, which is the last.
-Float8 seamChannels(const Synthesizer& synthesizer) {
-  Float8 weight{};
-  const int channels = synthesizer.exemplar.match.front().channels;
-  const bool gradient =
-      synthesizer.options.gradientWeight > 0.0 && channels > synthesizer.exemplar.colorChannels;
-  for (int c = 0; c < channels - (gradient ? 1 : 0); ++c) weight[c] = 1.0f;
-  return weight;
-}
-
-SeamModel seamModel(const Synthesizer& synthesizer, const MeshView& view, std::size_t level) {
-  const SearchTables& tables = *synthesizer.tables;
-  return {view, tables.image[level], seamChannels(synthesizer), tables.seamUnit[level]};
-}
 
 Float8 encoded(const Vec4f& color, int channels) {
   Float8 value{};
@@ -121,93 +29,6 @@ Vec4f decoded(const Float8& value, int channels) {
   return color;
 }
 
-std::uint64_t keyOf(const Synthesizer& synthesizer, int frame, int level, int window) {
-  return randomBits(randomBits(synthesizer.options.seed, std::uint64_t(std::int64_t(frame))),
-                    std::uint64_t(level) * 1024u + std::uint64_t(window));
-}
-
-// One pass after the other, largest window first.
-void runPasses(Synthesizer& synthesizer, const Level& level, int index, int frame,
-               const std::vector<int>& iterations, int factor, bool tree, State& state, SynthesisStats& stats,
-               const Progress& progress) {
-  const auto windows = windowsOf(synthesizer, index);
-  const bool labels = synthesizer.options.method == Method::coordinates;
-  for (std::size_t i = 0; i < windows.size(); ++i) {
-    Pass pass;
-    pass.window = windows[i].first;
-    pass.iterations = factor * iterationsOf(iterations, windows[i].second);
-    pass.table = &tableFor(synthesizer, index, pass.window);
-    if (!tree) pass.probes = 0, pass.similar = kSimilar;
-    pass.startFromLabels = labels;
-    pass.copyCores = labels;
-    pass.seed = keyOf(synthesizer, frame, index, pass.window);
-    record(stats, optimize(level, pass, synthesizer.options, state));
-    if (progress) progress(double(i + 1) / double(windows.size()));
-  }
-}
-
-// Coarse to fine from random blocks. Leaves the state of level 0.
-State synthesizeFirst(Synthesizer& synthesizer, const Surface& surface, int frame, SynthesisStats& stats,
-                      const Progress& progress) {
-  const SearchTables& tables = *synthesizer.tables;
-  int coarsest = int(std::min(surface.levels.size(), tables.image.size())) - 1;
-  while (coarsest > 0 && surface.levels[std::size_t(coarsest)].positions.empty()) --coarsest;
-
-  State state;
-  double done = 0.0, whole = 0.0;
-  for (int l = 0; l <= coarsest; ++l) whole += double(surface.levels[std::size_t(l)].positions.size());
-  for (int l = coarsest; l >= 0; --l) {
-    const std::size_t index = std::size_t(l);
-    const SurfaceMesh& mesh = surface.levels[index];
-    const PreparedMesh prepared(mesh);
-    const TexelImage& image = tables.image[index];
-    const Level level{prepared.view(), image, tables.histogram[index], {}, {}};
-    if (l == coarsest)
-      state.labels =
-          blockLabels(level.view, image, kBlockSize / float(1 << l), keyOf(synthesizer, frame, l, 0));
-    else
-      state.labels = refineLabels(surface.levels[index + 1], state.labels, mesh, image);
-    state.value = state.average = lookUp(image, state.labels);
-    const double share = double(mesh.positions.size()) / whole;
-    runPasses(synthesizer, level, l, frame, synthesizer.options.firstIterations,
-              l > 0 ? kCoarseIterations : 1, true, state, stats, [&](double part) {
-                if (progress) progress(done + share * part);
-              });
-    done += share;
-    if (synthesizer.options.method == Method::coordinates)
-      straightenSeams(seamModel(synthesizer, level.view, index), {kStretchCost, kFirstData, &state.average},
-                      {}, nullptr, kSeamSweeps, state.labels);
-  }
-  return state;
-}
-
-// From carried labels. renewed[v] = 1 where a vertex got a new one.
-State synthesizeLater(Synthesizer& synthesizer, const MeshView& view, const Carried& carried, int frame,
-                      std::vector<std::uint8_t>& renewed, SynthesisStats& stats, const Progress& progress) {
-  const SynthesisOptions& options = synthesizer.options;
-  const TexelImage& image = synthesizer.tables->image.front();
-  const SeamModel seams = seamModel(synthesizer, view, 0);
-  const Labels before = labelsOf(view.mesh, carried.coordinate, carried.gradient);
-  renewed.assign(before.size(), 0);
-
-  State state;
-  state.labels = before;
-  Level level{view, image, synthesizer.tables->histogram.front(), {}, {}};
-  level.wanted = grown(
-      view.graph, worthRenewing(seams, before, carried.trust, carried.age, options.keepStretch, options.seed),
-      kRenewalRim);
-  if (std::find(level.wanted.begin(), level.wanted.end(), 1) == level.wanted.end()) return state;
-
-  state.value = state.average = lookUp(image, before);
-  level.constraint.value = state.value;
-  level.constraint.weight = constraintWeights(view, state.value, carried.trust, options.softConstraint);
-  runPasses(synthesizer, level, 0, frame, options.laterIterations, 1, false, state, stats, progress);
-  straightenSeams(seams, {kStretchCost, kLaterData, &state.average}, level.wanted, &before, kSeamSweeps,
-                  state.labels);
-  state.labels = settle(seams, before, state.labels, carried.trust, renewed);
-  return state;
-}
-
 // The paper's way: colours carried, averaged, held to.
 State synthesizeColors(Synthesizer& synthesizer, const MeshView& view, const Carried& carried, int frame,
                        SynthesisStats& stats, const Progress& progress) {
@@ -220,8 +41,7 @@ State synthesizeColors(Synthesizer& synthesizer, const MeshView& view, const Car
   level.constraint.value = state.value;
   level.constraint.weight =
       constraintWeights(view, state.value, carried.trust, synthesizer.options.softConstraint);
-  runPasses(synthesizer, level, 0, frame, synthesizer.options.laterIterations, 1, true, state, stats,
-            progress);
+  runPasses(synthesizer, level, {0, frame, synthesizer.options.laterIterations}, state, stats, progress);
   return state;
 }
 
@@ -232,8 +52,45 @@ void checkSizes(const SurfaceMesh& mesh, const Carried& carried) {
     throw std::invalid_argument("synthesize: the surface must be oriented");
   if (carried.empty()) return;
   if (!right(carried.color.size()) || !right(carried.coordinate.size()) || !right(carried.gradient.size()) ||
-      !right(carried.age.size()) || !right(carried.trust.size()) || !right(carried.previousPosition.size()))
+      !right(carried.fading.coordinate.size()) || !right(carried.fading.gradient.size()) ||
+      !right(carried.fading.weight.size()) || !right(carried.age.size()) || !right(carried.trust.size()) ||
+      !right(carried.previousPosition.size()))
     throw std::invalid_argument("synthesize: carried arrays must have one entry per vertex");
+}
+
+// What fades after a frame. A vertex renewed now shows what it showed before, and that gives way; where
+// nothing meaningful was shown, the new texture stands at once.
+Fading fadingAfter(const Carried& carried, const std::vector<std::uint8_t>& renewed, double fade,
+                   double seconds, std::size_t count) {
+  Fading result{std::vector<Vec2f>(count), std::vector<TexelGradient>(count),
+                std::vector<float>(count, 0.0f)};
+  if (carried.empty() || !(fade > seconds)) return result;
+  const auto step = float(seconds / fade);
+  forEachIndex(count, [&](std::uint32_t v) {
+    if (renewed[v] && !believed(carried.trust[v])) return;
+    // Of a vertex that is renewed while it still fades, the place that is seen more goes on.
+    const bool former = !renewed[v] || carried.fading.weight[v] > 0.5f;
+    result.weight[v] = std::max(0.0f, (renewed[v] ? 1.0f : carried.fading.weight[v]) - step);
+    result.coordinate[v] = former ? carried.fading.coordinate[v] : carried.coordinate[v];
+    result.gradient[v] = former ? carried.fading.gradient[v] : carried.gradient[v];
+  });
+  return result;
+}
+
+// The exemplar's colour at the present place mixed with that at the old one, premultiplied.
+Vec4f shownColor(const Exemplar& exemplar, const Vec2f& present, const Vec2f& former, float weight) {
+  const auto at = [&](const Vec2f& texel) {
+    Vec4f color;
+    sampleBilinear(exemplar.color, exemplar.toroidal, texel, color.asPointer());
+    return color;
+  };
+  const Vec4f now = at(present);
+  if (weight == 0.0f) return now;
+  const Vec4f old = at(former);
+  const float a = (1.0f - weight) * now[3], b = weight * old[3], alpha = a + b;
+  if (!(alpha > 1e-6f)) return now;
+  return {(a * now[0] + b * old[0]) / alpha, (a * now[1] + b * old[1]) / alpha,
+          (a * now[2] + b * old[2]) / alpha, alpha};
 }
 
 }  // namespace
@@ -282,8 +139,14 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
     state = synthesizeFirst(synthesizer, surface, frame, stats, progress);
   } else {
     const PreparedMesh prepared(mesh);
-    state = labels ? synthesizeLater(synthesizer, prepared.view(), carried, frame, renewed, stats, progress)
-                   : synthesizeColors(synthesizer, prepared.view(), carried, frame, stats, progress);
+    if (labels) {
+      LaterFrame later =
+          synthesizeLater(synthesizer, prepared.view(), carried, frame, secondsSinceLast, stats, progress);
+      state.labels = std::move(later.labels);
+      renewed = std::move(later.renewed);
+    } else {
+      state = synthesizeColors(synthesizer, prepared.view(), carried, frame, stats, progress);
+    }
   }
   stats.renewed = double(std::accumulate(renewed.begin(), renewed.end(), std::size_t(0))) / double(count);
 
@@ -292,6 +155,8 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
   result.coordinate.resize(count);
   result.gradient.resize(count);
   result.age.assign(count, 0.0f);
+  result.fading =
+      fadingAfter(carried, renewed, labels ? synthesizer.options.fade : 0.0, secondsSinceLast, count);
   const TexelImage& image = synthesizer.tables->image.front();
   forEachIndex(count, [&](std::uint32_t v) {
     const Label& label = state.labels[v];
@@ -301,8 +166,8 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
         kept ? carried.gradient[v] : gradientOf(label, mesh.orientation[v], mesh.normals[v], mesh.spacing);
     if (kept) result.age[v] = carried.age[v] + float(secondsSinceLast);
     if (labels)
-      sampleBilinear(synthesizer.exemplar.color, synthesizer.exemplar.toroidal, result.coordinate[v],
-                     result.color[v].asPointer());
+      result.color[v] = shownColor(synthesizer.exemplar, result.coordinate[v], result.fading.coordinate[v],
+                                   result.fading.weight[v]);
     else
       result.color[v] = decoded(state.value[v], synthesizer.exemplar.colorChannels);
   });

@@ -18,7 +18,7 @@ namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr char kMagic[8] = {'f', 't', 'x', 's', 'u', 'r', 'f', '1'};
+constexpr char kMagic[8] = {'f', 't', 'x', 's', 'u', 'r', 'f', '2'};
 
 constexpr const char* kSolver = "solver.vdb";
 constexpr const char* kSurface = "surface.bin";
@@ -42,6 +42,9 @@ void eachPart(Surface& surface, Visit&& visit) {
   visit(surface.color);
   visit(surface.coordinate);
   visit(surface.gradient);
+  visit(surface.fading.coordinate);
+  visit(surface.fading.gradient);
+  visit(surface.fading.weight);
   visit(surface.age);
   visit(surface.trust);
   visit(surface.previousPosition);
@@ -99,7 +102,7 @@ bool fitsTogether(const texture::TexturedSurface& surface) {
   const std::size_t count = surface.positions.size();
   const auto fits = [&](const auto&... arrays) { return ((arrays.size() == count) && ...); };
   return fits(surface.normals, surface.orientation, surface.color, surface.coordinate, surface.gradient,
-              surface.age, surface.trust, surface.previousPosition, surface.velocity, surface.contact) &&
+              surface.fading.coordinate, surface.fading.gradient, surface.fading.weight, surface.age, surface.trust, surface.previousPosition, surface.velocity, surface.contact) &&
          std::all_of(surface.maps.begin(), surface.maps.end(),
                      [&](const auto& map) { return fits(map.second); }) &&
          std::all_of(surface.triangles.begin(), surface.triangles.end(),

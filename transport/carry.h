@@ -18,7 +18,7 @@ std::vector<std::uint8_t> contactAt(const std::vector<texture::Vec3f>& positions
 // Each vertex of surface.levels[0] is traced back through the substeps' velocities (third-order Runge-Kutta), together with
 // the gradient of that map; lands on the closest point of `previous`; and picks up what is there:
 //  - exemplar coordinate: the nearest corner's plus its gradient times the offset, never averaged across a jump;
-//    its gradient deformed by the flow;
+//    its gradient deformed by the flow; likewise the place that fades;
 //  - colour and age by barycentric interpolation;
 //  - orientation, interpolated and turned with the flow by equation (4), tangent to the new surface; directions that turns
 //    of 360 / symmetry degrees make equal are interpolated as one.

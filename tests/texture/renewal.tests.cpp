@@ -29,38 +29,80 @@ bool onTop(const Vec3f& x) {
 
 }  // namespace
 
-TEST_CASE("renewal: whole, unstretched texture is left alone; stretched, lost or doubted texture is not") {
-  const OrientedMesh surface = flatBox(24);
+TEST_CASE(
+    "renewal: whole, unstretched texture is left alone; stretched texture gets discs, the lost is renewed at "
+    "once") {
+  const OrientedMesh surface = flatBox(48);
   const TexelImage image = makeTexelImage(blobImage(100, 100, 3, 10.0, 1), false, 4);
   const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
   const std::size_t count = surface.mesh.positions.size();
-  const std::vector<float> trusted(count, 1.0f), doubted(count, 0.1f);
-  std::vector<float> age(count, 10.0f);
-  const auto share = [&](const Labels& labels, const std::vector<float>& trust, std::uint64_t seed = 1) {
-    const std::vector<std::uint8_t> found = worthRenewing(model, labels, trust, age, 1.35, seed);
-    std::size_t sum = 0, all = 0;
-    for (std::uint32_t v = 0; v < count; ++v)
-      if (onTop(surface.mesh.positions[v])) sum += found[v], ++all;
-    return double(sum) / double(all);
+  const std::vector<float> trusted(count, 1.0f), doubted(count, 0.1f), settled(count, 0.0f);
+  const DiscOptions all{1.35, 8.0, 1.0};
+  // The share of the upper side's middle that discs cover: no picture fits around the box's edges.
+  const auto middle = [](const Vec3f& x) { return onTop(x - Vec3f(12, 12, 0)); };
+  const auto covered = [&](const Labels& labels, const std::vector<float>& fading) {
+    std::size_t found = 0, size = 0;
+    for (const Disc& disc : worstDiscs(model, labels, trusted, fading, all, 1))
+      for (const std::uint32_t v : disc.members) found += middle(surface.mesh.positions[v]);
+    for (const Vec3f& x : surface.mesh.positions) size += middle(x);
+    return double(found) / double(size);
   };
-  CHECK(share(picture(surface, 1.0f), trusted) == 0.0);
-  CHECK(share(picture(surface, 1.2f), trusted) == 0.0);
-  CHECK(share(picture(surface, 1.5f), trusted) == 1.0);
-  CHECK(share(picture(surface, 1 / 1.5f), trusted) == 1.0);
-  // At the threshold it depends on the place in the exemplar.
-  double some = 0.0;
-  for (std::uint64_t seed = 0; seed < 10; ++seed) some += 0.1 * share(picture(surface, 1.35f), trusted, seed);
-  CHECK(some > 0.2);
-  CHECK(some < 0.8);
-  CHECK(share(picture(surface, 1.0f), doubted) == 1.0);
+  CHECK(covered(picture(surface, 1.0f), settled) == 0.0);
+  CHECK(covered(picture(surface, 1.6f), settled) > 0.2);
+  CHECK(covered(picture(surface, 1 / 1.6f), settled) > 0.2);
+  // What has just been laid down rests.
+  const std::vector<float> fading(count, 0.5f);
+  CHECK(covered(picture(surface, 1.6f), fading) == 0.0);
+
+  const auto lostOnTop = [&](const Labels& labels, const std::vector<float>& trust) {
+    const std::vector<std::uint8_t> lost = lostLabels(model, labels, trust);
+    std::size_t sum = 0, size = 0;
+    for (std::uint32_t v = 0; v < count; ++v)
+      if (onTop(surface.mesh.positions[v])) sum += lost[v], ++size;
+    return double(sum) / double(size);
+  };
   Labels outside = picture(surface, 1.0f);
   for (Label& label : outside) label.texel += Vec2f(100, 0);
-  CHECK(share(outside, trusted) == 1.0);
-  // What has just been laid down rests, unless it is lost.
-  age.assign(count, 0.0f);
-  CHECK(share(picture(surface, 1.5f), trusted) == 0.0);
-  CHECK(share(outside, trusted) == 1.0);
-  CHECK(share(picture(surface, 1.0f), doubted) == 1.0);
+  CHECK(lostOnTop(picture(surface, 1.6f), trusted) == 0.0);
+  CHECK(lostOnTop(outside, trusted) == 1.0);
+  CHECK(lostOnTop(picture(surface, 1.0f), doubted) == 1.0);
+}
+
+TEST_CASE("renewal: discs keep to their size, their distance and the budget, worst first") {
+  const OrientedMesh surface = flatBox(60);
+  const TexelImage image = makeTexelImage(blobImage(200, 200, 3, 10.0, 1), false, 4);
+  const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
+  const std::size_t count = surface.mesh.positions.size();
+  const std::vector<float> trusted(count, 1.0f), settled(count, 0.0f);
+  // The right half is stretched more than the left one.
+  Labels labels;
+  for (const Vec3f& x : surface.mesh.positions) {
+    const float scale = x.x() < 30 ? 1.0f / 1.5f : 1.0f / 1.9f;
+    labels.push_back({{100 + scale * (x.x() - 30), 150 - x.y()}, {scale, 0, 0, 1}});
+  }
+  for (const double budget : {0.1, 0.4}) {
+    const DiscOptions options{1.35, 10.0, budget};
+    const std::vector<Disc> discs = worstDiscs(model, labels, trusted, settled, options, 1);
+    REQUIRE_FALSE(discs.empty());
+    std::size_t covered = 0;
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+      if (i + 1 < discs.size()) covered += discs[i].members.size();
+      const Vec3f& center = surface.mesh.positions[discs[i].center];
+      for (const std::uint32_t v : discs[i].members)
+        CHECK((surface.mesh.positions[v] - center).length() <= 8.01f);
+      // On one side; around an edge of the box the way along the surface is longer.
+      for (std::size_t j = 0; j < i; ++j) {
+        const Vec3f& other = surface.mesh.positions[discs[j].center];
+        if (other.z() == center.z()) CHECK((other - center).length() > 15.9f);
+      }
+    }
+    CHECK(double(covered) < 3.0 * budget * double(count));
+    const Disc& worst = discs.front();
+    CHECK(surface.mesh.positions[worst.center].x() > 28.0f);
+    if (surface.mesh.positions[worst.center].z() > 1.9f && surface.mesh.positions[worst.center].x() > 40 &&
+        surface.mesh.positions[worst.center].x() < 50)
+      CHECK(worst.growth == Approx(1.9).epsilon(0.02));
+  }
 }
 
 TEST_CASE("renewal: a mask grows by rings") {

@@ -18,6 +18,9 @@ inline fluidtex::texture::TexturedSurface sampleSurface() {
     s.color.emplace_back(0.5f, 0.5f, 0.5f, 0.25f);
     s.coordinate.emplace_back(2.0f + f, f);
     s.gradient.push_back({{f, 1, 2}, {3, f, 5}});
+    s.fading.coordinate.emplace_back(f, 3.0f - f);
+    s.fading.gradient.push_back({{7, f, 2}, {f, 8, 9}});
+    s.fading.weight.push_back(0.3f * f);
     s.age.push_back(0.1f * f);
     s.trust.push_back(0.2f * f);
     s.previousPosition.emplace_back(f, f, f);

@@ -33,6 +33,8 @@ TEST_CASE("state: a surface comes back bit for bit", "[tools]") {
   const texture::TexturedSurface back = tools::readSurface(scratch.path / "a");
   CHECK(back.positions == surface.positions);
   CHECK(back.color == surface.color);
+  CHECK(back.fading.coordinate == surface.fading.coordinate);
+  CHECK(back.fading.weight == surface.fading.weight);
   CHECK(back.age == surface.age);
   CHECK(back.maps == surface.maps);
   tools::writeSurface(back, scratch.path / "b");

@@ -40,6 +40,7 @@ inline TexturedSurface continued(const Carried& carried, const SurfaceMesh& mesh
           .color = carried.color,
           .coordinate = carried.coordinate,
           .gradient = carried.gradient,
+          .fading = carried.fading,
           .age = carried.age,
           .trust = carried.trust,
           .previousPosition = carried.previousPosition,
@@ -60,6 +61,11 @@ inline TexturedSurface texturedMesh(const SurfaceMesh& mesh, const Flow& directi
     texture.coordinate.emplace_back(float(kTexelsPerMeter * x.x()), float(kTexelsPerMeter * x.y()));
     texture.gradient.push_back({projected(Vec3f(float(kTexelsPerMeter), 0, 0), n),
                                 projected(Vec3f(0, float(kTexelsPerMeter), 0), n)});
+    // What fades lies elsewhere in the exemplar, turned by a quarter.
+    texture.fading.coordinate.emplace_back(float(50 + kTexelsPerMeter * x.y()), float(-kTexelsPerMeter * x.x()));
+    texture.fading.gradient.push_back({projected(Vec3f(0, float(kTexelsPerMeter), 0), n),
+                                       projected(Vec3f(-float(kTexelsPerMeter), 0, 0), n)});
+    texture.fading.weight.push_back(0.25f);
     texture.age.push_back(2.0f + x.z());
     texture.trust.push_back(1.0f);
   }
@@ -88,6 +94,9 @@ inline void requireWhole(const Carried& carried, const SurfaceMesh& mesh) {
   REQUIRE(carried.color.size() == count);
   REQUIRE(carried.coordinate.size() == count);
   REQUIRE(carried.gradient.size() == count);
+  REQUIRE(carried.fading.coordinate.size() == count);
+  REQUIRE(carried.fading.gradient.size() == count);
+  REQUIRE(carried.fading.weight.size() == count);
   REQUIRE(carried.age.size() == count);
   REQUIRE(carried.trust.size() == count);
   REQUIRE(carried.previousPosition.size() == count);

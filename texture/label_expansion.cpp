@@ -1,0 +1,326 @@
+// Y. Boykov, O. Veksler, R. Zabih, "Fast approximate energy minimization via graph cuts" (2001), with the
+// seam cost of Kwatra, Schoedl, Essa, Turk, Bobick, "Graphcut textures" (2003).
+#include "texture/label_expansion.h"
+
+#include "texture/complex.h"
+#include "texture/min_cut.h"
+#include "texture/parallel.h"
+#include "texture/random.h"
+#include "texture/usage.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace fluidtex::texture {
+namespace {
+
+// All in pixels.
+constexpr float kDisc = 18.0f;           // radius of what one cut may change
+constexpr float kCenters = 6.5f;         // discs' centres are about 10 apart
+constexpr float kSeamReach = 9.0f;       // a disc is looked at where a seam lies this near to its centre
+constexpr float kProposalsFrom = 12.0f;  // from the centre
+constexpr int kProposals = 5;            // the centre's own label among them
+constexpr float kSame = 0.5f;            // texels: labels this near to each other say the same
+
+constexpr float kLeastGain = 0.9f;    // in units of the difference of random texels, per cut
+constexpr float kMostStretch = 1.2f;  // a label stretched more is offered unstretched
+constexpr std::size_t kChunk = 2048;  // discs that are flattened at once
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+// A label of the disc's centre, or one brought there, in the centre's axes.
+struct Proposal {
+  Label label;
+  Label at(const Vec2f& l, const Complexf& turn) const {
+    const std::array<float, 4>& j = label.jacobian;
+    const float c = turn.real(), s = turn.imag();
+    return {label.at(Complexf(l[0], l[1])),
+            {j[0] * c + j[1] * s, j[1] * c - j[0] * s, j[2] * c + j[3] * s, j[3] * c - j[2] * s}};
+  }
+};
+
+// The label without its stretch, around the same texel.
+Label relaxed(const Label& label) {
+  const std::array<float, 4>& j = label.jacobian;
+  const Complexf turn(j[0] + j[3], j[2] - j[1]);  // of the nearest rotation
+  const float norm = std::abs(turn);
+  return norm > 1e-6f ? unstretched(label.texel, turn / norm) : label;
+}
+
+// One vertex's label as the disc's centre sees it: the centre lies at -l in the vertex's surroundings.
+Proposal broughtToCenter(const Label& label, const Vec2f& l, const Complexf& turn) {
+  const Label used = stretch(label) > kMostStretch ? relaxed(label) : label;
+  const Complexf back = std::conj(turn);  // from the centre's axes to the vertex's
+  const std::array<float, 4>& j = used.jacobian;
+  const float c = back.real(), s = back.imag();
+  return {{used.at(product(back, Complexf(-l[0], -l[1]))),
+           {j[0] * c + j[1] * s, j[1] * c - j[0] * s, j[2] * c + j[3] * s, j[3] * c - j[2] * s}}};
+}
+
+// What one thread keeps from disc to disc.
+struct Workspace {
+  explicit Workspace(std::size_t vertexCount) : slot(vertexCount, kNone) {}
+  std::vector<std::uint32_t> slot;   // of the present disc's free members; reset after each disc
+  std::vector<std::uint32_t> entry;  // the members' entries of the neighbourhood
+  Labels proposed;
+  std::vector<float> ownNow, ownThen;
+  std::vector<std::uint8_t> differs;
+  MinCut cut;
+};
+
+struct Change {
+  Vec2f from, to;
+};
+
+class Expansion {
+ public:
+  Expansion(const SeamModel& model, const LabelTerms& terms, const std::vector<std::uint8_t>& free,
+            std::uint64_t seed, Labels& labels)
+      : m_model(model),
+        m_terms(terms),
+        m_free(free),
+        m_seed(seed),
+        m_labels(labels),
+        m_usage(model.image, std::max(8, std::min(model.image.width, model.image.height) / 12),
+                labels.size()),
+        m_workspaces([count = labels.size()] { return Workspace(count); }) {
+    for (const Label& label : labels) m_usage.add(label.texel, 1.0f);
+  }
+
+  double run() {
+    std::vector<std::uint32_t> centers = selectCenters(m_model.view, kCenters, m_free);
+    std::sort(centers.begin(), centers.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return std::make_pair(randomBits(m_seed, a), a) < std::make_pair(randomBits(m_seed, b), b);
+    });
+    for (std::size_t begin = 0; begin < centers.size(); begin += kChunk) {
+      const std::size_t end = std::min(centers.size(), begin + kChunk);
+      m_discs = buildNeighborhoods(
+          m_model.view, 2 * int(kDisc) + 1,
+          {centers.begin() + std::ptrdiff_t(begin), centers.begin() + std::ptrdiff_t(end)});
+      for (const std::vector<std::uint32_t>& batch : batches()) runBatch(batch);
+    }
+    return m_cuts > 0 ? double(m_taken) / double(m_cuts) : 0.0;
+  }
+
+ private:
+  bool isFree(std::uint32_t v) const { return m_free.empty() || m_free[v]; }
+
+  // Discs in their order, those that touch an earlier one behind it; discs of one batch do not touch.
+  std::vector<std::vector<std::uint32_t>> batches() const {
+    std::vector<std::vector<std::uint32_t>> result;
+    std::vector<std::uint16_t> next(m_labels.size(), 0);  // the first batch that no disc at the vertex is in
+    const auto touched = [&](std::uint32_t p, const auto& body) {
+      for (std::uint32_t i = m_discs.first[p]; i < m_discs.first[p + 1]; ++i) {
+        body(m_discs.vertex[i]);
+        for (const std::uint32_t u : m_model.view.graph.around(m_discs.vertex[i])) body(u);
+      }
+    };
+    for (std::uint32_t p = 0; p < m_discs.size(); ++p) {
+      std::uint16_t batch = 0;
+      touched(p, [&](std::uint32_t v) { batch = std::max(batch, next[v]); });
+      touched(p, [&](std::uint32_t v) { next[v] = std::uint16_t(batch + 1); });
+      if (batch >= result.size()) result.resize(std::size_t(batch) + 1);
+      result[batch].push_back(p);
+    }
+    return result;
+  }
+
+  void runBatch(const std::vector<std::uint32_t>& batch) {
+    std::vector<std::vector<Change>> changes(batch.size());
+    std::vector<std::array<int, 2>> counts(batch.size());
+    tbb::parallel_for(std::size_t(0), batch.size(), [&](std::size_t i) {
+      counts[i] = runDisc(batch[i], m_workspaces.local(), changes[i]);
+    });
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      m_cuts += std::size_t(counts[i][0]), m_taken += std::size_t(counts[i][1]);
+      for (const Change& change : changes[i]) {
+        m_usage.add(change.from, -1.0f);
+        m_usage.add(change.to, 1.0f);
+      }
+    }
+  }
+
+  // All proposals of one disc. Returns how many cuts were made and how many taken.
+  std::array<int, 2> runDisc(std::uint32_t p, Workspace& work, std::vector<Change>& changes) {
+    std::array<int, 2> counts{0, 0};
+    work.entry.clear();
+    for (std::uint32_t i = m_discs.first[p]; i < m_discs.first[p + 1]; ++i)
+      if (isFree(m_discs.vertex[i]) && m_discs.offset[i].lengthSqr() < kDisc * kDisc) work.entry.push_back(i);
+    if (!seamNearCenter(work)) return counts;
+    for (std::uint32_t i = 0; i < work.entry.size(); ++i) work.slot[m_discs.vertex[work.entry[i]]] = i;
+    std::array<Proposal, kProposals> proposals;
+    const std::size_t count = propose(p, proposals);
+    for (std::size_t i = 0; i < count; ++i) {
+      ++counts[0];
+      counts[1] += cut(proposals[i], work, changes);
+    }
+    for (const std::uint32_t entry : work.entry) work.slot[m_discs.vertex[entry]] = kNone;
+    return counts;
+  }
+
+  bool seamNearCenter(const Workspace& work) const {
+    for (const std::uint32_t entry : work.entry) {
+      if (m_discs.offset[entry].lengthSqr() > kSeamReach * kSeamReach) continue;
+      const std::uint32_t v = m_discs.vertex[entry];
+      for (std::uint32_t h = m_model.view.graph.first[v]; h < m_model.view.graph.first[v + 1]; ++h)
+        if (!continues(m_model, m_labels[v], m_labels[m_model.view.graph.neighbor[h]], h)) return true;
+    }
+    return false;
+  }
+
+  // The labels of the centre and of the vertices nearest to four places around it, without repetition.
+  std::size_t propose(std::uint32_t p, std::array<Proposal, kProposals>& proposals) const {
+    std::size_t count = 0;
+    const auto offer = [&](std::uint32_t entry) {
+      const Proposal proposal =
+          broughtToCenter(m_labels[m_discs.vertex[entry]], m_discs.offset[entry], m_discs.turn[entry]);
+      for (std::size_t i = 0; i < count; ++i)
+        if (texelDifference(m_model.image, proposals[i].label.texel, proposal.label.texel).length() <
+            kCoherent)
+          return;
+      proposals[count++] = proposal;
+    };
+    offer(m_discs.first[p]);
+    const float start = 6.2832f * float(randomUnit(m_seed, std::uint64_t(m_discs.center[p]) + (1ull << 40)));
+    for (int k = 0; k < kProposals - 1; ++k) {
+      const float angle = start + float(M_PI_2) * float(k);
+      const Vec2f place(kProposalsFrom * std::cos(angle), kProposalsFrom * std::sin(angle));
+      std::uint32_t best = m_discs.first[p];
+      for (std::uint32_t i = m_discs.first[p]; i < m_discs.first[p + 1]; ++i)
+        if ((m_discs.offset[i] - place).lengthSqr() < (m_discs.offset[best] - place).lengthSqr()) best = i;
+      offer(best);
+    }
+    return count;
+  }
+
+  float ownCost(const Label& label, std::uint32_t v) const {
+    return labelCost(m_model, m_terms, label, v) + m_terms.usage * (m_usage.at(label.texel) - 1.0f);
+  }
+
+  bool cut(const Proposal& proposal, Workspace& work, std::vector<Change>& changes) {
+    const TexelImage& image = m_model.image;
+    const VertexGraph& graph = m_model.view.graph;
+    const std::size_t count = work.entry.size();
+    work.proposed.resize(count), work.ownNow.resize(count), work.ownThen.resize(count);
+    work.differs.assign(count, 0);
+    bool any = false;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t entry = work.entry[i], v = m_discs.vertex[entry];
+      Label label = proposal.at(m_discs.offset[entry], m_discs.turn[entry]);
+      const Vec2f inside = image.brought(label.texel);
+      const bool lost = !image.toroidal && (inside - label.texel).lengthSqr() > 0.25f;
+      label.texel = inside;
+      const bool same = texelDifference(image, label.texel, m_labels[v].texel).lengthSqr() < kSame * kSame;
+      work.differs[i] = !lost && !same;
+      work.proposed[i] = work.differs[i] ? label : m_labels[v];
+      any = any || work.differs[i];
+    }
+    if (!any) return false;
+
+    work.cut.reset(count);
+    double now = 0.0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t v = m_discs.vertex[work.entry[i]];
+      work.ownNow[i] = work.differs[i] ? ownCost(m_labels[v], v) : 0.0f;
+      work.ownThen[i] = work.differs[i] ? ownCost(work.proposed[i], v) : 0.0f;
+      now += double(work.ownNow[i]);
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t v = m_discs.vertex[work.entry[i]];
+      for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
+        const std::uint32_t u = graph.neighbor[h], j = work.slot[u];
+        const bool member = j != kNone;
+        if (member && j < i) continue;
+        if (!work.differs[i] && !(member && work.differs[j])) continue;
+        const float keepKeep = seamCost(m_model, m_labels[v], m_labels[u], h);
+        now += double(keepKeep);
+        if (!member || !work.differs[j]) {
+          work.ownNow[i] += keepKeep;
+          work.ownThen[i] += seamCost(m_model, work.proposed[i], m_labels[u], h);
+        } else if (!work.differs[i]) {
+          work.ownNow[j] += keepKeep;
+          work.ownThen[j] += seamCost(m_model, m_labels[v], work.proposed[j], h);
+        } else {
+          addPair(i, j, keepKeep, seamCost(m_model, m_labels[v], work.proposed[j], h),
+                  seamCost(m_model, work.proposed[i], m_labels[u], h),
+                  seamCost(m_model, work.proposed[i], work.proposed[j], h), work);
+        }
+      }
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const float least = std::min(work.ownNow[i], work.ownThen[i]);
+      if (work.differs[i]) work.cut.addOwn(i, work.ownNow[i] - least, work.ownThen[i] - least);
+    }
+    work.cut.solve();
+    return settleCut(now, work, changes);
+  }
+
+  // A pair's four costs as what own costs and a cut can express. Seam costs are a metric but for what
+  // coherence forgives; where the triangle inequality fails, the mixed cases cost more than they should,
+  // which at worst leaves a label as it is.
+  static void addPair(std::uint32_t i, std::uint32_t j, float keepKeep, float keepTake, float takeKeep,
+                      float takeTake, Workspace& work) {
+    // E = keepKeep + x_i (takeKeep - keepKeep) + x_j (takeTake - takeKeep) + (1 - x_i) x_j (keepTake +
+    // takeKeep - keepKeep - takeTake)
+    work.ownNow[i] += keepKeep;
+    work.ownThen[i] += takeKeep;
+    const float rise = takeTake - takeKeep;
+    (rise > 0.0f ? work.ownThen[j] : work.ownNow[j]) += std::abs(rise);
+    const float mixed = keepTake + takeKeep - keepKeep - takeTake;
+    if (mixed > 0.0f) work.cut.addPair(i, j, mixed, 0.0f);
+  }
+
+  // Makes the change if the cost, counted anew, falls by enough.
+  bool settleCut(double now, Workspace& work, std::vector<Change>& changes) {
+    const VertexGraph& graph = m_model.view.graph;
+    const auto takes = [&](std::uint32_t i) { return work.differs[i] && work.cut.takes(i); };
+    const auto labelOf = [&](std::uint32_t i, std::uint32_t v) -> const Label& {
+      return takes(i) ? work.proposed[i] : m_labels[v];
+    };
+    bool any = false;
+    double then = 0.0;
+    for (std::uint32_t i = 0; i < work.entry.size(); ++i) {
+      const std::uint32_t v = m_discs.vertex[work.entry[i]];
+      any = any || takes(i);
+      if (work.differs[i]) then += double(ownCost(labelOf(i, v), v));
+      for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
+        const std::uint32_t u = graph.neighbor[h], j = work.slot[u];
+        const bool member = j != kNone;
+        if (member && j < i) continue;
+        if (!work.differs[i] && !(member && work.differs[j])) continue;
+        then += double(seamCost(m_model, labelOf(i, v), member ? labelOf(j, u) : m_labels[u], h));
+      }
+    }
+    if (!any || then > now - double(kLeastGain)) return false;
+    for (std::uint32_t i = 0; i < work.entry.size(); ++i) {
+      if (!takes(i)) continue;
+      Label& label = m_labels[m_discs.vertex[work.entry[i]]];
+      changes.push_back({label.texel, work.proposed[i].texel});
+      label = work.proposed[i];
+    }
+    return true;
+  }
+
+  const SeamModel& m_model;
+  const LabelTerms& m_terms;
+  const std::vector<std::uint8_t>& m_free;
+  std::uint64_t m_seed;
+  Labels& m_labels;
+  Usage m_usage;
+  Neighborhoods m_discs;  // of the present chunk
+  tbb::enumerable_thread_specific<Workspace> m_workspaces;
+  std::size_t m_cuts = 0, m_taken = 0;
+};
+
+}  // namespace
+
+double expandLabels(const SeamModel& model, const LabelTerms& terms, const std::vector<std::uint8_t>& free,
+                    std::uint64_t seed, Labels& labels) {
+  return Expansion(model, terms, free, seed, labels).run();
+}
+
+}  // namespace fluidtex::texture
