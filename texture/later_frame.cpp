@@ -1,5 +1,7 @@
 #include "texture/later_frame.h"
 
+#include "texture/complex.h"
+#include "texture/parallel.h"
 #include "texture/renewal.h"
 
 #include <algorithm>
@@ -11,33 +13,104 @@ namespace {
 constexpr int kRim = 5;
 // How near joined labels stay to the last average.
 constexpr float kData = 0.4f;
+// Vertices that stand for the surface at half its detail lie 1 to 2 of its pixels apart.
+constexpr float kHalfRadius = 0.8f;
+
+bool any(const std::vector<std::uint8_t>& mask) {
+  return std::find(mask.begin(), mask.end(), std::uint8_t(1)) != mask.end();
+}
+
+// Texel x of the full exemplar lies at (x - 1/2) / 2 of the halved one; what a label says of its surroundings
+// in pixels stays.
+Labels halved(const Labels& labels, const TexelImage& half) {
+  Labels result = labels;
+  forEachIndex(labels.size(), [&](std::uint32_t v) {
+    result[v].texel = half.brought((labels[v].texel - Vec2f(0.5f, 0.5f)) * 0.5f);
+  });
+  return result;
+}
+
+// Labels of members at full detail, handed on ring by ring to the wanted vertices between them.
+void spread(const TexelImage& image, const MeshView& view, const std::vector<std::uint8_t>& wanted,
+            const Labels& coarse, Labels& labels) {
+  std::vector<std::uint8_t> placed(labels.size(), 0);
+  for (std::uint32_t v = 0; v < labels.size(); ++v) {
+    if (!wanted[v] || !view.isMember(v)) continue;
+    labels[v] = {image.brought(coarse[v].texel * 2.0f + Vec2f(0.5f, 0.5f)), coarse[v].jacobian};
+    placed[v] = 1;
+  }
+  for (bool more = true; more;) {
+    more = false;
+    std::vector<std::uint8_t> next = placed;
+    for (std::uint32_t v = 0; v < labels.size(); ++v) {
+      if (!wanted[v] || placed[v]) continue;
+      float nearest = 1e30f;
+      std::uint32_t from = 0;
+      for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
+        const float distance = std::norm(view.connection.edge[h]);
+        if (placed[view.graph.neighbor[h]] && distance < nearest) nearest = distance, from = h;
+      }
+      if (nearest == 1e30f) continue;
+      labels[v] = continued(image, labels[view.graph.neighbor[from]], view.connection.edge[from],
+                            view.connection.rotation[from]);
+      next[v] = 1;
+      more = true;
+    }
+    placed.swap(next);
+  }
+}
+
+// Lays out what is wanted at half the surface's detail, where features are half as large and their scale is
+// kept.
+void layOut(Synthesizer& synthesizer, const MeshView& view, const std::vector<std::uint8_t>& wanted,
+            int frame, Labels& labels, SynthesisStats& stats, const Progress& progress) {
+  const SearchTables& tables = *synthesizer.tables;
+  MeshView half{view.mesh, view.graph, view.connection, 2.0f, nullptr};
+  std::vector<std::uint8_t> members(labels.size(), 0);
+  for (const std::uint32_t v : selectCenters(half, kHalfRadius)) members[v] = 1;
+  half.members = &members;
+
+  State state;
+  state.labels = halved(labels, tables.image[1]);
+  state.value = lookUp(tables.image[1], state.labels);
+  Level level{half, tables.image[1], tables.histogram[1], {}, wanted};
+  const std::size_t windows = windowsOf(synthesizer, 1).size();
+  runPasses(
+      synthesizer, level,
+      {1, frame, synthesizer.options.laterIterations, 1, true, 0, std::max<std::size_t>(windows, 2) - 1},
+      state, stats, progress);
+  spread(tables.image.front(), half, wanted, state.labels, labels);
+}
 
 }  // namespace
 
 LaterFrame synthesizeLater(Synthesizer& synthesizer, const MeshView& view, const Carried& carried, int frame,
                            double secondsSinceLast, SynthesisStats& stats, const Progress& progress) {
   const SynthesisOptions& options = synthesizer.options;
-  const TexelImage& image = synthesizer.tables->image.front();
+  const SearchTables& tables = *synthesizer.tables;
+  const TexelImage& image = tables.image.front();
   const SeamModel seams = seamModel(synthesizer, view, 0);
   const Labels before = labelsOf(view.mesh, carried.coordinate, carried.gradient);
   LaterFrame result{before, std::vector<std::uint8_t>(before.size(), 0)};
 
   const DiscOptions discOptions{options.keepStretch, options.renewalRadius,
                                 options.renewalRate * secondsSinceLast};
-  Level level{
-      view, image, synthesizer.tables->histogram.front(), {}, lostLabels(seams, before, carried.trust)};
+  Level level{view, image, tables.histogram.front(), {}, lostLabels(seams, before, carried.trust)};
   for (const Disc& disc :
        worstDiscs(seams, before, carried.trust, carried.fading.weight, discOptions, options.seed))
     for (const std::uint32_t v : disc.members) level.wanted[v] = 1;
-  if (std::find(level.wanted.begin(), level.wanted.end(), 1) == level.wanted.end()) return result;
-  level.wanted = grown(view.graph, level.wanted, kRim);
+  if (!any(level.wanted)) return result;
 
   State state;
   state.labels = before;
-  state.value = state.average = lookUp(image, before);
-  level.constraint.value = state.value;
-  level.constraint.weight = constraintWeights(view, state.value, carried.trust, options.softConstraint);
-  runPasses(synthesizer, level, {0, frame, options.laterIterations, 1, false}, state, stats, progress);
+  state.average = lookUp(image, before);
+  if (tables.image.size() > 1) layOut(synthesizer, view, level.wanted, frame, state.labels, stats, progress);
+  state.value = lookUp(image, state.labels);
+  level.wanted = grown(view.graph, level.wanted, kRim);
+  const std::size_t windows = windowsOf(synthesizer, 0).size();
+  runPasses(synthesizer, level,
+            {0, frame, options.laterIterations, 1, false, windows > 1 ? std::size_t(1) : 0}, state, stats,
+            progress);
   joinLabels(seams, state, kData, level.wanted, &before, keyOf(synthesizer, frame, 0, 1), state.labels);
   result.labels = settle(seams, before, state.labels, carried.trust, result.renewed);
   return result;

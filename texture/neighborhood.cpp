@@ -50,8 +50,8 @@ class Flattener {
     Complexd turn;
   };
 
-  // Flattens all within `half` pixels of the centre. Afterwards placed() holds the piece and reach() how far
-  // it can be trusted.
+  // Flattens all within `half` spacings of the centre. Afterwards placed() holds the piece, in spacings, and
+  // reach() how far it can be trusted.
   void flatten(std::uint32_t center, double half) {
     m_half = half;
     place(center);
@@ -176,9 +176,10 @@ void Flattener::rasterize(int window, PixelSource* pixels) const {
   constexpr double kOnEdge =
       1e-7;  // a pixel on an edge belongs to either triangle; weights are cut off at zero
   const int radius = window / 2;
-  const double limit = m_reach - 0.5 + 1e-6;  // where the neighbourhood is whole this is the radius
+  const double pixel = double(m_view.pixel);
+  const double limit = m_reach / pixel - 0.5 + 1e-6;  // where the neighbourhood is whole this is the radius
   forEachTriangle([&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const Complexd p[3] = {m_placed[a].l, m_placed[b].l, m_placed[c].l};
+    const Complexd p[3] = {m_placed[a].l / pixel, m_placed[b].l / pixel, m_placed[c].l / pixel};
     const auto [left, right] = std::minmax({p[0].real(), p[1].real(), p[2].real()});
     const auto [top, bottom] = std::minmax({p[0].imag(), p[1].imag(), p[2].imag()});
     const int i0 = std::max(-radius, int(std::ceil(left - kOnEdge)));
@@ -186,13 +187,13 @@ void Flattener::rasterize(int window, PixelSource* pixels) const {
     const int j0 = std::max(-radius, int(std::ceil(top - kOnEdge)));
     const int j1 = std::min(radius, int(std::floor(bottom + kOnEdge)));
     if (i0 > i1 || j0 > j1) return;
-    const double area = flatArea(a, b, c);
+    const double area = flatArea(a, b, c) / (pixel * pixel);
     if (area <= 1e-12) return;
     for (int j = j0; j <= j1; ++j) {
       for (int i = i0; i <= i1; ++i) {
         if (std::max(std::abs(i), std::abs(j)) > limit) continue;
-        PixelSource& pixel = pixels[std::size_t(j + radius) * window + (i + radius)];
-        if (!pixel.missing()) continue;
+        PixelSource& source = pixels[std::size_t(j + radius) * window + (i + radius)];
+        if (!source.missing()) continue;
         const Complexd x(i, j);
         double weight[3];
         for (int k = 0; k < 3; ++k) {
@@ -202,8 +203,8 @@ void Flattener::rasterize(int window, PixelSource* pixels) const {
         if (std::min({weight[0], weight[1], weight[2]}) < -kOnEdge) continue;
         for (double& w : weight) w = std::max(w, 0.0);
         const double sum = weight[0] + weight[1] + weight[2];
-        pixel.vertex = {m_placed[a].vertex, m_placed[b].vertex, m_placed[c].vertex};
-        pixel.weight = {float(weight[0] / sum), float(weight[1] / sum), float(weight[2] / sum)};
+        source.vertex = {m_placed[a].vertex, m_placed[b].vertex, m_placed[c].vertex};
+        source.weight = {float(weight[0] / sum), float(weight[1] / sum), float(weight[2] / sum)};
       }
     }
   });
@@ -225,12 +226,12 @@ std::vector<std::uint32_t> selectCenters(const MeshView& view, float radius,
                                          const std::vector<std::uint8_t>& wanted) {
   const std::vector<Vec3f>& x = view.mesh.positions;
   const std::size_t count = x.size();
-  const auto reach = float(radius * view.mesh.spacing);
+  const auto reach = float(radius * view.pixel * view.mesh.spacing);
 
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
   order.reserve(count);
   for (std::uint32_t v = 0; v < count; ++v)
-    if (wanted.empty() || wanted[v]) order.emplace_back(mix64(v), v);
+    if (view.isMember(v) && (wanted.empty() || wanted[v])) order.emplace_back(mix64(v), v);
   std::sort(order.begin(), order.end());
 
   std::vector<std::uint32_t> centers, queue;
@@ -264,8 +265,9 @@ Flatteners makeFlatteners(const MeshView& view) {
   return Flatteners([view] { return Flattener(view); });
 }
 
-Neighborhoods build(Flatteners& flatteners, int window, std::vector<std::uint32_t> centers,
-                    PixelNeighborhoods* pixels, double widest = std::numeric_limits<double>::infinity()) {
+Neighborhoods build(const MeshView& view, Flatteners& flatteners, int window,
+                    std::vector<std::uint32_t> centers, PixelNeighborhoods* pixels,
+                    double widest = std::numeric_limits<double>::infinity()) {
   if (window < 3 || window % 2 == 0)
     throw std::invalid_argument("the width of a window must be odd and at least 3");
   constexpr std::size_t kChunk = 64;
@@ -276,6 +278,7 @@ Neighborhoods build(Flatteners& flatteners, int window, std::vector<std::uint32_
   result.reach.resize(count);
   result.first.assign(count + 1, 0);
   const std::size_t area = std::size_t(window) * window;
+  const double pixel = double(view.pixel);
   if (pixels) pixels->assign(count * area, PixelSource{});
 
   struct Piece {
@@ -288,11 +291,12 @@ Neighborhoods build(Flatteners& flatteners, int window, std::vector<std::uint32_
     Flattener& flattener = flatteners.local();
     Piece& piece = pieces[chunk];
     for (std::size_t p = chunk * kChunk; p < std::min(count, (chunk + 1) * kChunk); ++p) {
-      flattener.flatten(result.center[p], std::min(0.5 * window, widest));
-      result.reach[p] = float(flattener.reach());
+      flattener.flatten(result.center[p], pixel * std::min(0.5 * window, widest));
+      result.reach[p] = float(flattener.reach() / pixel);
       const std::size_t before = piece.vertex.size();
       for (const Flattener::Placed& placed : flattener.placed()) {
-        const Vec2f l(float(placed.l.real()), float(placed.l.imag()));
+        const Vec2f l(float(placed.l.real() / pixel), float(placed.l.imag() / pixel));
+        if (!view.isMember(placed.vertex)) continue;
         if (std::max(std::abs(l[0]), std::abs(l[1])) >= result.reach[p]) continue;
         piece.vertex.push_back(placed.vertex);
         piece.offset.push_back(l);
@@ -322,23 +326,25 @@ Neighborhoods build(Flatteners& flatteners, int window, std::vector<std::uint32_
 Neighborhoods buildNeighborhoods(const MeshView& view, int window, std::vector<std::uint32_t> centers,
                                  PixelNeighborhoods* pixels, double widest) {
   Flatteners flatteners = makeFlatteners(view);
-  return build(flatteners, window, std::move(centers), pixels, widest);
+  return build(view, flatteners, window, std::move(centers), pixels, widest);
 }
 
 Neighborhoods coverSurface(const MeshView& view, int window, const std::vector<std::uint8_t>& wanted,
                            PixelNeighborhoods* pixels) {
   Flatteners flatteners = makeFlatteners(view);
   Neighborhoods result =
-      build(flatteners, window, selectCenters(view, 0.25f * float(window), wanted), pixels);
+      build(view, flatteners, window, selectCenters(view, 0.25f * float(window), wanted), pixels);
   const std::size_t count = view.mesh.positions.size();
   // A shrunk neighbourhood may not reach all that its centre was to cover; the second radius makes every
   // vertex its own. Where those are needed nothing wide can be flattened, so that nothing wide is tried.
   for (const float radius : {1.0f, 0.0f}) {
     std::vector<std::uint8_t> open = wanted.empty() ? std::vector<std::uint8_t>(count, 1) : wanted;
     for (const std::uint32_t v : result.vertex) open[v] = 0;
+    if (view.members)
+      for (std::uint32_t v = 0; v < count; ++v) open[v] = open[v] && view.isMember(v);
     if (std::find_if(open.begin(), open.end(), [](std::uint8_t o) { return o != 0; }) == open.end()) break;
     PixelNeighborhoods morePixels;
-    append(result, build(flatteners, window, selectCenters(view, radius, open),
+    append(result, build(view, flatteners, window, selectCenters(view, radius, open),
                          pixels ? &morePixels : nullptr, kFillerReach));
     if (pixels) pixels->insert(pixels->end(), morePixels.begin(), morePixels.end());
   }

@@ -10,8 +10,8 @@
 #include "texture/tangent.h"
 
 #include <array>
-#include <limits>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace fluidtex::texture {
@@ -47,10 +47,18 @@ struct PixelSource {
 using PixelNeighborhoods = std::vector<PixelSource>;
 
 // What neighbourhoods are made from. Axes are mesh.orientation.
+//
+// A mesh can be looked at with less detail than it has: with `pixel` 2 an exemplar pixel is two spacings
+// wide, and of the vertices only `members` count, which then should be about that far apart. Flattening still
+// goes over all of them.
 struct MeshView {
   const SurfaceMesh& mesh;
   const VertexGraph& graph;
   const Connection& connection;
+  float pixel = 1.0f;                                  // of windows, offsets and radii, in spacings
+  const std::vector<std::uint8_t>* members = nullptr;  // #V; null: all vertices
+
+  bool isMember(std::uint32_t v) const { return !members || (*members)[v]; }
 };
 
 // Vertices spread over those where wanted[v] != 0 (empty: over all), so that each of them lies within

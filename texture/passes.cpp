@@ -78,7 +78,9 @@ std::uint64_t keyOf(const Synthesizer& synthesizer, int frame, int level, int wi
 
 void runPasses(Synthesizer& synthesizer, const Level& level, const PassPlan& plan, State& state,
                SynthesisStats& stats, const Progress& progress) {
-  const auto windows = windowsOf(synthesizer, plan.index);
+  auto windows = windowsOf(synthesizer, plan.index);
+  windows.erase(windows.begin() + std::ptrdiff_t(std::min(plan.end, windows.size())), windows.end());
+  windows.erase(windows.begin(), windows.begin() + std::ptrdiff_t(std::min(plan.begin, windows.size())));
   const bool labels = synthesizer.options.method == Method::coordinates;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     Pass pass;

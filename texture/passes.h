@@ -48,6 +48,7 @@ struct PassPlan {
   const std::vector<int>& iterations;  // by window; the last one stands for those that follow
   int factor = 1;                      // of the iterations
   bool tree = true;                    // search the tree of windows; else those like the best so far
+  std::size_t begin = 0, end = 1000;   // of the windows that fit, the widest first
 };
 
 // One pass a window, the widest first. Adds what it did to stats.
