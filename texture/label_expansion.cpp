@@ -21,7 +21,7 @@ namespace {
 
 // All in pixels.
 constexpr float kDisc = 18.0f;           // radius of what one cut may change
-constexpr float kCenters = 6.5f;         // discs' centres are about 10 apart
+constexpr float kCenters = 10.0f;        // discs' centres are about 15 apart
 constexpr float kSeamReach = 9.0f;       // a disc is looked at where a seam lies this near to its centre
 constexpr float kProposalsFrom = 12.0f;  // from the centre
 constexpr int kProposals = 5;            // the centre's own label among them
@@ -246,8 +246,7 @@ class Expansion {
           work.ownThen[j] += seamCost(m_model, m_labels[v], work.proposed[j], h);
         } else {
           addPair(i, j, keepKeep, seamCost(m_model, m_labels[v], work.proposed[j], h),
-                  seamCost(m_model, work.proposed[i], m_labels[u], h),
-                  seamCost(m_model, work.proposed[i], work.proposed[j], h), work);
+                  seamCost(m_model, work.proposed[i], m_labels[u], h), work);
         }
       }
     }
@@ -259,18 +258,17 @@ class Expansion {
     return settleCut(now, work, changes);
   }
 
-  // A pair's four costs as what own costs and a cut can express. Seam costs are a metric but for what
-  // coherence forgives; where the triangle inequality fails, the mixed cases cost more than they should,
-  // which at worst leaves a label as it is.
+  // A pair's four costs as what own costs and a cut can express. Where both take there is no seam: they get
+  // one label, continued. Seam costs are a metric but for what coherence forgives; where the triangle
+  // inequality fails, the mixed cases count for more than they cost, which at worst leaves a label as it is.
   static void addPair(std::uint32_t i, std::uint32_t j, float keepKeep, float keepTake, float takeKeep,
-                      float takeTake, Workspace& work) {
-    // E = keepKeep + x_i (takeKeep - keepKeep) + x_j (takeTake - takeKeep) + (1 - x_i) x_j (keepTake +
-    // takeKeep - keepKeep - takeTake)
+                      Workspace& work) {
+    // With x = 1 where an end takes: keepKeep + x_i (takeKeep - keepKeep) - x_j takeKeep + (1 - x_i) x_j
+    // mixed.
     work.ownNow[i] += keepKeep;
     work.ownThen[i] += takeKeep;
-    const float rise = takeTake - takeKeep;
-    (rise > 0.0f ? work.ownThen[j] : work.ownNow[j]) += std::abs(rise);
-    const float mixed = keepTake + takeKeep - keepKeep - takeTake;
+    work.ownNow[j] += takeKeep;
+    const float mixed = keepTake + takeKeep - keepKeep;
     if (mixed > 0.0f) work.cut.addPair(i, j, mixed, 0.0f);
   }
 

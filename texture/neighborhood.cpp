@@ -62,11 +62,16 @@ class Flattener {
   const std::vector<Placed>& placed() const { return m_placed; }
   double reach() const { return m_reach; }
 
-  // Fills the window's pixels from the flattened triangles. `pixels`: window^2, as they come from their
-  // constructor.
-  void rasterize(int window, PixelSource* pixels) const;
+  // Fills the window's pixels from the flattened triangles; where only some vertices are members, from the
+  // nearest of those. `pixels`: window^2, as they come from their constructor.
+  void rasterize(int window, PixelSource* pixels) const {
+    m_view.members ? fromNearest(window, pixels) : fromTriangles(window, pixels);
+  }
 
  private:
+  void fromTriangles(int window, PixelSource* pixels) const;
+  void fromNearest(int window, PixelSource* pixels) const;
+
   // The turn of a vertex as its neighbour over edge h has it; h is the vertex's own.
   Complexd turnThrough(const Placed& neighbor, std::uint32_t h) const {
     return product(neighbor.turn, std::conj(Complexd(m_view.connection.rotation[h])));
@@ -172,14 +177,13 @@ class Flattener {
   double m_half = 0.0, m_reach = 0.0;
 };
 
-void Flattener::rasterize(int window, PixelSource* pixels) const {
+void Flattener::fromTriangles(int window, PixelSource* pixels) const {
   constexpr double kOnEdge =
       1e-7;  // a pixel on an edge belongs to either triangle; weights are cut off at zero
   const int radius = window / 2;
-  const double pixel = double(m_view.pixel);
-  const double limit = m_reach / pixel - 0.5 + 1e-6;  // where the neighbourhood is whole this is the radius
+  const double limit = m_reach - 0.5 + 1e-6;  // where the neighbourhood is whole this is the radius
   forEachTriangle([&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const Complexd p[3] = {m_placed[a].l / pixel, m_placed[b].l / pixel, m_placed[c].l / pixel};
+    const Complexd p[3] = {m_placed[a].l, m_placed[b].l, m_placed[c].l};
     const auto [left, right] = std::minmax({p[0].real(), p[1].real(), p[2].real()});
     const auto [top, bottom] = std::minmax({p[0].imag(), p[1].imag(), p[2].imag()});
     const int i0 = std::max(-radius, int(std::ceil(left - kOnEdge)));
@@ -187,13 +191,13 @@ void Flattener::rasterize(int window, PixelSource* pixels) const {
     const int j0 = std::max(-radius, int(std::ceil(top - kOnEdge)));
     const int j1 = std::min(radius, int(std::floor(bottom + kOnEdge)));
     if (i0 > i1 || j0 > j1) return;
-    const double area = flatArea(a, b, c) / (pixel * pixel);
+    const double area = flatArea(a, b, c);
     if (area <= 1e-12) return;
     for (int j = j0; j <= j1; ++j) {
       for (int i = i0; i <= i1; ++i) {
         if (std::max(std::abs(i), std::abs(j)) > limit) continue;
-        PixelSource& source = pixels[std::size_t(j + radius) * window + (i + radius)];
-        if (!source.missing()) continue;
+        PixelSource& pixel = pixels[std::size_t(j + radius) * window + (i + radius)];
+        if (!pixel.missing()) continue;
         const Complexd x(i, j);
         double weight[3];
         for (int k = 0; k < 3; ++k) {
@@ -203,11 +207,43 @@ void Flattener::rasterize(int window, PixelSource* pixels) const {
         if (std::min({weight[0], weight[1], weight[2]}) < -kOnEdge) continue;
         for (double& w : weight) w = std::max(w, 0.0);
         const double sum = weight[0] + weight[1] + weight[2];
-        source.vertex = {m_placed[a].vertex, m_placed[b].vertex, m_placed[c].vertex};
-        source.weight = {float(weight[0] / sum), float(weight[1] / sum), float(weight[2] / sum)};
+        pixel.vertex = {m_placed[a].vertex, m_placed[b].vertex, m_placed[c].vertex};
+        pixel.weight = {float(weight[0] / sum), float(weight[1] / sum), float(weight[2] / sum)};
       }
     }
   });
+}
+
+// The three nearest members, each the more the nearer it is.
+void Flattener::fromNearest(int window, PixelSource* pixels) const {
+  constexpr double kFarthest = 1.6;  // pixels
+  const int radius = window / 2;
+  const double limit = m_reach / double(m_view.pixel) - 0.5 + 1e-6;
+  for (const Placed& placed : m_placed) {
+    if (!m_view.isMember(placed.vertex)) continue;
+    const Complexd l = placed.l / double(m_view.pixel);
+    const int i0 = std::max(-radius, int(std::ceil(l.real() - kFarthest)));
+    const int i1 = std::min(radius, int(std::floor(l.real() + kFarthest)));
+    const int j0 = std::max(-radius, int(std::ceil(l.imag() - kFarthest)));
+    const int j1 = std::min(radius, int(std::floor(l.imag() + kFarthest)));
+    for (int j = j0; j <= j1; ++j)
+      for (int i = i0; i <= i1; ++i) {
+        const double distance = std::norm(l - Complexd(i, j));
+        if (std::max(std::abs(i), std::abs(j)) > limit || distance > kFarthest * kFarthest) continue;
+        PixelSource& pixel = pixels[std::size_t(j + radius) * window + (i + radius)];
+        std::uint32_t vertex = placed.vertex;
+        auto weight = float(1.0 / (distance + 0.05));
+        for (int k = 0; k < 3; ++k)
+          if (weight > pixel.weight[k])
+            std::swap(weight, pixel.weight[k]), std::swap(vertex, pixel.vertex[k]);
+      }
+  }
+  for (int i = 0; i < window * window; ++i) {
+    PixelSource& pixel = pixels[i];
+    if (pixel.missing()) continue;
+    const float sum = pixel.weight[0] + pixel.weight[1] + pixel.weight[2];
+    for (float& w : pixel.weight) w /= sum;
+  }
 }
 
 void append(Neighborhoods& to, const Neighborhoods& more) {

@@ -18,6 +18,8 @@ constexpr float kLeastGain = 0.05f;  // a piece is renewed if its badness falls 
 constexpr int kBlurSweeps = 16;      // badness is averaged over about this many edges' reach in all
 constexpr float kDiscShare = 0.8f, kDiscsApart = 1.6f;  // of a disc's nominal radius
 constexpr float kMostYoung = 0.35f;                     // share of a disc
+constexpr float kTooYoung =
+    0.3f;  // around a centre with more of it none is tried again, of the nominal radius
 // Where badness is this many times what is kept, discs may cover more than the budget.
 constexpr float kUrgent = 2.0f;
 constexpr double kUrgentBudget = 3.0;
@@ -137,7 +139,8 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
     Disc disc{center, surroundings.within(center, double(kDiscShare) * options.radius), 1.0f};
     const auto fresh = std::count_if(disc.members.begin(), disc.members.end(), young);
     if (float(fresh) > kMostYoung * float(disc.members.size())) {
-      near[center] = 1;
+      for (const std::uint32_t v : surroundings.within(center, double(kTooYoung) * options.radius))
+        near[v] = 1;
       continue;
     }
     disc.growth = growthOf(labels, disc.members);
