@@ -1,6 +1,7 @@
 #include "texture/later_frame.h"
 
 #include "texture/complex.h"
+#include "texture/fresh_start.h"
 #include "texture/parallel.h"
 #include "texture/renewal.h"
 
@@ -91,19 +92,25 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const MeshView& view, const
   const TexelImage& image = tables.image.front();
   const SeamModel seams = seamModel(synthesizer, view, 0);
   const Labels before = labelsOf(view.mesh, carried.coordinate, carried.gradient);
-  LaterFrame result{before, std::vector<std::uint8_t>(before.size(), 0)};
+  const std::vector<float> bad = badnessAround(seams, before, carried.trust);
+  LaterFrame result{before, std::vector<std::uint8_t>(before.size(), 0), std::vector<float>(before.size())};
+  forEachIndex(before.size(), [&](std::uint32_t v) {
+    result.fadingSpeed[v] = fadingSpeed(bad[v], carried.age[v], options.keepStretch, options.fade);
+  });
 
   const DiscOptions discOptions{options.keepStretch, options.renewalRadius,
                                 options.renewalRate * secondsSinceLast};
   Level level{view, image, tables.histogram.front(), {}, lostLabels(seams, before, carried.trust)};
-  for (const Disc& disc :
-       worstDiscs(seams, before, carried.trust, carried.fading.weight, discOptions, options.seed))
+  const std::vector<Disc> discs =
+      worstDiscs(seams, before, bad, carried.trust, carried.fading.weight, discOptions, options.seed);
+  for (const Disc& disc : discs)
     for (const std::uint32_t v : disc.members) level.wanted[v] = 1;
   if (!any(level.wanted)) return result;
 
   State state;
   state.labels = before;
   state.average = lookUp(image, before);
+  startAfresh(view, image, discs, state.average, keyOf(synthesizer, frame, 0, 2), state.labels);
   if (tables.image.size() > 1) layOut(synthesizer, view, level.wanted, frame, state.labels, stats, progress);
   state.value = lookUp(image, state.labels);
   level.wanted = grown(view.graph, level.wanted, kRim);

@@ -22,7 +22,6 @@ constexpr float kTooYoung =
     0.3f;  // around a centre with more of it none is tried again, of the nominal radius
 // Where badness is this many times what is kept, discs may cover more than the budget.
 constexpr float kUrgent = 2.0f;
-constexpr double kUrgentBudget = 3.0;
 
 bool lost(const TexelImage& image, const Label& label, float trust) {
   if (!believed(trust)) return true;
@@ -104,22 +103,33 @@ class Surroundings {
   std::uint32_t m_current = 0;
 };
 
-float growthOf(const Labels& labels, const std::vector<std::uint32_t>& members) {
+float growthOf(const Labels& labels, const std::vector<float>& trust,
+               const std::vector<std::uint32_t>& members) {
   double texels = 0.0;
   for (const std::uint32_t v : members) {
     const std::array<float, 4>& j = labels[v].jacobian;
-    texels += std::clamp(std::abs(double(j[0]) * double(j[3]) - double(j[1]) * double(j[2])), 0.01, 100.0);
+    const double own = std::abs(double(j[0]) * double(j[3]) - double(j[1]) * double(j[2]));
+    texels += std::clamp(believed(trust[v]) ? own : 0.0, 0.01, 100.0);
   }
   return float(double(members.size()) / texels);
 }
 
 }  // namespace
 
-std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const std::vector<float>& trust,
-                             const std::vector<float>& fading, const DiscOptions& options,
-                             std::uint64_t seed) {
+std::vector<float> badnessAround(const SeamModel& model, const Labels& labels,
+                                 const std::vector<float>& trust) {
+  return blurred(model.view.graph, badness(model, labels, trust));
+}
+
+float fadingSpeed(float bad, float age, double keepStretch, double fade) {
+  const double perSecond = double(bad) / std::max(double(age), 1e-3) / std::log(std::max(keepStretch, 1.01));
+  return float(std::max(1.0 / fade, perSecond));
+}
+
+std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const std::vector<float>& bad,
+                             const std::vector<float>& trust, const std::vector<float>& fading,
+                             const DiscOptions& options, std::uint64_t seed) {
   const std::size_t count = labels.size();
-  const std::vector<float> bad = blurred(model.view.graph, badness(model, labels, trust));
   const auto young = [&](std::uint32_t v) { return fading[v] > 0.0f && believed(trust[v]); };
   const auto kept = float(std::log(options.keepStretch));
   std::vector<std::uint32_t> candidates = gathered<std::uint32_t>(count, [&](std::uint32_t v, auto& list) {
@@ -133,8 +143,7 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
   Surroundings surroundings(model.view);
   double covered = 0.0;
   for (const std::uint32_t center : candidates) {
-    const double urgency = bad[center] > kUrgent * kept ? kUrgentBudget : 1.0;
-    if (covered >= urgency * options.budget * double(count)) break;
+    if (bad[center] < kUrgent * kept && covered >= options.budget * double(count)) break;
     if (near[center]) continue;
     Disc disc{center, surroundings.within(center, double(kDiscShare) * options.radius), 1.0f};
     const auto fresh = std::count_if(disc.members.begin(), disc.members.end(), young);
@@ -143,7 +152,7 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
         near[v] = 1;
       continue;
     }
-    disc.growth = growthOf(labels, disc.members);
+    disc.growth = growthOf(labels, trust, disc.members);
     covered += double(disc.members.size());
     for (const std::uint32_t v : surroundings.within(center, double(kDiscsApart) * options.radius))
       near[v] = 1;

@@ -49,6 +49,7 @@ struct Fading {
   std::vector<Vec2f> coordinate;         // exemplar coordinate, texels
   std::vector<TexelGradient> gradient;
   std::vector<float> weight;             // 1: all of the colour is the old place's, 0: none, and the place means nothing
+  std::vector<float> speed;              // 1/s: by how much the weight falls
 };
 
 // The earlier frame's texture brought onto a new surface. Every array has one entry per vertex of levels[0], or none at all

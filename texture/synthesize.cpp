@@ -53,28 +53,34 @@ void checkSizes(const SurfaceMesh& mesh, const Carried& carried) {
   if (carried.empty()) return;
   if (!right(carried.color.size()) || !right(carried.coordinate.size()) || !right(carried.gradient.size()) ||
       !right(carried.fading.coordinate.size()) || !right(carried.fading.gradient.size()) ||
-      !right(carried.fading.weight.size()) || !right(carried.age.size()) || !right(carried.trust.size()) ||
-      !right(carried.previousPosition.size()))
+      !right(carried.fading.weight.size()) || !right(carried.fading.speed.size()) ||
+      !right(carried.age.size()) || !right(carried.trust.size()) || !right(carried.previousPosition.size()))
     throw std::invalid_argument("synthesize: carried arrays must have one entry per vertex");
 }
 
 // What fades after a frame. A vertex renewed now shows what it showed before, and that gives way; where
 // nothing meaningful was shown, the new texture stands at once.
-Fading fadingAfter(const Carried& carried, const std::vector<std::uint8_t>& renewed, double fade,
-                   double seconds, std::size_t count) {
-  Fading result{std::vector<Vec2f>(count), std::vector<TexelGradient>(count),
-                std::vector<float>(count, 0.0f)};
-  if (carried.empty() || !(fade > seconds)) return result;
-  const auto step = float(seconds / fade);
+Fading fadingAfter(const Carried& carried, const LaterFrame& later, double seconds) {
+  const std::size_t count = later.labels.size();
+  Fading result = carried.fading;
   forEachIndex(count, [&](std::uint32_t v) {
-    if (renewed[v] && !believed(carried.trust[v])) return;
-    // Of a vertex that is renewed while it still fades, the place that is seen more goes on.
-    const bool former = !renewed[v] || carried.fading.weight[v] > 0.5f;
-    result.weight[v] = std::max(0.0f, (renewed[v] ? 1.0f : carried.fading.weight[v]) - step);
-    result.coordinate[v] = former ? carried.fading.coordinate[v] : carried.coordinate[v];
-    result.gradient[v] = former ? carried.fading.gradient[v] : carried.gradient[v];
+    if (later.renewed[v]) {
+      result.weight[v] = believed(carried.trust[v]) ? 1.0f : 0.0f;
+      result.speed[v] = later.fadingSpeed[v];
+      // Of a vertex that is renewed while it still fades, the place that is seen more goes on.
+      if (carried.fading.weight[v] <= 0.5f) {
+        result.coordinate[v] = carried.coordinate[v];
+        result.gradient[v] = carried.gradient[v];
+      }
+    }
+    result.weight[v] = std::max(0.0f, result.weight[v] - result.speed[v] * float(seconds));
   });
   return result;
+}
+
+Fading nothingFading(std::size_t count) {
+  return {std::vector<Vec2f>(count), std::vector<TexelGradient>(count), std::vector<float>(count, 0.0f),
+          std::vector<float>(count, 0.0f)};
 }
 
 // The exemplar's colour at the present place mixed with that at the old one, premultiplied.
@@ -142,6 +148,7 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
     if (labels) {
       LaterFrame later =
           synthesizeLater(synthesizer, prepared.view(), carried, frame, secondsSinceLast, stats, progress);
+      result.fading = fadingAfter(carried, later, secondsSinceLast);
       state.labels = std::move(later.labels);
       renewed = std::move(later.renewed);
     } else {
@@ -155,8 +162,7 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
   result.coordinate.resize(count);
   result.gradient.resize(count);
   result.age.assign(count, 0.0f);
-  result.fading =
-      fadingAfter(carried, renewed, labels ? synthesizer.options.fade : 0.0, secondsSinceLast, count);
+  if (result.fading.weight.empty()) result.fading = nothingFading(count);
   const TexelImage& image = synthesizer.tables->image.front();
   forEachIndex(count, [&](std::uint32_t v) {
     const Label& label = state.labels[v];

@@ -45,6 +45,7 @@ void eachPart(Surface& surface, Visit&& visit) {
   visit(surface.fading.coordinate);
   visit(surface.fading.gradient);
   visit(surface.fading.weight);
+  visit(surface.fading.speed);
   visit(surface.age);
   visit(surface.trust);
   visit(surface.previousPosition);
@@ -102,7 +103,8 @@ bool fitsTogether(const texture::TexturedSurface& surface) {
   const std::size_t count = surface.positions.size();
   const auto fits = [&](const auto&... arrays) { return ((arrays.size() == count) && ...); };
   return fits(surface.normals, surface.orientation, surface.color, surface.coordinate, surface.gradient,
-              surface.fading.coordinate, surface.fading.gradient, surface.fading.weight, surface.age, surface.trust, surface.previousPosition, surface.velocity, surface.contact) &&
+              surface.fading.coordinate, surface.fading.gradient, surface.fading.weight, surface.fading.speed,
+              surface.age, surface.trust, surface.previousPosition, surface.velocity, surface.contact) &&
          std::all_of(surface.maps.begin(), surface.maps.end(),
                      [&](const auto& map) { return fits(map.second); }) &&
          std::all_of(surface.triangles.begin(), surface.triangles.end(),

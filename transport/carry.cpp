@@ -135,15 +135,17 @@ TexelGradient deformed(const TexelGradient& gradient, const Mat3d& map, const Ve
   return {row(gradient.s), row(gradient.t)};
 }
 
-// Where in the exemplar a vertex that landed near a corner comes from, and how that changes around it: the corner's own
-// place plus its gradient times the offset. Never an average of corners, between which there may be a jump.
+// Where in the exemplar a vertex that landed near a corner comes from, and how that changes around it: the
+// corner's own place plus its gradient times the offset. Never an average of corners, between which there may
+// be a jump.
 struct Place {
   Vec2f coordinate;
   TexelGradient gradient;
 };
 Place placeNear(const Vec2f& coordinate, const TexelGradient& gradient, const Vec3f& offset, const Mat3d& map,
                 const Vec3f& normal) {
-  return {coordinate + Vec2f(gradient.s.dot(offset), gradient.t.dot(offset)), deformed(gradient, map, normal)};
+  return {coordinate + Vec2f(gradient.s.dot(offset), gradient.t.dot(offset)),
+          deformed(gradient, map, normal)};
 }
 
 // How far the value is believed: exp(-(distance to the old surface / scale)^2), times the share of the path
@@ -203,7 +205,8 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   carried.color.resize(count);
   carried.coordinate.resize(count);
   carried.gradient.resize(count);
-  carried.fading = {std::vector<Vec2f>(count), std::vector<TexelGradient>(count), std::vector<float>(count)};
+  carried.fading = {std::vector<Vec2f>(count), std::vector<TexelGradient>(count), std::vector<float>(count),
+                    std::vector<float>(count)};
   carried.age.resize(count);
   carried.trust.resize(count);
   carried.previousPosition.resize(count);
@@ -219,7 +222,8 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
 
     const std::uint32_t corner = landing.corners[landing.nearest];
     const Vec3f offset(landing.point.position - Vec3d(previous.positions[corner]));
-    const Place place = placeNear(previous.coordinate[corner], previous.gradient[corner], offset, map, normal);
+    const Place place =
+        placeNear(previous.coordinate[corner], previous.gradient[corner], offset, map, normal);
     carried.coordinate[v] = place.coordinate;
     carried.gradient[v] = place.gradient;
     const texture::Fading& fading = previous.fading;
@@ -227,6 +231,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
     carried.fading.coordinate[v] = former.coordinate;
     carried.fading.gradient[v] = former.gradient;
     carried.fading.weight[v] = fading.weight[corner];
+    carried.fading.speed[v] = fading.speed[corner];
     carried.color[v] = colorAt(previous, landing);
     carried.orientation[v] = turnedWithFlow(orientationAt(previous, landing, symmetry), map, normal);
     for (int i = 0; i < 3; ++i) carried.age[v] += previous.age[landing.corners[i]] * landing.point.weight[i];

@@ -21,6 +21,7 @@ inline fluidtex::texture::TexturedSurface sampleSurface() {
     s.fading.coordinate.emplace_back(f, 3.0f - f);
     s.fading.gradient.push_back({{7, f, 2}, {f, 8, 9}});
     s.fading.weight.push_back(0.3f * f);
+    s.fading.speed.push_back(2.0f + f);
     s.age.push_back(0.1f * f);
     s.trust.push_back(0.2f * f);
     s.previousPosition.emplace_back(f, f, f);

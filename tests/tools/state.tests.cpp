@@ -35,6 +35,7 @@ TEST_CASE("state: a surface comes back bit for bit", "[tools]") {
   CHECK(back.color == surface.color);
   CHECK(back.fading.coordinate == surface.fading.coordinate);
   CHECK(back.fading.weight == surface.fading.weight);
+  CHECK(back.fading.speed == surface.fading.speed);
   CHECK(back.age == surface.age);
   CHECK(back.maps == surface.maps);
   tools::writeSurface(back, scratch.path / "b");

@@ -66,6 +66,7 @@ inline TexturedSurface texturedMesh(const SurfaceMesh& mesh, const Flow& directi
     texture.fading.gradient.push_back({projected(Vec3f(0, float(kTexelsPerMeter), 0), n),
                                        projected(Vec3f(-float(kTexelsPerMeter), 0, 0), n)});
     texture.fading.weight.push_back(0.25f);
+    texture.fading.speed.push_back(2.5f);
     texture.age.push_back(2.0f + x.z());
     texture.trust.push_back(1.0f);
   }
@@ -97,6 +98,7 @@ inline void requireWhole(const Carried& carried, const SurfaceMesh& mesh) {
   REQUIRE(carried.fading.coordinate.size() == count);
   REQUIRE(carried.fading.gradient.size() == count);
   REQUIRE(carried.fading.weight.size() == count);
+  REQUIRE(carried.fading.speed.size() == count);
   REQUIRE(carried.age.size() == count);
   REQUIRE(carried.trust.size() == count);
   REQUIRE(carried.previousPosition.size() == count);
