@@ -92,17 +92,17 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const MeshView& view, const
   const TexelImage& image = tables.image.front();
   const SeamModel seams = seamModel(synthesizer, view, 0);
   const Labels before = labelsOf(view.mesh, carried.coordinate, carried.gradient);
-  const std::vector<float> bad = badnessAround(seams, before, carried.trust);
+  const Wear wear = wearAround(seams, before, carried.trust);
   LaterFrame result{before, std::vector<std::uint8_t>(before.size(), 0), std::vector<float>(before.size())};
   forEachIndex(before.size(), [&](std::uint32_t v) {
-    result.fadingSpeed[v] = fadingSpeed(bad[v], carried.age[v], options.keepStretch, options.fade);
+    result.fadingSpeed[v] = fadingSpeed(wear.stretch[v], carried.age[v], options.keepStretch, options.fade);
   });
 
   const DiscOptions discOptions{options.keepStretch, options.renewalRadius,
                                 options.renewalRate * secondsSinceLast};
   Level level{view, image, tables.histogram.front(), {}, lostLabels(seams, before, carried.trust)};
   const std::vector<Disc> discs =
-      worstDiscs(seams, before, bad, carried.trust, carried.fading.weight, discOptions, options.seed);
+      worstDiscs(seams, before, wear, carried.trust, carried.fading.weight, discOptions, options.seed);
   for (const Disc& disc : discs)
     for (const std::uint32_t v : disc.members) level.wanted[v] = 1;
   if (!any(level.wanted)) return result;

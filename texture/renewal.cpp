@@ -20,7 +20,7 @@ constexpr float kDiscShare = 0.8f, kDiscsApart = 1.6f;  // of a disc's nominal r
 constexpr float kMostYoung = 0.35f;                     // share of a disc
 constexpr float kTooYoung =
     0.3f;  // around a centre with more of it none is tried again, of the nominal radius
-// Where badness is this many times what is kept, discs may cover more than the budget.
+// Where the stretch is this many times what is kept, discs may cover more than the budget.
 constexpr float kUrgent = 2.0f;
 
 bool lost(const TexelImage& image, const Label& label, float trust) {
@@ -116,20 +116,25 @@ float growthOf(const Labels& labels, const std::vector<float>& trust,
 
 }  // namespace
 
-std::vector<float> badnessAround(const SeamModel& model, const Labels& labels,
-                                 const std::vector<float>& trust) {
-  return blurred(model.view.graph, badness(model, labels, trust));
+Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<float>& trust) {
+  std::vector<float> stretched(labels.size());
+  forEachIndex(labels.size(), [&](std::uint32_t v) {
+    stretched[v] = lost(model.image, labels[v], trust[v]) ? 0.0f : std::log(stretch(labels[v]));
+  });
+  return {blurred(model.view.graph, badness(model, labels, trust)),
+          blurred(model.view.graph, std::move(stretched))};
 }
 
-float fadingSpeed(float bad, float age, double keepStretch, double fade) {
-  const double perSecond = double(bad) / std::max(double(age), 1e-3) / std::log(std::max(keepStretch, 1.01));
-  return float(std::max(1.0 / fade, perSecond));
+float fadingSpeed(float logStretch, float age, double keepStretch, double fade) {
+  const double most = double(kUrgent) * std::log(std::max(keepStretch, 1.01));
+  return float(std::max(1.0 / fade, double(logStretch) / std::max(double(age), 1e-3) / most));
 }
 
-std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const std::vector<float>& bad,
+std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,
                              const std::vector<float>& trust, const std::vector<float>& fading,
                              const DiscOptions& options, std::uint64_t seed) {
   const std::size_t count = labels.size();
+  const std::vector<float>& bad = wear.bad;
   const auto young = [&](std::uint32_t v) { return fading[v] > 0.0f && believed(trust[v]); };
   const auto kept = float(std::log(options.keepStretch));
   std::vector<std::uint32_t> candidates = gathered<std::uint32_t>(count, [&](std::uint32_t v, auto& list) {
@@ -143,7 +148,7 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
   Surroundings surroundings(model.view);
   double covered = 0.0;
   for (const std::uint32_t center : candidates) {
-    if (bad[center] < kUrgent * kept && covered >= options.budget * double(count)) break;
+    if (wear.stretch[center] < kUrgent * kept && covered >= options.budget * double(count)) continue;
     if (near[center]) continue;
     Disc disc{center, surroundings.within(center, double(kDiscShare) * options.radius), 1.0f};
     const auto fresh = std::count_if(disc.members.begin(), disc.members.end(), young);

@@ -29,26 +29,29 @@ struct Disc {
 struct DiscOptions {
   double keepStretch = 1.35;  // what is coherent and stretched less is kept
   double radius = 36.0;       // pixels; discs reach 0.8 of it, and their centres are at least 1.6 of it apart
-  double budget =
-      0.1;  // share of the vertices that discs may cover; more where badness is twice what is kept
+  // Share of the vertices that discs may cover; more where the stretch is twice what is kept.
+  double budget = 0.1;
 };
 
-// badness() averaged over half a small window.
-std::vector<float> badnessAround(const SeamModel& model, const Labels& labels,
-                                 const std::vector<float>& trust);
+// Averages over half a small window.
+struct Wear {
+  std::vector<float> bad;      // #V: badness()
+  std::vector<float> stretch;  // #V: log stretch() alone; 0 where a label is beyond use
+};
+Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<float>& trust);
 
-// Discs around the worst places, worst first, until the budget is used: where badnessAround() exceeds that of
+// Discs around the worst places, worst first, until the budget is used: where wear is worse than that of
 // texture stretched by keepStretch. The threshold varies by a fifth, smoothly over the exemplar, so that
 // neighbours do not renew at once. What still takes the place of older texture (`fading`, its weight) is left
 // alone, and discs that hold much of it are left for later.
-std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const std::vector<float>& bad,
+std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,
                              const std::vector<float>& trust, const std::vector<float>& fading,
                              const DiscOptions& options, std::uint64_t seed);
 
 // 1/s, how fast the old texture gives way where it is renewed: in `fade` seconds, or in the time in which
-// texture at this place gets as bad as keepStretch, if that is shorter. The time is told by how bad (`bad`)
-// it has become since it was laid (`age`).
-float fadingSpeed(float bad, float age, double keepStretch, double fade);
+// texture at this place is stretched by keepStretch twice over, if that is shorter. The time is told by its log stretch
+// since it was laid `age` seconds ago.
+float fadingSpeed(float logStretch, float age, double keepStretch, double fade);
 
 // 1 where labels must be renewed whatever else is: beyond the edge of an exemplar that does not wrap, or
 // hardly trusted.

@@ -43,7 +43,7 @@ TEST_CASE(
   const auto covered = [&](const Labels& labels, const std::vector<float>& fading) {
     std::size_t found = 0, size = 0;
     for (const Disc& disc :
-         worstDiscs(model, labels, badnessAround(model, labels, trusted), trusted, fading, all, 1))
+         worstDiscs(model, labels, wearAround(model, labels, trusted), trusted, fading, all, 1))
       for (const std::uint32_t v : disc.members) found += middle(surface.mesh.positions[v]);
     for (const Vec3f& x : surface.mesh.positions) size += middle(x);
     return double(found) / double(size);
@@ -77,15 +77,16 @@ TEST_CASE("renewal: discs keep to their size, their distance and the budget, wor
   const std::vector<float> trusted(count, 1.0f), settled(count, 0.0f);
   // The right half is stretched more than the left one.
   Labels labels;
-  std::vector<float> bad;
+  Wear wear;
   for (const Vec3f& x : surface.mesh.positions) {
     const float scale = x.x() < 30 ? 1.0f / 1.4f : 1.0f / 1.5f;
     labels.push_back({{100 + scale * (x.x() - 30), 150 - x.y()}, {scale, 0, 0, 1}});
-    bad.push_back(-std::log(scale));
+    wear.bad.push_back(-std::log(scale));
   }
+  wear.stretch.assign(count, 0.3f);  // nothing urgent
   for (const double budget : {0.1, 0.4}) {
     const DiscOptions options{1.35, 10.0, budget};
-    const std::vector<Disc> discs = worstDiscs(model, labels, bad, trusted, settled, options, 1);
+    const std::vector<Disc> discs = worstDiscs(model, labels, wear, trusted, settled, options, 1);
     REQUIRE_FALSE(discs.empty());
     std::size_t covered = 0;
     for (std::size_t i = 0; i < discs.size(); ++i) {
@@ -108,12 +109,30 @@ TEST_CASE("renewal: discs keep to their size, their distance and the budget, wor
   }
 }
 
+TEST_CASE("renewal: where the stretch is urgent the budget does not count") {
+  const OrientedMesh surface = flatBox(60);
+  const TexelImage image = makeTexelImage(blobImage(200, 200, 3, 10.0, 1), false, 4);
+  const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
+  const std::size_t count = surface.mesh.positions.size();
+  const Labels labels = picture(surface, 0.4f);
+  const std::vector<float> trusted(count, 1.0f), settled(count, 0.0f);
+  const auto covered = [&](const Wear& wear) {
+    std::size_t sum = 0;
+    for (const Disc& disc : worstDiscs(model, labels, wear, trusted, settled, {1.35, 10.0, 0.05}, 1))
+      sum += disc.members.size();
+    return double(sum) / double(count);
+  };
+  const auto much = float(std::log(2.5));
+  CHECK(covered({std::vector<float>(count, much), std::vector<float>(count, 0.0f)}) < 0.1);
+  CHECK(covered({std::vector<float>(count, much), std::vector<float>(count, much)}) > 0.2);
+}
+
 TEST_CASE("renewal: texture fades as fast as it gets bad, and never slower than it is told to") {
-  const auto bad = float(std::log(1.35));
+  const auto most = float(2.0 * std::log(1.35));
   CHECK(fadingSpeed(0.0f, 5.0f, 1.35, 0.4) == Approx(2.5));
-  CHECK(fadingSpeed(bad, 1.0f, 1.35, 0.4) == Approx(2.5));   // got bad in a second
-  CHECK(fadingSpeed(bad, 0.1f, 1.35, 0.4) == Approx(10.0));  // in a tenth of one
-  CHECK(fadingSpeed(3 * bad, 0.3f, 1.35, 0.4) == Approx(10.0));
+  CHECK(fadingSpeed(most, 1.0f, 1.35, 0.4) == Approx(2.5));   // in a second
+  CHECK(fadingSpeed(most, 0.1f, 1.35, 0.4) == Approx(10.0));  // in a tenth of one
+  CHECK(fadingSpeed(3 * most, 0.3f, 1.35, 0.4) == Approx(10.0));
 }
 
 TEST_CASE("renewal: a mask grows by rings") {
