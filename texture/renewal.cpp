@@ -1,6 +1,7 @@
 #include "texture/renewal.h"
 
 #include "texture/complex.h"
+#include "texture/fresh.h"
 #include "texture/parallel.h"
 #include "texture/random.h"
 
@@ -12,7 +13,6 @@ namespace {
 
 constexpr float kSeamWeight = 0.75f;
 constexpr float kLostStretch = 4.0f;
-constexpr float kLowTrust = 0.3f;
 constexpr float kSameTexel = 0.7f;      // a proposal this near to the carried texel says the same
 constexpr float kRestSeconds = 0.4f;    // ten frames of a film: as long as the eye needs to follow a patch
 constexpr float kYoungPatience = 1.2f;  // new texture must be this much worse again before it is renewed

@@ -1,6 +1,7 @@
 // The passes of a frame: which levels, windows and starts, and what is made of the result.
 #include "texture/synthesize.h"
 
+#include "texture/fresh.h"
 #include "texture/optimize.h"
 #include "texture/parallel.h"
 #include "texture/random.h"
@@ -121,6 +122,15 @@ Vec4f decoded(const Float8& value, int channels) {
   return color;
 }
 
+// The vertices that are searched: all, which is empty, but for those of droplets.
+std::vector<std::uint8_t> searched(const Synthesizer& synthesizer, const VertexGraph& graph) {
+  const std::vector<int>& windows = synthesizer.options.windows;
+  std::vector<std::uint8_t> mask = droplets(graph, *std::min_element(windows.begin(), windows.end()));
+  if (!any(mask)) return {};
+  for (std::uint8_t& m : mask) m = !m;
+  return mask;
+}
+
 std::uint64_t keyOf(const Synthesizer& synthesizer, int frame, int level, int window) {
   return randomBits(randomBits(synthesizer.options.seed, std::uint64_t(std::int64_t(frame))),
                     std::uint64_t(level) * 1024u + std::uint64_t(window));
@@ -161,7 +171,11 @@ State synthesizeFirst(Synthesizer& synthesizer, const Surface& surface, int fram
     const SurfaceMesh& mesh = surface.levels[index];
     const PreparedMesh prepared(mesh);
     const TexelImage& image = tables.image[index];
-    const Level level{prepared.view(), image, tables.histogram[index], {}, {}};
+    const Level level{prepared.view(),
+                      image,
+                      tables.histogram[index],
+                      {},
+                      l == 0 ? searched(synthesizer, prepared.graph) : std::vector<std::uint8_t>{}};
     if (l == coarsest)
       state.labels =
           blockLabels(level.view, image, kBlockSize / float(1 << l), keyOf(synthesizer, frame, l, 0));
@@ -176,7 +190,7 @@ State synthesizeFirst(Synthesizer& synthesizer, const Surface& surface, int fram
     done += share;
     if (synthesizer.options.method == Method::coordinates)
       straightenSeams(seamModel(synthesizer, level.view, index), {kStretchCost, kFirstData, &state.average},
-                      {}, nullptr, kSeamSweeps, state.labels);
+                      level.wanted, nullptr, kSeamSweeps, state.labels);
   }
   return state;
 }
@@ -196,7 +210,9 @@ State synthesizeLater(Synthesizer& synthesizer, const MeshView& view, const Carr
   level.wanted = grown(
       view.graph, worthRenewing(seams, before, carried.trust, carried.age, options.keepStretch, options.seed),
       kRenewalRim);
-  if (std::find(level.wanted.begin(), level.wanted.end(), 1) == level.wanted.end()) return state;
+  const std::vector<std::uint8_t> large = searched(synthesizer, view.graph);
+  for (std::size_t v = 0; v < large.size(); ++v) level.wanted[v] &= large[v];
+  if (!any(level.wanted)) return state;
 
   state.value = state.average = lookUp(image, before);
   level.constraint.value = state.value;
@@ -297,8 +313,8 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
     const Label& label = state.labels[v];
     const bool kept = !renewed[v];
     result.coordinate[v] = kept ? image.brought(carried.coordinate[v]) : label.texel;
-    result.gradient[v] =
-        kept ? carried.gradient[v] : gradientOf(label, mesh.orientation[v], mesh.normals[v], mesh.spacing);
+    result.gradient[v] = kept ? carried.gradient[v]
+                              : gradientOf(label, mesh.orientation[v], mesh.normals[v], mesh.spacingAt(v));
     if (kept) result.age[v] = carried.age[v] + float(secondsSinceLast);
     if (labels)
       sampleBilinear(synthesizer.exemplar.color, synthesizer.exemplar.toroidal, result.coordinate[v],
@@ -313,6 +329,7 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
   result.normals = std::move(mesh.normals);
   result.orientation = std::move(mesh.orientation);
   result.triangles = std::move(mesh.triangles);
+  result.scale = std::move(mesh.scale);
   return result;
 }
 
