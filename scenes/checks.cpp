@@ -262,7 +262,30 @@ void checkOrientation(const Scene& scene, Reader& reader) {
     checkShape(scene.keepClear[i], path + ".keep_clear." + std::to_string(i), reader);
 }
 
+void checkScale(const Scene& scene, Reader& reader) {
+  const texture::ScaleOptions& scale = scene.texture.scale;
+  const std::string path = "texture.scale", by = path + ".by";
+  for (std::size_t i = 0; i < scene.scaleFrom.size(); ++i)
+    checkShape(scene.scaleFrom[i], path + ".from." + std::to_string(i), reader);
+  for (std::size_t i = 1; reader.clean(path + ".point") && i < scale.points.size(); ++i) {
+    if (scale.points[i - 1].value < scale.points[i].value) continue;
+    reader.fault(path + ".point." + std::to_string(i) + ".value",
+                 written(scale.points[i].value) + " is not above the one before, " +
+                     written(scale.points[i - 1].value),
+                 "give them by rising value");
+  }
+  if (!reader.clean(by) || scale.by == texture::ScaleBy::none) return;
+  if (scale.points.empty())
+    reader.fault(by, "is of no use without a factor",
+                 "give one [[texture.scale.point]] or more, each with a value and a factor");
+  if (scale.by == texture::ScaleBy::distance && scene.scaleFrom.empty())
+    reader.fault(by, "\"distance\" is from nothing", "give a shape or more as [[texture.scale.from]]");
+  if (scale.by == texture::ScaleBy::temperature && !scene.sim.heat.simulated)
+    reader.fault(by, "\"temperature\" is not computed", "give simulate = true in [heat] too");
+}
+
 void checkTexture(const Scene& scene, Reader& reader) {
+  checkScale(scene, reader);
   checkOrientation(scene, reader);
   const texture::SynthesisOptions& synthesis = scene.texture.synthesis;
   const std::vector<int>& windows = synthesis.windows;

@@ -27,6 +27,7 @@ struct Scene {
   sim::Options sim;
   sim::MotionOptions motion;
   texture::Options texture;
+  std::vector<sim::Shape> scaleFrom;  // what ScaleBy::distance is measured from
   std::vector<sim::Shape> keepClear;  // places where the orientation field should have no singularities
   render::Options render;
   std::string resolved;  // the whole scene after quality and overrides, every key with its value, as JSON

@@ -129,6 +129,21 @@ void describeOrientation(Visitor& visitor, Scene& scene) {
   visitor.list("keep_clear", scene.keepClear, [&](sim::Shape& shape) { describeShape(visitor, shape); });
 }
 
+void describeScale(Visitor& visitor, Scene& scene) {
+  texture::ScaleOptions& scale = scene.texture.scale;
+  choice(visitor, "by", scale.by, {"none", "distance", "temperature", "height", "field"});
+  visitor.list("point", scale.points, [&](texture::ScalePoint& point) {
+    visitor.number("value", point.value, kAny, Need::required);
+    visitor.number("factor", point.factor, {.low = texture::kLeastScale, .high = texture::kLargestScale},
+                   Need::required);
+  });
+  if (scale.by == texture::ScaleBy::field)
+    visitor.file("field", scale.field, {".vdb"});
+  else
+    visitor.absent("field");
+  visitor.list("from", scene.scaleFrom, [&](sim::Shape& shape) { describeShape(visitor, shape); });
+}
+
 void describeTexture(Visitor& visitor, Scene& scene) {
   texture::Options& texture = scene.texture;
   visitor.table(
@@ -164,6 +179,7 @@ void describeTexture(Visitor& visitor, Scene& scene) {
           visitor.integer("levels", texture.surface.levels, {.low = 1, .high = 8});
           visitor.integer("repulsion_sweeps", texture.surface.repulsionSweeps, {.low = 0, .high = 1000});
         });
+        visitor.table("scale", [&] { describeScale(visitor, scene); });
         visitor.table("orientation", [&] { describeOrientation(visitor, scene); });
       },
       Need::required);

@@ -59,7 +59,8 @@ std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi,
               longLimit2 = std::min(longLimit, kMaybeLong) * std::min(longLimit, kMaybeLong);
   const auto judge = [&](std::uint32_t h, Candidates& found) {
     const std::uint32_t a = mesh.origin[h], b = mesh.target(h);
-    const float l2 = (mesh.position[a] - mesh.position[b]).lengthSqr() * perEdge2;
+    const float scale = 0.5f * (mesh.scaleAt(a) + mesh.scaleAt(b));
+    const float l2 = (mesh.position[a] - mesh.position[b]).lengthSqr() * perEdge2 / (scale * scale);
     if (l2 >= shortLimit2 && l2 <= longLimit2) return;
     const float l = std::sqrt(l2);
     if (l2 < shortLimit2) {

@@ -7,7 +7,7 @@
 namespace fluidtex::texture {
 
 struct AdjustOptions {
-  float edge = 1.0f;     // voxels, mean length of an even mesh's edges
+  float edge = 1.0f;     // voxels, mean length of an even mesh's edges at scale 1
   double points = 0.0;   // how many vertices there should be
   double slack = 0.0;    // by how much of that the number may be wrong
   bool settled = false;  // the points were even in the last frame: what is out of proportion gets some margin

@@ -100,8 +100,7 @@ Components componentsOf(const std::vector<Vec3f>& positions, const std::vector<V
   for (const Vec3I& t : triangles) {
     Components::Part& part = result.parts[number[result.component[t[0]]]];
     --part.characteristic;  // 2 (V - E + T) = 2 V - T, since 2 E = 3 T
-    const openvdb::Vec3d a(positions[t[0]]), b(positions[t[1]]), c(positions[t[2]]);
-    part.area += 0.5 * (b - a).cross(c - a).length();
+    part.area += areaOf(positions, t);
   }
   for (Components::Part& part : result.parts) part.characteristic /= 2;
   return result;
@@ -142,6 +141,7 @@ std::optional<EditableMesh> carriedMesh(const LevelSet& phi, const IsoSurface& s
   if (!sameTopology(meshParts, parts)) return {};
   EditableMesh mesh = makeEditableMesh(std::move(projected), triangles);
   mesh.normal = std::move(normals);
+  takeScale(mesh, phi);
   constexpr std::size_t kGrainOfSums = 4096;
   const double folded = sumOf(
       triangles.size(),
@@ -152,8 +152,9 @@ std::optional<EditableMesh> carriedMesh(const LevelSet& phi, const IsoSurface& s
   const double stretched = sumOf(
       mesh.halfEdgeCount(),
       [&](std::uint32_t h) {
-        const float length2 = (mesh.position[mesh.origin[h]] - mesh.position[mesh.target(h)]).lengthSqr();
-        return length2 > kStretched * kStretched * edge * edge ? 1.0 : 0.0;
+        const std::uint32_t a = mesh.origin[h], b = mesh.target(h);
+        const float most = kStretched * edge * std::max(mesh.scaleAt(a), mesh.scaleAt(b));
+        return (mesh.position[a] - mesh.position[b]).lengthSqr() > most * most ? 1.0 : 0.0;
       },
       kGrainOfSums);
   if (folded > kBadShare * double(triangles.size()) || stretched > kBadShare * double(mesh.halfEdgeCount()))

@@ -27,7 +27,7 @@ bool sameTopology(const Components& a, const Components& b);
 // The mesh of `triangles` over `points` (index space), the points brought onto the level set. Nothing if it
 // does not have the topology of the iso-surface, component by component, or if points have left the level
 // set, or if it has folded or been stretched in many places: then it has to be made anew. `parts`: those of
-// the iso-surface; `edge`: mean edge length of an even mesh, voxels.
+// the iso-surface; `edge`: mean edge length of an even mesh at scale 1, voxels.
 std::optional<EditableMesh> carriedMesh(const LevelSet& phi, const IsoSurface& surface,
                                         const Components& parts, const std::vector<Vec3f>& points,
                                         const std::vector<Vec3I>& triangles, float edge);

@@ -135,6 +135,13 @@ float shape(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   return sum > 0.0f ? 3.4641016f * (b - a).cross(c - a).length() / sum : 0.0f;
 }
 
+float leastScale(const EditableMesh& mesh) {
+  return mesh.scale.empty() ? 1.0f : *std::min_element(mesh.scale.begin(), mesh.scale.end());
+}
+float largestScale(const EditableMesh& mesh) {
+  return mesh.scale.empty() ? 1.0f : *std::max_element(mesh.scale.begin(), mesh.scale.end());
+}
+
 bool removeVertex(EditableMesh& mesh, std::uint32_t v) {
   constexpr std::size_t kMost = 32;
   std::uint32_t edges[kMost];
@@ -188,10 +195,12 @@ EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const
     const float length = gradient.length();
     if (length > 0.0f) mesh.normal[v] = gradient / length;
   });
-  if (kLongest * kEdgePerSpacing * spacing < 1.7f)
+  takeScale(mesh, phi);
+  const float least = leastScale(mesh), largest = largestScale(mesh);
+  if (kLongest * kEdgePerSpacing * spacing * least < 1.7f)
     splitLongEdges(mesh, phi, kLongest * kEdgePerSpacing * spacing);
 
-  const VertexGrid grid(mesh.position, 2.0f * std::min(1.0f, kLongest * spacing));
+  const VertexGrid grid(mesh.position, 2.0f * std::min(1.0f, kLongest * spacing * largest));
   const std::size_t count = points.position.size();
   std::vector<std::uint32_t> nearest(count);
   forEachIndex(count, [&](std::uint32_t i) {
@@ -216,12 +225,13 @@ EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const
     }
     mesh.position[v] = points.position[i];
     mesh.normal[v] = points.normal[i];
+    if (phi.scaled()) mesh.scale[v] = phi.scale(mesh.position[v]);
     keep[v] = 1;
   }
   std::vector<std::uint32_t> left;  // points that have no place yet
   const auto insert = [&](std::uint32_t i, std::uint32_t near) {
-    const std::uint32_t added =
-        insertPoint(mesh, near, points.position[i], points.normal[i], kTooNear * spacing, keep);
+    const std::uint32_t added = insertPoint(mesh, near, points.position[i], points.normal[i],
+                                            kTooNear * spacing * phi.scale(points.position[i]), keep);
     if (added == kNone) return false;
     keep.push_back(1);
     return true;
@@ -236,7 +246,7 @@ EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const
 
   // Without the old vertices there may be room for them.
   keep.assign(mesh.vertexCount(), 1);
-  const VertexGrid rest(mesh.position, 2.0f * spacing);
+  const VertexGrid rest(mesh.position, 2.0f * spacing * largest);
   for (std::uint32_t i : left) {
     const std::uint32_t v = rest.nearest(
         points.position[i], [&](std::uint32_t u) { return mesh.normal[u].dot(points.normal[i]) > 0.0f; });

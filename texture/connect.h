@@ -10,7 +10,7 @@ namespace fluidtex::texture {
 // A mesh whose vertices are `points` and whose topology is that of `surface`: the points are brought into the
 // iso-surface's triangles, then the iso-surface's own vertices are removed one by one wherever that changes
 // no topology and folds nothing; the few that cannot be removed stay as further points. A point that finds no
-// place is left out. `spacing` in voxels.
+// place is left out. `spacing` in voxels, at scale 1.
 EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const PointSet& points,
                            float spacing);
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace fluidtex::texture {
 namespace {
@@ -89,7 +88,7 @@ std::vector<Vec3f> alongBend(const SurfaceMesh& mesh) {
   }
   std::vector<Vec3f> result(bend.size());
   forEachIndex(result.size(), [&](std::uint32_t v) {
-    const float strength = std::abs(bend[v]) * static_cast<float>(mesh.spacing) * kFarRadius;
+    const float strength = std::abs(bend[v]) * static_cast<float>(mesh.spacingAt(v)) * kFarRadius;
     const Complexf line = std::polar(strength / (1.0f + strength), 0.5f * std::arg(bend[v]));
     result[v] = axes[v] * line.real() + rowAxis(axes[v], mesh.normals[v]) * line.imag();
   });
@@ -108,23 +107,6 @@ std::vector<Vec3f> alongField(const SurfaceMesh& mesh, const openvdb::Vec3SGrid&
     }
   });
   return result;
-}
-
-openvdb::Vec3SGrid::Ptr readVectorField(const std::filesystem::path& file) {
-  const auto fail = [&](const std::string& why) -> openvdb::Vec3SGrid::Ptr {
-    throw std::runtime_error(file.string() + ": " + why);
-  };
-  openvdb::io::File vdb(file.string());
-  try {
-    vdb.open(false);
-    for (auto name = vdb.beginName(); name != vdb.endName(); ++name) {
-      if (!vdb.readGridMetadata(name.gridName())->isType<openvdb::Vec3SGrid>()) continue;
-      return openvdb::gridPtrCast<openvdb::Vec3SGrid>(vdb.readGrid(name.gridName()));
-    }
-  } catch (const openvdb::Exception& error) {
-    return fail(std::string("is no OpenVDB file that can be read (") + error.what() + ")");
-  }
-  return fail("holds no grid of float vectors");
 }
 
 }  // namespace fluidtex::texture

@@ -6,11 +6,10 @@
 
 #include <openvdb/openvdb.h>
 
-#include <filesystem>
-
 namespace fluidtex::texture {
 
-// The tangent part of one direction, which need not be of unit length; the less, the more the surface faces it.
+// The tangent part of one direction, which need not be of unit length; the less, the more the surface faces
+// it.
 std::vector<Vec3f> alongDirection(const SurfaceMesh& mesh, const Vec3f& direction);
 
 // Along velocities (#V, m/s). What is slower than `still` (m/s, > 0) means little.
@@ -24,9 +23,5 @@ std::vector<Vec3f> alongBend(const SurfaceMesh& mesh);
 
 // Along a grid of vectors, sampled linearly at the vertices. Where it is zero it means nothing.
 std::vector<Vec3f> alongField(const SurfaceMesh& mesh, const openvdb::Vec3SGrid& field);
-
-// The first grid of float vectors in an OpenVDB file. Throws std::runtime_error that names the file and what
-// is wrong.
-openvdb::Vec3SGrid::Ptr readVectorField(const std::filesystem::path& file);
 
 }  // namespace fluidtex::texture

@@ -55,7 +55,8 @@ std::uint32_t EditableMesh::newTriangle() {
   return std::uint32_t(h);
 }
 
-std::uint32_t EditableMesh::newVertex(const Vec3f& at, const Vec3f& atNormal) {
+std::uint32_t EditableMesh::newVertex(const Vec3f& at, const Vec3f& atNormal, std::uint32_t beside) {
+  if (!scale.empty()) scale.push_back(scale[beside]);
   position.push_back(at);
   normal.push_back(atNormal);
   outgoing.push_back(kNone);
@@ -67,7 +68,7 @@ std::uint32_t EditableMesh::splitEdge(std::uint32_t h, const Vec3f& at, const Ve
   const std::uint32_t hn = next(h), hp = previous(h), tn = next(t), tp = previous(t);
   const std::uint32_t a = origin[h], b = origin[t], c = origin[hp], d = origin[tp];
   const std::uint32_t bc = twin[hn], ad = twin[tn];
-  const std::uint32_t m = newVertex(at, atNormal);
+  const std::uint32_t m = newVertex(at, atNormal, a);
   const std::uint32_t e = newTriangle(), g = newTriangle();
   // h: a->m, hn: m->c, hp: c->a; e: m->b, b->c, c->m; t: b->m, tn: m->d, tp: d->b; g: m->a, a->d, d->m
   origin[hn] = m;
@@ -96,7 +97,7 @@ std::uint32_t EditableMesh::splitTriangle(std::uint32_t triangle, const Vec3f& a
   const std::uint32_t h = 3 * triangle;
   const std::uint32_t a = origin[h], b = origin[h + 1], c = origin[h + 2];
   const std::uint32_t bc = twin[h + 1], ca = twin[h + 2];
-  const std::uint32_t m = newVertex(at, atNormal);
+  const std::uint32_t m = newVertex(at, atNormal, a);
   const std::uint32_t e = newTriangle(), g = newTriangle();
   // h: a->b, b->m, m->a; e: b->c, c->m, m->b; g: c->a, a->m, m->c
   origin[h + 2] = m;
@@ -190,6 +191,7 @@ void EditableMesh::compact(std::size_t firstNew) {
   packed.position.resize(vertices);
   packed.normal.resize(vertices);
   packed.outgoing.resize(vertices);
+  for (std::size_t v = 0; v < vertices && !scale.empty(); ++v) packed.scale.push_back(scale[oldVertexOf[v]]);
   for (std::size_t v = 0; v < vertices; ++v) {
     packed.position[v] = position[oldVertexOf[v]];
     packed.normal[v] = normal[oldVertexOf[v]];

@@ -13,6 +13,7 @@ struct EditableMesh {
 
   std::vector<Vec3f> position;          // #V
   std::vector<Vec3f> normal;            // #V, unit, or zero where unknown
+  std::vector<float> scale;             // #V: edges are so many times as long there; empty: 1 everywhere
   std::vector<std::uint32_t> outgoing;  // #V: one half-edge that starts there; kNone: the vertex is gone
   std::vector<std::uint32_t> origin;    // #H; kNone: the triangle is gone
   std::vector<std::uint32_t> twin;      // #H
@@ -22,6 +23,7 @@ struct EditableMesh {
   static std::uint32_t previous(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
   std::uint32_t target(std::uint32_t h) const { return origin[next(h)]; }
   std::uint32_t opposite(std::uint32_t h) const { return origin[previous(h)]; }
+  float scaleAt(std::uint32_t v) const { return scale.empty() ? 1.0f : scale[v]; }
   std::size_t vertexCount() const { return position.size(); }
   std::size_t halfEdgeCount() const { return origin.size(); }
   bool alive(std::uint32_t h) const { return origin[h] != kNone; }
@@ -48,7 +50,7 @@ struct EditableMesh {
   bool canFlip(std::uint32_t h) const;
   // After it h starts at the old origin and runs to the old opposite of twin[h]; the new edge is next(h).
   void flip(std::uint32_t h);
-  // Both return the new vertex.
+  // Both return the new vertex. It gets the scale of one of the old ones beside it.
   std::uint32_t splitEdge(std::uint32_t h, const Vec3f& at, const Vec3f& atNormal);
   std::uint32_t splitTriangle(std::uint32_t triangle, const Vec3f& at, const Vec3f& atNormal);
   // The link condition: the ends have no common neighbours but the two opposite corners, and the mesh there
@@ -63,7 +65,7 @@ struct EditableMesh {
 
  private:
   std::uint32_t newTriangle();
-  std::uint32_t newVertex(const Vec3f& at, const Vec3f& atNormal);
+  std::uint32_t newVertex(const Vec3f& at, const Vec3f& atNormal, std::uint32_t beside);
   void link(std::uint32_t a, std::uint32_t b) {
     twin[a] = b;
     twin[b] = a;

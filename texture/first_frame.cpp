@@ -14,21 +14,25 @@ constexpr float kData = 0.15f;
 
 }  // namespace
 
-State synthesizeFirst(Synthesizer& synthesizer, const Surface& surface, int frame, SynthesisStats& stats,
-                      const Progress& progress) {
+State synthesizeFromNothing(Synthesizer& synthesizer, const Surface& surface, int finest, int frame,
+                            SynthesisStats& stats, const Progress& progress) {
   const SearchTables& tables = *synthesizer.tables;
   int coarsest = int(std::min(surface.levels.size(), tables.image.size())) - 1;
   while (coarsest > 0 && surface.levels[std::size_t(coarsest)].positions.empty()) --coarsest;
 
   State state;
   double done = 0.0, whole = 0.0;
-  for (int l = 0; l <= coarsest; ++l) whole += double(surface.levels[std::size_t(l)].positions.size());
-  for (int l = coarsest; l >= 0; --l) {
+  for (int l = finest; l <= coarsest; ++l) whole += double(surface.levels[std::size_t(l)].positions.size());
+  for (int l = coarsest; l >= finest; --l) {
     const std::size_t index = std::size_t(l);
     const SurfaceMesh& mesh = surface.levels[index];
     const PreparedMesh prepared(mesh);
     const TexelImage& image = tables.image[index];
-    const Level level{prepared.view(), image, tables.histogram[index], {}, {}};
+    const Level level{prepared.view(),
+                      image,
+                      tables.histogram[index],
+                      {},
+                      l == 0 ? searched(synthesizer, prepared.graph) : std::vector<std::uint8_t>{}};
     if (l == coarsest)
       state.labels =
           blockLabels(level.view, image, kBlockSize / float(1 << l), keyOf(synthesizer, frame, l, 0));
@@ -43,7 +47,7 @@ State synthesizeFirst(Synthesizer& synthesizer, const Surface& surface, int fram
               });
     done += share;
     if (synthesizer.options.method == Method::coordinates)
-      joinLabels(seamModel(synthesizer, level.view, index), state, kData, {}, nullptr,
+      joinLabels(seamModel(synthesizer, level.view, index), state, kData, level.wanted, nullptr,
                  keyOf(synthesizer, frame, l, 1), state.labels);
   }
   return state;

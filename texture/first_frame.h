@@ -5,8 +5,8 @@
 
 namespace fluidtex::texture {
 
-// Coarse to fine from random blocks of the exemplar. Leaves the state of level 0.
-State synthesizeFirst(Synthesizer& synthesizer, const Surface& surface, int frame, SynthesisStats& stats,
-                      const Progress& progress);
+// Coarse to fine from random blocks of the exemplar, down to level `finest`, whose state it leaves.
+State synthesizeFromNothing(Synthesizer& synthesizer, const Surface& surface, int finest, int frame,
+                            SynthesisStats& stats, const Progress& progress);
 
 }  // namespace fluidtex::texture

@@ -39,10 +39,10 @@ void startAfresh(const MeshView& view, const TexelImage& image, const std::vecto
     if (disc.growth <= kFreshGrowth) continue;
     centers.push_back(disc.center);
     for (const std::uint32_t v : disc.members)
-      reach = std::max(reach, (view.mesh.positions[v] - view.mesh.positions[disc.center]).length());
+      reach = std::max(reach, (view.mesh.positions[v] - view.mesh.positions[disc.center]).length() /
+                                  float(view.mesh.spacingAt(disc.center)));
   }
   if (centers.empty()) return;
-  reach /= float(view.mesh.spacing) * view.pixel;
 
   Usage usage(image, std::max(8, std::min(image.width, image.height) / kUsageCells), labels.size());
   for (const Label& label : labels) usage.add(label.texel, 1.0f);

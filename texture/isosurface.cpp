@@ -22,7 +22,8 @@ using openvdb::Coord;
 constexpr int kSide = LevelSet::kSide;
 constexpr int kPadded = LevelSet::kPadded;
 constexpr int kBlockCells = kSide * kSide * kSide;
-constexpr int kCentre = 12;  // in the table: the extra vertex in the cell's middle
+constexpr std::size_t kTermsAtOnce = 4096;  // of a sum
+constexpr int kCentre = 12;                 // in the table: the extra vertex in the cell's middle
 
 // A crossing lies on the edge between two corners; corner c of a cell is at (c & 1, c >> 1 & 1, c >> 2 & 1).
 struct Crossing {
@@ -326,14 +327,24 @@ IsoSurface isoSurface(const LevelSet& phi) {
   return surface;
 }
 
+double areaOf(const std::vector<Vec3f>& positions, const Vec3I& t) {
+  const openvdb::Vec3d a(positions[t[0]]), b(positions[t[1]]), c(positions[t[2]]);
+  return 0.5 * (b - a).cross(c - a).length();
+}
+
 double area(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles) {
-  constexpr std::size_t kTermsAtOnce = 4096;
-  const auto areaOf = [&](std::uint32_t t) {
-    const openvdb::Vec3d a(positions[triangles[t][0]]), b(positions[triangles[t][1]]),
-        c(positions[triangles[t][2]]);
-    return 0.5 * (b - a).cross(c - a).length();
-  };
-  return sumOf(triangles.size(), areaOf, kTermsAtOnce);
+  return sumOf(
+      triangles.size(), [&](std::uint32_t t) { return areaOf(positions, triangles[t]); }, kTermsAtOnce);
+}
+
+double squares(const LevelSet& phi, const IsoSurface& surface) {
+  return sumOf(
+      surface.triangles.size(),
+      [&](std::uint32_t t) {
+        const float scale = phi.scale(surface.positions[surface.triangles[t][0]]);
+        return areaOf(surface.positions, surface.triangles[t]) / (scale * scale);
+      },
+      kTermsAtOnce);
 }
 
 }  // namespace fluidtex::texture

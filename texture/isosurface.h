@@ -18,6 +18,10 @@ struct IsoSurface {
 // outside; vertices keep a little distance from the grid's nodes, so that no triangle degenerates.
 IsoSurface isoSurface(const LevelSet& phi);
 
+// How many squares of phi's scale, in voxels, have room on it: its area where the scale is 1 everywhere.
+double squares(const LevelSet& phi, const IsoSurface& surface);
+
+double areaOf(const std::vector<Vec3f>& positions, const Vec3I& triangle);
 double area(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles);
 
 }  // namespace fluidtex::texture

@@ -33,8 +33,8 @@ float stretch(const Label& label) {
 Labels labelsOf(const SurfaceMesh& mesh, const std::vector<Vec2f>& coordinate,
                 const std::vector<TexelGradient>& gradient) {
   Labels labels(coordinate.size());
-  const auto scale = float(mesh.spacing);
   forEachIndex(labels.size(), [&](std::uint32_t v) {
+    const auto scale = float(mesh.spacingAt(v));
     const Vec3f &d = mesh.orientation[v], b = rowAxis(d, mesh.normals[v]);
     const TexelGradient& g = gradient[v];
     labels[v] = {coordinate[v],
@@ -106,7 +106,8 @@ Labels blockLabels(const MeshView& view, const TexelImage& image, float size, st
 Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const SurfaceMesh& fine,
                     const TexelImage& fineImage) {
   // A fine vertex looks into the 27 cells around it, then farther.
-  const double cell = 1.5 * coarse.spacing;
+  double cell = 1.5 * coarse.spacing;
+  if (!coarse.scale.empty()) cell *= *std::max_element(coarse.scale.begin(), coarse.scale.end());
   const PointGrid grid(coarse.positions, cell);
   Labels result(fine.positions.size());
   forEachIndex(result.size(), [&](std::uint32_t v) {
@@ -125,7 +126,7 @@ Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const Surfa
 
     const Vec3f &d = coarse.orientation[best], b = rowAxis(d, coarse.normals[best]);
     const Vec3f way = x - coarse.positions[best];
-    const auto scale = float(1.0 / coarse.spacing);
+    const auto scale = float(1.0 / coarse.spacingAt(best));
     const Vec2f texel = labels[best].at(Complexf(way.dot(d) * scale, way.dot(b) * scale));
     Complexf turn(fine.orientation[v].dot(d),
                   fine.orientation[v].dot(b));  // from the fine vertex's axes to the coarse one's

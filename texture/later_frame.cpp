@@ -1,6 +1,8 @@
 #include "texture/later_frame.h"
 
 #include "texture/complex.h"
+#include "texture/first_frame.h"
+#include "texture/fresh.h"
 #include "texture/fresh_start.h"
 #include "texture/parallel.h"
 #include "texture/renewal.h"
@@ -16,10 +18,6 @@ constexpr int kRim = 5;
 constexpr float kData = 0.4f;
 // Vertices that stand for the surface at half its detail lie 1 to 2 of its pixels apart.
 constexpr float kHalfRadius = 0.8f;
-
-bool any(const std::vector<std::uint8_t>& mask) {
-  return std::find(mask.begin(), mask.end(), std::uint8_t(1)) != mask.end();
-}
 
 // Texel x of the full exemplar lies at (x - 1/2) / 2 of the halved one; what a label says of its surroundings
 // in pixels stays.
@@ -83,10 +81,25 @@ void layOut(Synthesizer& synthesizer, const MeshView& view, const std::vector<st
   spread(tables.image.front(), half, wanted, state.labels, labels);
 }
 
+// Starts what is wide and new from nothing, where the surface has levels for it.
+void startFromNothing(Synthesizer& synthesizer, const Surface& surface, const MeshView& view,
+                      const std::vector<float>& trust, int frame, Labels& labels, SynthesisStats& stats) {
+  if (surface.levels.size() < 2 || synthesizer.tables->image.size() < 2) return;
+  const std::vector<std::uint8_t> wide =
+      wideFresh(view.graph, freshVertices(trust), synthesizer.options.windows.front());
+  if (!any(wide)) return;
+  const State coarse = synthesizeFromNothing(synthesizer, surface, 1, frame, stats, {});
+  const Labels fine =
+      refineLabels(surface.levels[1], coarse.labels, view.mesh, synthesizer.tables->image.front());
+  for (std::uint32_t v = 0; v < labels.size(); ++v)
+    if (wide[v]) labels[v] = fine[v];
+}
+
 }  // namespace
 
-LaterFrame synthesizeLater(Synthesizer& synthesizer, const MeshView& view, const Carried& carried, int frame,
-                           double secondsSinceLast, SynthesisStats& stats, const Progress& progress) {
+LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, const MeshView& view,
+                           const Carried& carried, int frame, double secondsSinceLast, SynthesisStats& stats,
+                           const Progress& progress) {
   const SynthesisOptions& options = synthesizer.options;
   const SearchTables& tables = *synthesizer.tables;
   const TexelImage& image = tables.image.front();
@@ -105,15 +118,22 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const MeshView& view, const
       worstDiscs(seams, before, wear, carried.trust, carried.fading.weight, discOptions, options.seed);
   for (const Disc& disc : discs)
     for (const std::uint32_t v : disc.members) level.wanted[v] = 1;
+  const std::vector<std::uint8_t> large = searched(synthesizer, view.graph);
+  const auto leaveDroplets = [&] {
+    for (std::size_t v = 0; v < large.size(); ++v) level.wanted[v] &= large[v];
+  };
+  leaveDroplets();
   if (!any(level.wanted)) return result;
 
   State state;
   state.labels = before;
   state.average = lookUp(image, before);
   startAfresh(view, image, discs, state.average, keyOf(synthesizer, frame, 0, 2), state.labels);
+  startFromNothing(synthesizer, surface, view, carried.trust, frame, state.labels, stats);
   if (tables.image.size() > 1) layOut(synthesizer, view, level.wanted, frame, state.labels, stats, progress);
   state.value = lookUp(image, state.labels);
   level.wanted = grown(view.graph, level.wanted, kRim);
+  leaveDroplets();
   const std::size_t windows = windowsOf(synthesizer, 0).size();
   runPasses(synthesizer, level,
             {0, frame, options.laterIterations, 1, false, windows > 1 ? std::size_t(1) : 0}, state, stats,

@@ -11,7 +11,10 @@ struct LaterFrame {
   std::vector<float> fadingSpeed;     // #V, 1/s: of what is renewed now
 };
 
-LaterFrame synthesizeLater(Synthesizer& synthesizer, const MeshView& view, const Carried& carried, int frame,
-                           double secondsSinceLast, SynthesisStats& stats, const Progress& progress);
+// `view` is of the surface's finest level. Where it has coarser ones too, surface that has just come to
+// light, and that a window fits into, is textured coarse to fine like a first frame.
+LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, const MeshView& view,
+                           const Carried& carried, int frame, double secondsSinceLast, SynthesisStats& stats,
+                           const Progress& progress);
 
 }  // namespace fluidtex::texture

@@ -303,6 +303,18 @@ LevelSet::Sample LevelSet::sample(const Vec3f& x) const {
   return s;
 }
 
+float LevelSet::sampleScale(const Vec3f& x) const {
+  const int i = int(std::floor(x.x())), j = int(std::floor(x.y())), k = int(std::floor(x.z()));
+  const std::uint32_t block = find(Coord(i & ~7, j & ~7, k & ~7));
+  if (block == kNone) return 1.0f;
+  const float* corner = m_scale.data() + std::size_t(block) * kScaled * kScaled * kScaled +
+                        ((i & 7) * kScaled + (j & 7)) * kScaled + (k & 7);
+  const float u = x.x() - float(i), v = x.y() - float(j), w = x.z() - float(k);
+  const auto row = [&](int offset) { return corner[offset] + w * (corner[offset + 1] - corner[offset]); };
+  const auto plane = [&](int offset) { return row(offset) + v * (row(offset + kScaled) - row(offset)); };
+  return plane(0) + u * (plane(kScaled * kScaled) - plane(0));
+}
+
 LevelSet::Projection LevelSet::project(const Vec3f& x, float reach) const {
   constexpr int kSteps = 6;
   constexpr float kOnSurface = 2e-4f;  // voxels: float positions resolve no more in a large grid

@@ -1,5 +1,5 @@
 // A narrow-band level set copied into small padded blocks, so that a tricubic sample is one gather of 4x4x4
-// values.
+// values; and how large an exemplar's pixel should be beside it.
 #pragma once
 
 #include "texture/surface.h"
@@ -28,7 +28,16 @@ class LevelSet {
   const float* values(std::size_t block) const {
     return m_values.data() + block * kPadded * kPadded * kPadded;
   }
+  std::size_t blockCount() const { return m_origins.size(); }
   std::uint32_t find(const openvdb::Coord& origin) const;
+
+  // The side of an exemplar's pixel at x, as a multiple of the spacing; 1 everywhere until setScale() is
+  // called. Linear between voxels.
+  float scale(const Vec3f& x) const { return m_scale.empty() ? 1.0f : sampleScale(x); }
+  bool scaled() const { return !m_scale.empty(); }
+  // kScaled^3 values for each of the blocks, at local coordinates 0..8, x slowest.
+  static constexpr int kScaled = kSide + 1;
+  void setScale(std::vector<float> values) { m_scale = std::move(values); }
 
   struct Sample {
     float value = 0.0f;    // voxels, negative inside
@@ -51,8 +60,11 @@ class LevelSet {
   Projection slide(const Vec3f& x, float reach = 1.0f) const;
 
  private:
+  float sampleScale(const Vec3f& x) const;
+
   std::vector<openvdb::Coord> m_origins;
   std::vector<float> m_values;
+  std::vector<float> m_scale;          // empty: 1 everywhere
   std::vector<std::uint32_t> m_table;  // open addressing on the block's origin
   std::size_t m_surfaceBlocks = 0;
 };

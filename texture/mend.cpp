@@ -17,7 +17,10 @@ constexpr std::uint32_t kNone = EditableMesh::kNone;
 struct Mender {
   EditableMesh& mesh;
   const LevelSet& phi;
-  float unit;  // voxels: the larger of voxel and spacing
+  float spacing;  // voxels
+
+  // Voxels: the larger of voxel and spacing.
+  float unitAt(const Vec3f& x) const { return std::max(1.0f, spacing * phi.scale(x)); }
 
   // How bad a triangle is; 0 where it is as it should be.
   float badness(const Vec3f& a, const Vec3f& b, const Vec3f& c) const {
@@ -35,8 +38,10 @@ struct Mender {
     const float sides = uu * vv * ww / std::min({uu, vv, ww});
     const float sine2 = sides > 0.0f ? area2 / sides : 0.0f;
     if (sine2 < kSlim) bad += kSlimWeight * (0.5f + 0.5f * (1.0f - sine2 / kSlim));
-    const LevelSet::Sample s = phi.sample((a + b + c) / 3.0f);
+    const Vec3f centre = (a + b + c) / 3.0f;
+    const LevelSet::Sample s = phi.sample(centre);
     if (!s.known) return bad + kFoldWeight;
+    const float unit = unitAt(centre);
     const float slope = s.gradient.length(), away = std::abs(s.value) / unit;
     if (slope > kFlat) {
       const float facing = area2 > 0.0f ? normal.dot(s.gradient) / (std::sqrt(area2) * slope) : -1.0f;
@@ -82,7 +87,7 @@ struct Mender {
     if (mesh.canFlip(h))
       offer(best, {Step::flip, both - badness(a, d, c) - badness(d, b, c), h, Vec3f(0.0f)});
     const Vec3f middle = (mesh.position[a] + mesh.position[b]) * 0.5f;
-    const LevelSet::Projection p = phi.project(middle, 0.5f * unit);
+    const LevelSet::Projection p = phi.project(middle, 0.5f * unitAt(middle));
     const Vec3f m = p.known ? p.position : middle;
     const Vec3f &pa = mesh.position[a], &pb = mesh.position[b], &pc = mesh.position[c],
                 &pd = mesh.position[d];
@@ -108,6 +113,7 @@ struct Mender {
     });
     const float now = around(v, mesh.position[v]);
     const Vec3f mean = sum / float(count);
+    const float unit = unitAt(mesh.position[v]);
     for (const float share : {1.0f, 0.5f, 0.0f}) {
       const LevelSet::Projection p = phi.project(mesh.position[v] + (mean - mesh.position[v]) * share, unit);
       if (p.known) offer(best, {Step::move, now - around(v, p.position), h, p.position});
@@ -160,7 +166,7 @@ void mend(EditableMesh& mesh, const LevelSet& phi, float spacing) {
   // A triangle whose corners agree with each other so well follows the surface and need not be sampled.
   constexpr float kSmooth = 0.9f;
   constexpr std::size_t kStepsPerTriangle = 12;
-  Mender mender{mesh, phi, std::max(1.0f, spacing)};
+  Mender mender{mesh, phi, spacing};
   const auto isBad = [&](std::uint32_t h) { return mender.badnessOf(h) > 0.0f; };
   using HalfEdges = std::vector<std::uint32_t>;
   const HalfEdges bad =

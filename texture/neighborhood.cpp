@@ -154,15 +154,15 @@ class Flattener {
 
   void findReach() {
     const std::vector<Vec3f>& x = m_view.mesh.positions;
-    const double scale = 0.5 / (m_view.mesh.spacing * m_view.mesh.spacing);
     m_reach = m_half;
     forEachTriangle([&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       const double nearest =
           std::min({chebyshev(m_placed[a].l), chebyshev(m_placed[b].l), chebyshev(m_placed[c].l)});
       if (nearest >= m_reach) return;
       const Vec3f& origin = x[m_placed[a].vertex];
-      const double area =
-          scale * (x[m_placed[b].vertex] - origin).cross(x[m_placed[c].vertex] - origin).length();
+      const double pixel = m_view.mesh.spacingAt(m_placed[a].vertex);
+      const double area = 0.5 / (pixel * pixel) *
+                          (x[m_placed[b].vertex] - origin).cross(x[m_placed[c].vertex] - origin).length();
       const double flat = flatArea(a, b, c);
       if (flat * kMaxAreaChange < area - kAreaSlack || flat > kMaxAreaChange * area + kAreaSlack)
         m_reach = nearest;
@@ -262,8 +262,6 @@ std::vector<std::uint32_t> selectCenters(const MeshView& view, float radius,
                                          const std::vector<std::uint8_t>& wanted) {
   const std::vector<Vec3f>& x = view.mesh.positions;
   const std::size_t count = x.size();
-  const auto reach = float(radius * view.pixel * view.mesh.spacing);
-
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
   order.reserve(count);
   for (std::uint32_t v = 0; v < count; ++v)
@@ -277,6 +275,7 @@ std::vector<std::uint32_t> selectCenters(const MeshView& view, float radius,
     const std::uint32_t center = entry.second;
     if (covered[center]) continue;
     centers.push_back(center);
+    const auto reach = float(radius * view.pixel * view.mesh.spacingAt(center));
     queue.assign(1, center);
     visited[center] = center;
     for (std::size_t i = 0; i < queue.size(); ++i) {

@@ -47,6 +47,29 @@ struct OrientationOptions {
   std::filesystem::path field;    // OpenVDB; its first grid of float vectors
 };
 
+// What makes the texture larger in some places than in others.
+enum class ScaleBy {
+  none,
+  distance,     // from shapes, metres; below 0 inside
+  temperature,  // K
+  height,       // z, metres
+  field,        // a grid of numbers from a file
+};
+
+// What factors are brought into.
+inline constexpr double kLeastScale = 0.25, kLargestScale = 4.0;
+
+// At this value of it an exemplar's pixel is `factor` times as large.
+struct ScalePoint {
+  double value = 0.0, factor = 1.0;
+};
+
+struct ScaleOptions {
+  ScaleBy by = ScaleBy::none;
+  std::vector<ScalePoint> points;  // by rising value; linear between, constant beyond
+  std::filesystem::path field;     // OpenVDB; its first grid of floats
+};
+
 struct SynthesisOptions {
   Method method = Method::coordinates;
   std::vector<int> windows{33, 17, 9};       // exemplar pixels, odd, falling
@@ -78,6 +101,7 @@ struct Options {
   double spacing = 0.0;
   int points = 40000;
   SurfaceOptions surface;
+  ScaleOptions scale;
   OrientationOptions orientation;
   SynthesisOptions synthesis;
 };

@@ -201,12 +201,14 @@ void orientCoarsest(Surface& surface, const OrientOptions& options, const Orient
 // agree, so that nothing passes through a thin sheet. The axes are those of the nearest of them.
 Field handOver(const SurfaceMesh& from, const SurfaceMesh& to, int symmetry) {
   constexpr float kAgreeingNormals = 0.3f;
-  const double reach = 2.0 * std::max(from.spacing, to.spacing);
-  const PointGrid grid(from.positions, reach);
+  const double reachOfOne = 2.0 * std::max(from.spacing, to.spacing);  // where the scale is 1
+  const double widest = to.scale.empty() ? 1.0 : double(*std::max_element(to.scale.begin(), to.scale.end()));
+  const PointGrid grid(from.positions, reachOfOne * widest);
   Field field{referenceVectors(to.normals), std::vector<Complexf>(to.positions.size(), Complexf(1.0f, 0.0f))};
-  const auto reach2 = float(reach * reach);
   forEachIndex(to.positions.size(), [&](std::uint32_t v) {
     const Vec3f &x = to.positions[v], &n = to.normals[v];
+    const double reach = reachOfOne * to.spacingAt(v) / to.spacing;
+    const auto reach2 = float(reach * reach);
     const auto visit = [&](const auto& use) {
       grid.visitNear(x, [&](std::uint32_t u) {
         const float distance2 = (from.positions[u] - x).lengthSqr(), agreement = n.dot(from.normals[u]);

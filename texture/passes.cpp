@@ -1,5 +1,6 @@
 #include "texture/passes.h"
 
+#include "texture/fresh.h"
 #include "texture/label_expansion.h"
 #include "texture/random.h"
 
@@ -69,6 +70,14 @@ std::vector<std::pair<int, std::size_t>> windowsOf(const Synthesizer& synthesize
       result.emplace_back(window, i);
   }
   return result;
+}
+
+std::vector<std::uint8_t> searched(const Synthesizer& synthesizer, const VertexGraph& graph) {
+  const std::vector<int>& windows = synthesizer.options.windows;
+  std::vector<std::uint8_t> mask = droplets(graph, *std::min_element(windows.begin(), windows.end()));
+  if (!any(mask)) return {};
+  for (std::uint8_t& m : mask) m = !m;
+  return mask;
 }
 
 std::uint64_t keyOf(const Synthesizer& synthesizer, int frame, int level, int window) {

@@ -39,6 +39,9 @@ SeamModel seamModel(const Synthesizer& synthesizer, const MeshView& view, std::s
 // Windows that fit a level's exemplar, without repetition, each with its place in the options.
 std::vector<std::pair<int, std::size_t>> windowsOf(const Synthesizer& synthesizer, int level);
 
+// The vertices that are searched: all, which is empty, but for those of droplets.
+std::vector<std::uint8_t> searched(const Synthesizer& synthesizer, const VertexGraph& graph);
+
 // Keys random numbers of a pass.
 std::uint64_t keyOf(const Synthesizer& synthesizer, int frame, int level, int window);
 

@@ -4,6 +4,7 @@
 
 #include "texture/parallel.h"
 #include "texture/point_grid.h"
+#include "texture/point_scale.h"
 #include "texture/random.h"
 
 #include <tbb/parallel_for.h>
@@ -67,14 +68,69 @@ class GrowingGrid {
   std::vector<Item> m_items;
 };
 
+// The points so far, and whether one of them is in another's way. Where their scale varies there is a grid
+// for each octave of it; a scale is hardly another one within its own reach, so that the next octaves are
+// enough.
+class Placed {
+ public:
+  Placed(const LevelSet& phi, float radius, std::size_t expected) : m_phi(phi) {
+    if (!phi.scaled()) {
+      m_grids.emplace_back(radius, expected);
+      return;
+    }
+    for (double scale = kLeastScale; scale < 2.0 * kLargestScale; scale *= 2.0)
+      m_grids.emplace_back(radius * float(scale), expected);
+  }
+  // `radius` at scale 1; the smaller of the two points' scales counts.
+  bool near(const Vec3f& p, const Vec3f& n, float radius) const {
+    constexpr float kSameSide =
+        -0.3f;  // cosine of normals: across a right-angled crease points still see each other
+    if (!m_phi.scaled())
+      return m_grids[0].anyWithin(p, radius,
+                                  [&](std::uint32_t i) { return points.normal[i].dot(n) > kSameSide; });
+    const float scale = m_phi.scale(p);
+    const std::size_t own = octave(scale);
+    for (std::size_t k = own - std::min<std::size_t>(own, 1); k < std::min(own + 2, m_grids.size()); ++k) {
+      if (m_grids[k].anyWithin(p, radius * scale, [&](std::uint32_t i) {
+            const float reach = radius * m_scale[i];
+            return points.normal[i].dot(n) > kSameSide &&
+                   (points.position[i] - p).lengthSqr() < reach * reach;
+          }))
+        return true;
+    }
+    return false;
+  }
+  void place(const Vec3f& p, const Vec3f& n, float radius) {
+    if (near(p, n, radius)) return;
+    const float scale = m_phi.scale(p);
+    if (m_phi.scaled()) m_scale.push_back(scale);
+    m_grids[m_phi.scaled() ? octave(scale) : 0].insert(p, std::uint32_t(points.position.size()));
+    points.position.push_back(p);
+    points.normal.push_back(n);
+  }
+
+  PointSet points;
+
+ private:
+  static std::size_t octave(float scale) {
+    std::size_t k = 0;
+    for (double most = kLeastScale; scale > most && most < kLargestScale; most *= 2.0) ++k;
+    return k;
+  }
+
+  const LevelSet& m_phi;
+  std::vector<GrowingGrid> m_grids;
+  std::vector<float> m_scale;  // #P where it varies
+};
+
 struct Dart {
   Vec3f position, normal;
 };
 
 // Calls offer(position, normal) for random points of triangle t, keyed by its cell and its number there.
 template <class Offer>
-void throwDarts(const IsoSurface& surface, std::size_t t, std::uint64_t key, float perArea,
-                const Offer& offer) {
+void throwDarts(const LevelSet& phi, const IsoSurface& surface, std::size_t t, std::uint64_t key,
+                float perArea, const Offer& offer) {
   const openvdb::Coord& cell = surface.cells[t];
   std::uint64_t ordinal = 0;
   while (ordinal < t && surface.cells[t - std::size_t(ordinal) - 1] == cell) ++ordinal;
@@ -86,7 +142,8 @@ void throwDarts(const IsoSurface& surface, std::size_t t, std::uint64_t key, flo
               ac = surface.positions[surface.triangles[t][2]] - a;
   const Vec3f normal = ab.cross(ac);
   const float length = normal.length();
-  const int darts = int(0.5f * length * perArea + unit(triangleKey));
+  const float scale = phi.scale(a);
+  const int darts = int(0.5f * length * perArea / (scale * scale) + unit(triangleKey));
   for (int d = 0; d < darts; ++d) {
     const std::uint64_t random = mix64(triangleKey + std::uint64_t(d) + 1);
     const float r = std::sqrt(unit(random)), s = unit(random << 24);
@@ -104,28 +161,16 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
   constexpr float kDartDistance = 0.8f, kFillDistance = 0.95f;
   // Between seeds there are few gaps, and long edges are split later.
   const float dartsPerPoint = seeds.empty() ? 5.0f : 2.0f;
-  constexpr float kSameSide =
-      -0.3f;  // cosine of normals: across a right-angled crease points still see each other
   constexpr float kReach = 1.5f;     // voxels from which a seed is still brought back
   constexpr float kSnapped = 0.05f;  // voxels from the surface at most, after projection
   constexpr float kStill = 1e-3f;    // voxels: a seed this near stays exactly where it is
 
   const float dartRadius = (seeds.empty() ? kDartDistance : kFillDistance) * spacing;
-  const std::size_t expected =
-      std::size_t(area(surface.positions, surface.triangles) / (double(spacing) * spacing));
-  PointSet points;
+  const std::size_t expected = std::size_t(squares(phi, surface) / (double(spacing) * spacing));
+  Placed placed(phi, dartRadius, expected);
+  PointSet& points = placed.points;
   points.position.reserve(expected + expected / 8 + 16);
   points.normal.reserve(points.position.capacity());
-  GrowingGrid grid(dartRadius, expected);
-  const auto taken = [&](const Vec3f& p, const Vec3f& n, float radius) {
-    return grid.anyWithin(p, radius, [&](std::uint32_t i) { return points.normal[i].dot(n) > kSameSide; });
-  };
-  const auto place = [&](const Vec3f& p, const Vec3f& n, float radius) {
-    if (taken(p, n, radius)) return;
-    grid.insert(p, std::uint32_t(points.position.size()));
-    points.position.push_back(p);
-    points.normal.push_back(n);
-  };
 
   std::vector<LevelSet::Projection> projected(seeds.size());
   forEachIndex(seeds.size(), [&](std::uint32_t i) {
@@ -134,7 +179,7 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
     if ((projected[i].position - seeds[i]).lengthSqr() < kStill * kStill) projected[i].position = seeds[i];
   });
   for (const LevelSet::Projection& p : projected) {
-    if (p.known && p.distance < kSnapped) place(p.position, p.normal, kSeedDistance * spacing);
+    if (p.known && p.distance < kSnapped) placed.place(p.position, p.normal, kSeedDistance * spacing);
   }
 
   // Darts that a seed keeps out are dropped in parallel: mostly that is all of them. The others are placed
@@ -145,13 +190,13 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
   std::vector<std::vector<Dart>> darts((count + kChunk - 1) / kChunk);
   tbb::parallel_for(std::size_t(0), darts.size(), [&](std::size_t chunk) {
     for (std::size_t t = chunk * kChunk; t < std::min(count, (chunk + 1) * kChunk); ++t)
-      throwDarts(surface, t, key, perArea, [&](const Vec3f& p, const Vec3f& n) {
-        if (seeds.empty() || !taken(p, n, dartRadius)) darts[chunk].push_back({p, n});
+      throwDarts(phi, surface, t, key, perArea, [&](const Vec3f& p, const Vec3f& n) {
+        if (seeds.empty() || !placed.near(p, n, dartRadius)) darts[chunk].push_back({p, n});
       });
   });
   for (const std::vector<Dart>& thrown : darts)
-    for (const Dart& dart : thrown) place(dart.position, dart.normal, dartRadius);
-  return points;
+    for (const Dart& dart : thrown) placed.place(dart.position, dart.normal, dartRadius);
+  return std::move(points);
 }
 
 }  // namespace fluidtex::texture

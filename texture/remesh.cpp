@@ -130,6 +130,12 @@ bool tryCollapse(EditableMesh& mesh, std::uint32_t h) {
   return true;
 }
 
+void takeScale(EditableMesh& mesh, const LevelSet& phi) {
+  if (!phi.scaled()) return;
+  mesh.scale.resize(mesh.vertexCount());
+  forEachIndex(mesh.vertexCount(), [&](std::uint32_t v) { mesh.scale[v] = phi.scale(mesh.position[v]); });
+}
+
 std::uint32_t splitOnSurface(EditableMesh& mesh, std::uint32_t h, const LevelSet& phi) {
   const std::uint32_t a = mesh.origin[h], b = mesh.target(h), c = mesh.opposite(h),
                       d = mesh.opposite(mesh.twin[h]);
@@ -141,6 +147,7 @@ std::uint32_t splitOnSurface(EditableMesh& mesh, std::uint32_t h, const LevelSet
   const LevelSet::Projection p = phi.project(middle, 0.5f * length);
   const std::uint32_t m = mesh.splitEdge(h, middle, p.known ? p.normal : normal);
   if (p.known && mayFace(worstFacingAt(mesh, m, p.position, p.normal), before)) mesh.position[m] = p.position;
+  if (!mesh.scale.empty()) mesh.scale[m] = phi.scale(mesh.position[m]);
   return m;
 }
 
@@ -155,7 +162,9 @@ void splitLongEdges(EditableMesh& mesh, const LevelSet& phi, float longest) {
     const std::size_t count = mesh.halfEdgeCount();
     bool any = false;
     for (std::uint32_t h = 0; h < count; ++h) {
-      if (!mesh.alive(h) || h > mesh.twin[h] || length2(h) <= longest * longest) continue;
+      if (!mesh.alive(h) || h > mesh.twin[h]) continue;
+      const float most = longest * std::min(mesh.scaleAt(mesh.origin[h]), mesh.scaleAt(mesh.target(h)));
+      if (length2(h) <= most * most) continue;
       // Only the longest edge of both its triangles is split, so that triangles keep their shape.
       const std::uint32_t t = mesh.twin[h];
       const float own = length2(h);

@@ -38,15 +38,18 @@ void flipToDelaunay(EditableMesh& mesh, const std::vector<std::uint32_t>* dirty 
 // Collapses h if topology and facing allow it.
 bool tryCollapse(EditableMesh& mesh, std::uint32_t h);
 
+// Gives each vertex the level set's scale, where it has one.
+void takeScale(EditableMesh& mesh, const LevelSet& phi);
+
 // Splits an edge at its middle, brought onto the level set. Returns the new vertex.
 std::uint32_t splitOnSurface(EditableMesh& mesh, std::uint32_t h, const LevelSet& phi);
 
-// Splits edges longer than `longest` (voxels), longest first where they share a triangle, until there are
-// none.
+// Splits edges longer than `longest` (voxels, at scale 1), longest first where they share a triangle, until
+// there are none.
 void splitLongEdges(EditableMesh& mesh, const LevelSet& phi, float longest);
 
 struct EvenOptions {
-  float spacing = 1.0f;  // voxels
+  float spacing = 1.0f;  // voxels, at scale 1
   double points = 0.0;   // how many there should be
   int sweeps = 30;       // of repulsion while everything moves
   bool settled = false;  // the points were even in the last frame: only those move that are out of balance

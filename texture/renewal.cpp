@@ -1,6 +1,7 @@
 #include "texture/renewal.h"
 
 #include "texture/complex.h"
+#include "texture/fresh.h"
 #include "texture/parallel.h"
 #include "texture/random.h"
 
@@ -12,7 +13,6 @@ namespace {
 
 constexpr float kSeamWeight = 0.75f;
 constexpr float kLostStretch = 4.0f;
-constexpr float kLowTrust = 0.3f;
 constexpr float kSameTexel = 0.7f;   // a proposal this near to the carried texel says the same
 constexpr float kLeastGain = 0.05f;  // a piece is renewed if its badness falls by this on average
 constexpr int kBlurSweeps = 16;      // badness is averaged over about this many edges' reach in all
@@ -85,7 +85,7 @@ class Surroundings {
 
   const std::vector<std::uint32_t>& within(std::uint32_t center, double pixels) {
     const std::vector<Vec3f>& x = m_view.mesh.positions;
-    const auto reach = float(pixels * m_view.mesh.spacing);
+    const auto reach = float(pixels * m_view.mesh.spacingAt(center));
     m_found.assign(1, center);
     m_stamp[center] = ++m_current;
     for (std::size_t i = 0; i < m_found.size(); ++i)

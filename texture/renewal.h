@@ -49,8 +49,8 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
                              const DiscOptions& options, std::uint64_t seed);
 
 // 1/s, how fast the old texture gives way where it is renewed: in `fade` seconds, or in the time in which
-// texture at this place is stretched by keepStretch twice over, if that is shorter. The time is told by its log stretch
-// since it was laid `age` seconds ago.
+// texture at this place is stretched by keepStretch twice over, if that is shorter. The time is told by its
+// log stretch since it was laid `age` seconds ago.
 float fadingSpeed(float logStretch, float age, double keepStretch, double fade);
 
 // 1 where labels must be renewed whatever else is: beyond the edge of an exemplar that does not wrap, or

@@ -20,11 +20,13 @@ Vec3f Repulsion::push(std::uint32_t v) const {
   // jump there.
   constexpr float kRange = 1.25f;
   constexpr float kStep = 0.2f;  // of the distance that would undo the overlap: stable for six neighbours
-  const float range = kRange * m_edge;
+  const float own = m_mesh.scaleAt(v);
   const Vec3f at = m_mesh.position[v];
   Vec3f sum(0.0f);
   m_mesh.around(v, [&](std::uint32_t h) {
-    const Vec3f away = at - m_mesh.position[m_mesh.target(h)];
+    const std::uint32_t u = m_mesh.target(h);
+    const float range = kRange * m_edge * 0.5f * (own + m_mesh.scaleAt(u));
+    const Vec3f away = at - m_mesh.position[u];
     const float distance2 = away.lengthSqr();
     if (distance2 > 0.0f && distance2 < range * range) sum += away * (range / std::sqrt(distance2) - 1.0f);
   });
@@ -36,7 +38,6 @@ Vec3f Repulsion::push(std::uint32_t v) const {
 void Repulsion::sweep(std::vector<std::uint32_t>& active, float wake, float sleep) {
   // Of the last sweep's move: long waves of density level out in half as many sweeps.
   constexpr float kMomentum = 0.5f;
-  const float longest = kLongest * m_edge, asleep = sleep * m_edge;
   m_last.resize(m_mesh.vertexCount(), Vec3f(0.0f));
   // Where the movers go; then where they were.
   m_position.resize(active.size());
@@ -45,13 +46,14 @@ void Repulsion::sweep(std::vector<std::uint32_t>& active, float wake, float slee
     const std::uint32_t v = active[i];
     const Vec3f from = m_mesh.position[v];
     Vec3f move = push(v);
-    const float limit = awake[v] ? asleep : wake * m_edge;
+    const float edge = m_edge * m_mesh.scaleAt(v), longest = kLongest * edge, asleep = sleep * edge;
+    const float limit = awake[v] ? asleep : wake * edge;
     awake[v] = move.lengthSqr() > limit * limit;
     if (awake[v]) {
       move += m_last[v] * kMomentum;
       const float size = move.length();
       if (size > longest) move *= longest / size;
-      const LevelSet::Projection p = m_phi.slide(from + move, m_edge);
+      const LevelSet::Projection p = m_phi.slide(from + move, edge);
       // At a crease a push moves nothing: such vertices are at rest as well.
       awake[v] = p.known && (p.position - from).lengthSqr() > asleep * asleep;
       m_position[i] = p.position;
@@ -73,6 +75,7 @@ void Repulsion::sweep(std::vector<std::uint32_t>& active, float wake, float slee
   forEachIndex(kept, [&](std::uint32_t i) {
     std::swap(m_mesh.position[active[i]], m_position[i]);
     std::swap(m_mesh.normal[active[i]], m_normal[i]);
+    if (m_phi.scaled()) m_mesh.scale[active[i]] = m_phi.scale(m_mesh.position[active[i]]);
   });
   if (revertFolds(active))
     active.erase(std::remove_if(active.begin(), active.end(), [&](std::uint32_t v) { return !awake[v]; }),
@@ -109,6 +112,7 @@ bool Repulsion::revertFolds(const std::vector<std::uint32_t>& movers) {
       const std::uint32_t v = movers[i];
       m_mesh.position[v] = m_position[i];
       m_mesh.normal[v] = m_normal[i];
+      if (m_phi.scaled()) m_mesh.scale[v] = m_phi.scale(m_mesh.position[v]);
       m_undo[v] = 2;
     }
     // Its neighbours may be in the way now.

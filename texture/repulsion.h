@@ -10,7 +10,7 @@ namespace fluidtex::texture {
 // change between sweeps.
 class Repulsion {
  public:
-  // `edge`: voxels, the mean length of the even mesh's edges.
+  // `edge`: voxels, the mean length of the even mesh's edges, at scale 1.
   Repulsion(EditableMesh& mesh, const LevelSet& phi, float edge) : m_mesh(mesh), m_phi(phi), m_edge(edge) {}
 
   // #V: out of balance, moving.
@@ -18,7 +18,7 @@ class Repulsion {
 
   // One sweep: the vertices in `active` that are awake, or whose push is larger than `wake`, move at once,
   // where that folds no triangle. Leaves in `active` those that moved by more than `sleep`; the others go to
-  // sleep where they were. Both in mean edge lengths.
+  // sleep where they were. Both in mean edge lengths there.
   void sweep(std::vector<std::uint32_t>& active, float wake, float sleep);
 
   // To be called when the mesh's vertices have got other numbers.

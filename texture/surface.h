@@ -30,11 +30,13 @@ struct SurfaceMesh {
   std::vector<Vec3f> normals;        // #V, unit, outward: grad(phi) normalised
   std::vector<Vec3I> triangles;      // #T, counter-clockwise seen from outside
   std::vector<Vec3f> orientation;    // #V, unit, tangent; empty before orient()
+  std::vector<float> scale;          // #V: an exemplar pixel's side is spacing * scale there; empty: 1 everywhere
+  double spacingAt(std::uint32_t v) const { return scale.empty() ? spacing : spacing * double(scale[v]); }
 };
 
 // A vertex's local axes: d = orientation runs along the exemplar's columns to the right, b = d x n along its rows
 // downwards, seen from outside. ([Kwatra07] uses t = n x d = -b with the image upside down.)
-// Local coordinates are l = ((x - p) . d, (x - p) . b) / spacing, in exemplar pixels.
+// Local coordinates are l = ((x - p) . d, (x - p) . b) / spacingAt, in exemplar pixels.
 inline Vec3f rowAxis(const Vec3f& d, const Vec3f& n) { return d.cross(n); }
 
 // What prepareSurface() makes: levels[0] is the finest; coarser ones have 2^L times its spacing. Level count is one where
@@ -88,6 +90,7 @@ struct TexturedSurface {
   std::vector<std::uint8_t> contact;    // 1 where the vertex touches a solid
   std::map<std::string, std::vector<float>> maps;  // every further synthesized map by name
   int exemplarWidth = 0, exemplarHeight = 0;       // texels
+  std::vector<float> scale;             // of the spacing, as in SurfaceMesh; may be empty
   bool empty() const { return positions.empty(); }
 };
 

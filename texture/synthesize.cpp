@@ -142,12 +142,12 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
   State state;
   std::vector<std::uint8_t> renewed(count, 1);
   if (carried.empty()) {
-    state = synthesizeFirst(synthesizer, surface, frame, stats, progress);
+    state = synthesizeFromNothing(synthesizer, surface, 0, frame, stats, progress);
   } else {
     const PreparedMesh prepared(mesh);
     if (labels) {
-      LaterFrame later =
-          synthesizeLater(synthesizer, prepared.view(), carried, frame, secondsSinceLast, stats, progress);
+      LaterFrame later = synthesizeLater(synthesizer, surface, prepared.view(), carried, frame,
+                                         secondsSinceLast, stats, progress);
       result.fading = fadingAfter(carried, later, secondsSinceLast);
       state.labels = std::move(later.labels);
       renewed = std::move(later.renewed);
@@ -168,8 +168,8 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
     const Label& label = state.labels[v];
     const bool kept = !renewed[v];
     result.coordinate[v] = kept ? image.brought(carried.coordinate[v]) : label.texel;
-    result.gradient[v] =
-        kept ? carried.gradient[v] : gradientOf(label, mesh.orientation[v], mesh.normals[v], mesh.spacing);
+    result.gradient[v] = kept ? carried.gradient[v]
+                              : gradientOf(label, mesh.orientation[v], mesh.normals[v], mesh.spacingAt(v));
     if (kept) result.age[v] = carried.age[v] + float(secondsSinceLast);
     if (labels)
       result.color[v] = shownColor(synthesizer.exemplar, result.coordinate[v], result.fading.coordinate[v],
@@ -184,6 +184,7 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
   result.normals = std::move(mesh.normals);
   result.orientation = std::move(mesh.orientation);
   result.triangles = std::move(mesh.triangles);
+  result.scale = std::move(mesh.scale);
   return result;
 }
 

@@ -165,11 +165,12 @@ Connection buildConnection(const SurfaceMesh& mesh, const VertexGraph& graph,
     }
   });
 
-  const auto scale = float(1.0 / mesh.spacing);
   forEachIndex(vertexCount, [&](std::uint32_t v) {
     for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
-      const float length = (mesh.positions[graph.neighbor[h]] - mesh.positions[v]).length();
-      connection.edge[h] *= length * scale;
+      const std::uint32_t u = graph.neighbor[h];
+      const float length = (mesh.positions[u] - mesh.positions[v]).length();
+      const double pixel = 0.5 * (mesh.spacingAt(v) + mesh.spacingAt(u));
+      connection.edge[h] *= length * float(1.0 / pixel);
     }
   });
   return connection;

@@ -42,7 +42,7 @@ VertexGraph buildVertexGraph(const SurfaceMesh& mesh);
 
 // For each directed edge v -> u of the graph: where u lies in v's tangent plane, and how v's plane turns into u's.
 struct Connection {
-  // #H: edge vector in v's axes, |edge| = 3D edge length / spacing; its direction is the edge's angle in the polar map: the
+  // #H: edge vector in v's axes, |edge| = 3D edge length / the mean spacing of its ends; its direction is the edge's angle in the polar map: the
   // surface angle from d times 2 pi / (sum of the face angles around v).
   std::vector<Complexf> edge;
   // #H, unit: a vector x in u's axes is rotation * x in v's axes. The edge seen from its other end is turned by pi.

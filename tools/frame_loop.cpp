@@ -5,6 +5,7 @@
 #include "sim/motion.h"
 #include "sim/pose.h"
 #include "sim/shapes.h"
+#include "texture/fresh.h"
 #include "texture/prepare.h"
 #include "texture/synthesize.h"
 #include "tools/atomic_file.h"
@@ -15,6 +16,7 @@
 #include "tools/progress.h"
 #include "tools/report.h"
 #include "tools/state.h"
+#include "tools/texture_scale.h"
 #include "transport/carry.h"
 
 #include <fmt/core.h>
@@ -54,9 +56,9 @@ struct FrameResult {
 };
 
 texture::Seeds seedsFor(const texture::TexturedSurface& last, const sim::Frame& frame,
-                                     const texture::SurfaceOptions& options) {
+                        const texture::SurfaceOptions& options) {
   if (options.points == texture::Points::random) return {};
-  return {transport::moved(last.positions, frame), last.positions, last.triangles};
+  return {transport::moved(last.positions, frame), last.positions, last.triangles, last.scale};
 }
 
 class FrameLoop {
@@ -70,7 +72,8 @@ class FrameLoop {
             texture::makeSynthesizer(texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis,
                                                            scene.texture.surface.levels),
                                      scene.texture.synthesis)),
-        m_guide(orientationGuide(scene)) {
+        m_guide(orientationGuide(scene)),
+        m_scale(textureScale(scene)) {
     m_surface.spacing = scene.texture.spacing;
     m_report.scene = Json::parse(scene.resolved);
     m_report.seed = scene.seed;
@@ -142,12 +145,13 @@ class FrameLoop {
     {
       Stopwatch watch(seconds.prepare);
       reporter("prepare")(0.0);
+      const texture::PointScale scale = scaleIn(m_scale, motion);
       if (m_surface.spacing <= 0.0)
-        m_surface.spacing = texture::spacingForPoints(*motion.surfacePhi, m_scene.texture.points);
+        m_surface.spacing = texture::spacingForPoints(*motion.surfacePhi, m_scene.texture.points, scale);
       if (m_surface.spacing > 0.0)
-        surface = texture::prepareSurface(*motion.surfacePhi, m_surface.spacing,
-                                          seedsFor(m_surface, motion, surfaceOptions),
-                                          m_surface.empty() ? surfaceOptions.levels : 1, surfaceOptions);
+        surface = texture::prepareSurface(
+            *motion.surfacePhi, m_surface.spacing, seedsFor(m_surface, motion, surfaceOptions),
+            m_surface.empty() ? surfaceOptions.levels : 1, surfaceOptions, scale);
     }
     if (surface.empty()) {
       result.surface.spacing = m_surface.spacing;
@@ -162,8 +166,17 @@ class FrameLoop {
     {
       Stopwatch watch(seconds.prepare);
       const int symmetry = m_guide.options.symmetry;
+      const std::vector<int>& windows = m_scene.texture.synthesis.windows;
+      const texture::VertexGraph graph = texture::buildVertexGraph(surface.levels[0]);
+      if (texture::any(texture::wideFresh(graph, texture::freshVertices(carried.trust),
+                                          *std::max_element(windows.begin(), windows.end()))))
+        texture::addCoarserLevels(*motion.surfacePhi, surfaceOptions.levels, surfaceOptions,
+                                  scaleIn(m_scale, motion), surface);
       texture::orient(surface, carried, {.symmetry = symmetry}, wishesFor(m_guide, motion));
       result.singularities = texture::singularities(surface.levels[0], symmetry);
+      texture::calmDroplets(surface.levels[0],
+                            texture::droplets(graph, *std::min_element(windows.begin(), windows.end())),
+                            carried);
     }
     {
       Stopwatch watch(seconds.synthesize);
@@ -274,6 +287,7 @@ class FrameLoop {
   int m_last;
   texture::Synthesizer m_synthesizer;
   OrientationGuide m_guide;
+  TextureScale m_scale;
   std::optional<sim::Motion> m_motion;
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
   std::vector<std::pair<std::size_t, sim::Pose>> m_visible;  // numbers and places of the solids in m_solids

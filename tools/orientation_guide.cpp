@@ -2,6 +2,7 @@
 
 #include "texture/directions.h"
 #include "texture/parallel.h"
+#include "texture/read_grid.h"
 #include "transport/carry.h"
 
 #include <algorithm>
@@ -57,7 +58,8 @@ std::vector<float> stiffness(const OrientationGuide& guide, const texture::Surfa
 
 OrientationGuide orientationGuide(const scenes::Scene& scene) {
   OrientationGuide guide{scene.texture.orientation, scene.sim.gravity, scene.sim.frameRate, nullptr, {}};
-  if (guide.options.align == Align::field) guide.field = texture::readVectorField(guide.options.field);
+  if (guide.options.align == Align::field)
+    guide.field = texture::readGrid<openvdb::Vec3SGrid>(guide.options.field);
   for (const sim::Shape& shape : scene.keepClear)
     guide.keepClear.emplace_back(shape, scene.sim.voxelSize(), scene.sim.size);
   return guide;

@@ -18,7 +18,7 @@ namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr char kMagic[8] = {'f', 't', 'x', 's', 'u', 'r', 'f', '2'};
+constexpr char kMagic[8] = {'f', 't', 'x', 's', 'u', 'r', 'f', '3'};
 
 constexpr const char* kSolver = "solver.vdb";
 constexpr const char* kSurface = "surface.bin";
@@ -51,6 +51,7 @@ void eachPart(Surface& surface, Visit&& visit) {
   visit(surface.previousPosition);
   visit(surface.velocity);
   visit(surface.contact);
+  visit(surface.scale);
 }
 
 struct Writer {
@@ -105,6 +106,7 @@ bool fitsTogether(const texture::TexturedSurface& surface) {
   return fits(surface.normals, surface.orientation, surface.color, surface.coordinate, surface.gradient,
               surface.fading.coordinate, surface.fading.gradient, surface.fading.weight, surface.fading.speed,
               surface.age, surface.trust, surface.previousPosition, surface.velocity, surface.contact) &&
+         (surface.scale.empty() || fits(surface.scale)) &&
          std::all_of(surface.maps.begin(), surface.maps.end(),
                      [&](const auto& map) { return fits(map.second); }) &&
          std::all_of(surface.triangles.begin(), surface.triangles.end(),

@@ -48,13 +48,13 @@ Mat3d adjugate(const Mat3d& b) {
   return result;
 }
 
-// The length over which trust falls off: what separates surfaces is seen neither below half a voxel nor below
-// the spacing.
-double trustScale(const sim::Frame& frame, double spacing) {
+// The length over which trust falls off, at least: what separates surfaces is seen neither below half a voxel
+// nor below the spacing.
+double halfVoxel(const sim::Frame& frame) {
   double voxel = 0.0;
   if (!frame.substeps.empty()) voxel = VelocitySampler(frame.substeps.back()).voxelSize();
   if (voxel == 0.0 && frame.surfacePhi) voxel = frame.surfacePhi->voxelSize().x();
-  return std::max(0.5 * voxel, spacing);
+  return 0.5 * voxel;
 }
 
 // Where a vertex landed on the previous surface.
@@ -197,7 +197,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   Carried carried;
   if (previous.empty() || previous.triangles.empty()) return carried;
   const std::size_t count = next.positions.size();
-  const double scale = trustScale(frame, next.spacing);
+  const double least = halfVoxel(frame);
   const Backtrace trace = traceBack(next.positions, frame);
   const ClosestPoint closest(previous.positions, previous.triangles);
 
@@ -212,6 +212,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   carried.previousPosition.resize(count);
   texture::forEachIndex(count, [&](std::uint32_t v) {
     const Mat3d& map = trace.map[v];
+    const double scale = std::max(least, next.spacingAt(v));
     const Vec3f& normal = next.normals[v];
     // A normal is a gradient, grad phi_new = grad phi_old B; so the old one is B^-T of the new one, = (adj
     // B)^T up to a factor.

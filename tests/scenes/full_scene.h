@@ -146,6 +146,17 @@ keep_stretch = 2
 points = "random"
 levels = 4
 repulsion_sweeps = 12
+[texture.scale]
+by = "field"
+field = "f.vdb"
+[[texture.scale.point]]
+value = 1
+factor = 0.5
+[[texture.scale.point]]
+value = 2
+factor = 3
+[[texture.scale.from]]
+sphere = { center = [1, 1, 1], radius = 0.25 }
 [texture.orientation]
 symmetry = 2
 align = "field"

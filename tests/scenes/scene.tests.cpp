@@ -206,7 +206,8 @@ TEST_CASE("scene: the resolved scene has every key, given or not", "[scenes]") {
       "[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 } ]\n[[solid]]\nmesh_sequence = { files "
       "= "
       "'m_%d.obj', last = 2 }\n[[source]]\n" +
-      ball + "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + ball + "[[wall]]\n";
+      ball + "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + ball +
+      "[[wall]]\n[texture.scale]\npoint = [ { value = 0, factor = 1 } ]\n";
   std::set<std::string> whole, defaults;
   collectKeys(Json::parse(sceneOf(kFullScene).resolved), "", whole);
   collectKeys(Json::parse(sceneOf(kGoodScene + oneEach).resolved), "", defaults);

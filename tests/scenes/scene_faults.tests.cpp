@@ -84,6 +84,19 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
        "s.toml:8:48: error: heat.point.1.temperature: 4 K is not above the one before, 5 K; give them by "
        "rising "
        "temperature"},
+      {"[texture.scale]\nby = 'height'",
+       "s.toml:7:1: error: texture.scale.by: is of no use without a factor; give one [[texture.scale.point]] "
+       "or more, each with a value and a factor"},
+      {"[texture.scale]\nby = 'distance'\npoint = [{ value = 0, factor = 1 }]",
+       "s.toml:7:1: error: texture.scale.by: \"distance\" is from nothing; give a shape or more as "
+       "[[texture.scale.from]]"},
+      {"[texture.scale]\nby = 'temperature'\npoint = [{ value = 0, factor = 1 }]",
+       "s.toml:7:1: error: texture.scale.by: \"temperature\" is not computed; give simulate = true in [heat] "
+       "too"},
+      {"[texture.scale]\npoint = [{ value = 2, factor = 1 }, { value = 1, factor = 2 }]",
+       "s.toml:7:39: error: texture.scale.point.1.value: 1 is not above the one before, 2; give them by "
+       "rising "
+       "value"},
       {"[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 }, { time = 1 } ]",
        "s.toml:8:30: error: solid.0.keyframe.1.time: 1 s is not after the one before, at 1 s; give them in "
        "the order of time"},

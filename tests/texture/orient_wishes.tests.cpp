@@ -3,6 +3,7 @@
 
 #include "tests/texture/orientation_fields.h"
 #include "texture/directions.h"
+#include "texture/read_grid.h"
 #include "texture/tangent.h"
 
 #include <catch2/catch.hpp>
@@ -214,11 +215,12 @@ TEST_CASE("directions: vectors of a file, and a clear word about one that has no
   const auto grid = openvdb::Vec3SGrid::create(Vec3f(0.0f, 3.0f, 0.0f));
   openvdb::io::File(file.string()).write({openvdb::FloatGrid::create(), grid});
   const SurfaceMesh mesh = sphereMesh(6);
-  const std::vector<Vec3f> along = alongField(mesh, *readVectorField(file));
+  const std::vector<Vec3f> along = alongField(mesh, *readGrid<openvdb::Vec3SGrid>(file));
   const std::vector<Vec3f> expected = alongDirection(mesh, Vec3f(0.0f, 1.0f, 0.0f));
   for (std::size_t v = 0; v < along.size(); ++v) CHECK((along[v] - expected[v]).length() < 1e-6f);
   openvdb::io::File(file.string()).write({openvdb::FloatGrid::create()});
-  CHECK_THROWS_WITH(readVectorField(file), Catch::Contains("field.vdb: holds no grid of float vectors"));
-  CHECK_THROWS_WITH(readVectorField(folder / "missing.vdb"), Catch::Contains("missing.vdb: "));
+  CHECK_THROWS_WITH(readGrid<openvdb::Vec3SGrid>(file),
+                    Catch::Contains("field.vdb: holds no grid of float vectors"));
+  CHECK_THROWS_WITH(readGrid<openvdb::Vec3SGrid>(folder / "missing.vdb"), Catch::Contains("missing.vdb: "));
   std::filesystem::remove_all(folder);
 }

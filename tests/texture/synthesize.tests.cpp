@@ -336,3 +336,19 @@ TEST_CASE("synthesize: no surface gives no texture; wrong sizes are refused") {
   wrong.previousPosition.resize(3);
   CHECK_THROWS_AS(synthesize(synthesizer, sphere(4, 1), wrong, 1, 0.0, stats), std::invalid_argument);
 }
+
+TEST_CASE("synthesize: droplets keep what was carried to them, whatever it is worth") {
+  const SynthesisOptions options = smallOptions();
+  Synthesizer synthesizer =
+      makeSynthesizer(makeExemplar(blobImage(64, 64, 4, 12.0, 2), true, options, 1), options);
+  SynthesisStats stats;
+  for (const int subdivisions : {2, 4}) {  // 42 vertices, fewer than 9 x 9 pixels, and 162
+    const TexturedSurface first = synthesize(synthesizer, sphere(subdivisions, 1), {}, 1, 0.0, stats);
+    Carried carried = carriedFrom(first);
+    carried.trust.assign(first.positions.size(), 0.0f);
+    std::fill(carried.coordinate.begin(), carried.coordinate.end(), Vec2f(7.0f, 9.0f));
+    const TexturedSurface second = synthesize(synthesizer, surfaceOf(first), carried, 2, 0.1, stats);
+    CHECK((stats.renewed == 0.0) == (subdivisions == 2));
+    CHECK((second.coordinate == carried.coordinate) == (subdivisions == 2));
+  }
+}
