@@ -85,7 +85,7 @@ LikenessJudge::LikenessJudge(const Image& color, const MeasureOptions& options)
 
 LikenessJudge::~LikenessJudge() = default;
 
-std::optional<Likeness> LikenessJudge::operator()(const TexturedSurface& surface) {
+std::optional<Likeness> LikenessJudge::operator()(const TexturedSurface& surface, bool repeats) {
   if (surface.empty()) return std::nullopt;
   Internals& in = *m_internals;
   const TileGround ground(surface);
@@ -103,7 +103,7 @@ std::optional<Likeness> LikenessJudge::operator()(const TexturedSurface& surface
   result.likeness = patchRatio(reference.judge.distances(pyramidOf(shown), in.dice), reference.own);
   result.sharpness = gradientEnergy(shown) / std::max(reference.energy, 1e-12);
   result.coverage = in.coverage.effectiveParts(shown, in.dice) / std::max(reference.parts, 1e-12);
-  if (in.options.repeats) result.repeats = repeatsOf(ground, in.picture, in.dice);
+  if (repeats) result.repeats = repeatsOf(ground, in.picture, in.dice);
   return result;
 }
 

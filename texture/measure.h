@@ -16,7 +16,6 @@ struct MeasureOptions {
   int tile = 47;    // texels across of the flat tiles that likeness is judged by; shorter where none are flat
   int tiles = 160;  // how many
   int patches = 2500;  // drawn from them
-  bool repeats = true;
   std::uint64_t seed = 1;
 };
 
@@ -33,9 +32,8 @@ struct Likeness {
   // the exemplar that patches of 9 texels are nearest to, over the same of the exemplar itself.
   double coverage = 0.0;
   // Share of windows of 9 texels, read along the orientation, with a near-duplicate (within a fifth of the
-  // usual contrast) more than 18 texels away on the surface, less the same share of the exemplar. 0 where
-  // not asked for.
-  double repeats = 0.0;
+  // usual contrast) more than 18 texels away on the surface, less the same share of the exemplar.
+  std::optional<double> repeats;
   int tile = 0, tiles = 0;  // size and number of the tiles
 };
 
@@ -43,10 +41,12 @@ struct Likeness {
 // neighbours, puts the other within 0.75 texels (mean of both) of where it is; pieces are what coheres.
 // Surface that is new in its frame (trust below kNewSurface) is left out, unless all is.
 struct Pieces {
-  double shape = 0.0;  // 95th percentile by area of max(s1, 1 / s2), s the singular values of the
-                       // coordinates' gradient in texels a texel, of triangles in one piece; 1 is undistorted
-  double seams = 0.0;  // rms difference of colour a texel across edges between pieces, over that between
-                       // texels side by side in the exemplar; 0 without such edges
+  // 95th percentile of max(s1, 1 / s2), s the singular values of the fitted gradients (texels a texel), over
+  // vertices that cohere with three neighbours or more; 1 is undistorted.
+  double shape = 0.0;
+  // rms difference of colour a texel across edges between pieces, over that between texels side by side in
+  // the exemplar; 0 without such edges.
+  double seams = 0.0;
   double joints = 0.0;  // share of the edges that lie between pieces
   double chips = 0.0;   // share of the vertices in pieces of fewer than 25
   int pieces = 0;
@@ -54,9 +54,9 @@ struct Pieces {
 
 // What is new from one frame to the next. Vertices of new surface are left out.
 struct Change {
-  double pop =
-      0.0;  // 99.9th percentile of a vertex's change along the flow: mean over R, G, B of the difference
-            // from the last frame's colour where the vertex was, read between its vertices
+  // 99.9th percentile of a vertex's change along the flow: mean over R, G, B of the difference from the last
+  // frame's colour where the vertex was, read between its vertices.
+  double pop = 0.0;
   // rms difference of luminance between what is shown and the last picture merely carried: the exemplar at
   // the carried coordinate (at the shown one where it is the same within half a texel), plus what the last
   // picture differed from the exemplar at its own, as in a fade. What resampling costs is not in it.
@@ -76,8 +76,9 @@ class LikenessJudge {
   explicit LikenessJudge(const Image& color, const MeasureOptions& options = {});
   ~LikenessJudge();
 
-  // Nothing where fewer than four tiles of the surface are flat.
-  std::optional<Likeness> operator()(const TexturedSurface& surface);
+  // Nothing where fewer than four tiles of the surface are flat. `repeats`: that too, which takes as long
+  // again as all else.
+  std::optional<Likeness> operator()(const TexturedSurface& surface, bool repeats = false);
 
  private:
   struct Internals;

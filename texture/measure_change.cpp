@@ -14,8 +14,8 @@ namespace {
 constexpr float kSame = 0.5f;           // texels between a coordinate and the one carried there
 constexpr float kStep = 1.0f / 255.0f;  // of a file's colours: a smaller difference is none
 
-// The judge's reading of a vertex from its neighbours costs this much less between vertices, on sheets whose
-// texture moved exactly.
+// What the smooth reading costs between vertices over what reading a vertex from its neighbours costs:
+// measured on sheets whose texture moved exactly.
 constexpr double kBetween = 0.57;
 
 double luminance(const Vec3f& color) {
@@ -85,10 +85,17 @@ class LastSurface {
     const float limit = float(m_ground.spacing * m_ground.spacing);
     std::pair<float, std::uint32_t> triangle{limit, 0}, vertex{std::numeric_limits<float>::max(), 0};
     std::optional<Landing> result;
+    const auto distance2 = [&](std::uint32_t v) { return (surface.positions[v] - x).lengthSqr(); };
     m_grid.visitNear(x, [&](std::uint32_t v) {
-      vertex = std::min(vertex, {(surface.positions[v] - x).lengthSqr(), v});
+      const float here = distance2(v);
+      vertex = std::min(vertex, {here, v});
       for (std::uint32_t k = m_first[v]; k < m_first[v + 1]; ++k) {
         const Vec3I& t = surface.triangles[m_triangle[k]];
+        // Each triangle is looked at from the nearest of its corners.
+        bool mine = true;
+        for (int i = 0; i < 3; ++i)
+          mine = mine && (t[i] == v || std::pair(distance2(t[i]), t[i]) > std::pair(here, v));
+        if (!mine) continue;
         const Vec3f w =
             nearestOnTriangle(x, surface.positions[t[0]], surface.positions[t[1]], surface.positions[t[2]]);
         const Landing landing{t, w, 0};

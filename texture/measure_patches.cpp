@@ -16,6 +16,7 @@ using Row = Eigen::RowVectorXf;
 
 constexpr int kLevels = 3;
 constexpr std::array<int, 2> kWidths{7, 15};
+constexpr int kDraws = 2;        // of patches, whose distances are averaged
 constexpr double kLeast = 0.02;  // a self-distance below is no measure
 
 // Rows of width x width patches; none where the pictures are smaller.
@@ -154,9 +155,12 @@ PatchDistances PatchJudge::distances(const std::vector<Stack>& pyramid, Dice& di
   PatchDistances result;
   for (const auto& [key, space] : m_spaces) {
     if (key.first >= int(pyramid.size())) continue;
-    const Matrix drawn = drawPatches(pyramid[std::size_t(key.first)], key.second, m_patches, dice);
-    if (drawn.rows() > 0)
-      result[key] = std::sqrt((space->slices - space->sortedSlices(drawn)).array().square().mean());
+    for (int draw = 0; draw < kDraws; ++draw) {
+      const Matrix drawn = drawPatches(pyramid[std::size_t(key.first)], key.second, m_patches, dice);
+      if (drawn.rows() == 0) break;
+      const double square = (space->slices - space->sortedSlices(drawn)).array().square().mean();
+      result[key] += std::sqrt(square) / kDraws;
+    }
   }
   return result;
 }

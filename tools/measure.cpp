@@ -79,8 +79,7 @@ class Measurer {
 
   void run() {
     const std::vector<int> frames = framesIn(m_wishes.out / "surface");
-    texture::MeasureOptions options;
-    texture::LikenessJudge judge(m_color, options);
+    texture::LikenessJudge judge(m_color);
     if (!m_wishes.quiet) printHead();
     Json rows = Json::array();
     texture::TexturedSurface before;
@@ -91,7 +90,7 @@ class Measurer {
       row["frame"] = frame;
       row["vertices"] = surface.positions.size();
       if (n % std::size_t(m_wishes.every) == 0 || n + 1 == frames.size()) {
-        addLikeness(row, judge(surface));
+        addLikeness(row, judge(surface, n == 0 || n + 1 == frames.size()));
         addPieces(row, texture::measurePieces(surface, m_color, m_toroidal));
       }
       if (n > 0 && frames[n - 1] == frame - 1)
@@ -140,7 +139,7 @@ class Measurer {
     row["likeness"] = found->likeness;
     row["sharpness"] = found->sharpness;
     row["coverage"] = found->coverage;
-    row["repeats"] = found->repeats;
+    if (found->repeats) row["repeats"] = *found->repeats;
     row["tile"] = found->tile;
     row["tiles"] = found->tiles;
   }
@@ -218,8 +217,10 @@ void addMeasure(CLI::App& app, int& exitCode) {
       ->type_name("IMAGE");
   command->add_option("--json", wishes->json, "Write all figures to this file")->type_name("FILE");
   command
-      ->add_option("--every", wishes->every,
-                   "Likeness and pieces on every K-th frame and the last (default: 8); change on all")
+      ->add_option(
+          "--every", wishes->every,
+          "Likeness and pieces on every K-th frame and the last (default: 8); repeats on the first and the "
+          "last; change on all")
       ->check(CLI::Range(1, 9999))
       ->type_name("K");
   command->add_flag("--quiet", wishes->quiet, "No table, only files");

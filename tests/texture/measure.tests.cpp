@@ -82,9 +82,7 @@ Image blurred(const Image& image) {
 
 TEST_CASE("measure: the exemplar itself is like itself, as sharp and all in use", "[texture]") {
   const Image picture = stripes(128);
-  MeasureOptions options;
-  options.repeats = false;
-  LikenessJudge judge(picture, options);
+  LikenessJudge judge(picture);
   const auto itself = judge(sheet(picture, asItIs));
   REQUIRE(itself);
   CHECK(itself->tile == 47);
@@ -120,15 +118,17 @@ TEST_CASE("measure: a surface that nowhere is flat has no likeness", "[texture]"
 }
 
 TEST_CASE("measure: what is shown twice repeats", "[texture]") {
-  const Image picture = stripes(128);
+  const Image picture = stripes(256);  // both sides of the sheet have parts of their own
   LikenessJudge judge(picture);
-  const auto once =
-      judge(sheet(picture, [](const Vec2f& l) { return Vec2f(l[0], l[1] + (l[1] < 0 ? 0 : 20)); }));
-  const auto tiled = judge(sheet(picture, [](const Vec2f& l) {
-    return Vec2f(l[0] - 32.0f * std::floor(l[0] / 32.0f), l[1] - 32.0f * std::floor(l[1] / 32.0f));
-  }));
+  const auto once = judge(sheet(picture, asItIs), true);
+  const auto tiled = judge(sheet(picture,
+                                 [](const Vec2f& l) {
+                                   return Vec2f(l[0] - 32.0f * std::floor(l[0] / 32.0f),
+                                                l[1] - 32.0f * std::floor(l[1] / 32.0f));
+                                 }),
+                           true);
   REQUIRE((once && tiled));
-  CHECK(tiled->repeats > once->repeats + 0.3);
+  CHECK(*tiled->repeats > *once->repeats + 0.3);
 }
 
 TEST_CASE("measure: shape is the stretch of the coordinates", "[texture]") {
@@ -181,7 +181,8 @@ TEST_CASE("measure: a seam that does not show has the exemplar's own contrast", 
   const auto shown = measurePieces(sheet(picture, halves(21.0f)), picture, true);
   REQUIRE((hidden && shown));
   CHECK(hidden->joints > 0.0);
-  // Of the edges across, half are a texel long and half a diagonal; side by side means columns and rows alike.
+  // Of the edges across, half are a texel long and half a diagonal; side by side means columns and rows
+  // alike.
   CHECK_THAT(hidden->seams, WithinAbs(std::sqrt(4.0 / 3.0), 0.02));
   CHECK(shown->seams < 0.02);  // columns that should differ are alike
 }
