@@ -43,10 +43,16 @@ double gradientEnergy(const Stack& stack) {
   return sum / (double(stack.count) * (stack.height - 1) * (stack.width - 1));
 }
 
-// The exemplar on tiles of one size.
-struct Reference {
+// The exemplar on tiles of one size, laid down once.
+struct Laid {
   PatchJudge judge;
   std::vector<PatchDistances> own;
+};
+
+// A few times over: which parts of the exemplar fall on the tiles makes some difference.
+constexpr int kTimes = 3;
+struct Reference {
+  std::vector<Laid> laid;
   double energy = 0.0, parts = 0.0;
 };
 
@@ -67,14 +73,16 @@ struct LikenessJudge::Internals {
     const auto laid = [&](const Image& image) {
       return exemplarTiles(image, tiles, size, options.tiles, dice);
     };
-    const Stack whole = laid(picture);
-    Reference made{PatchJudge(pyramidOf(whole), options.patches, dice),
-                   {},
-                   gradientEnergy(whole),
-                   coverage.effectiveParts(whole, dice)};
-    for (const auto& [a, b] : halvesOf(picture)) {
-      const PatchJudge half(pyramidOf(laid(a)), options.patches, dice);
-      made.own.push_back(half.distances(pyramidOf(laid(b)), dice));
+    Reference made;
+    for (int n = 0; n < kTimes; ++n) {
+      const Stack whole = laid(picture);
+      made.energy += gradientEnergy(whole) / kTimes;
+      made.parts += coverage.effectiveParts(whole, dice) / kTimes;
+      made.laid.push_back({PatchJudge(pyramidOf(whole), options.patches, dice), {}});
+      for (const auto& [a, b] : halvesOf(picture)) {
+        const PatchJudge half(pyramidOf(laid(a)), options.patches, dice);
+        made.laid.back().own.push_back(half.distances(pyramidOf(laid(b)), dice));
+      }
     }
     return references.emplace(size, std::move(made)).first->second;
   }
@@ -100,7 +108,9 @@ std::optional<Likeness> LikenessJudge::operator()(const TexturedSurface& surface
   if (result.tiles < kFewest) return std::nullopt;
   const Reference& reference = in.reference(tiles, result.tile);
   const Stack shown = colorTiles(surface, tiles, result.tile, in.picture.channels);
-  result.likeness = patchRatio(reference.judge.distances(pyramidOf(shown), in.dice), reference.own);
+  const std::vector<Stack> pyramid = pyramidOf(shown);
+  for (const Laid& laid : reference.laid)
+    result.likeness += patchRatio(laid.judge.distances(pyramid, in.dice), laid.own) / kTimes;
   result.sharpness = gradientEnergy(shown) / std::max(reference.energy, 1e-12);
   result.coverage = in.coverage.effectiveParts(shown, in.dice) / std::max(reference.parts, 1e-12);
   if (repeats) result.repeats = repeatsOf(ground, in.picture, in.dice);

@@ -39,16 +39,32 @@ struct Components {
   Row mean;
   Eigen::VectorXd variance;
   Matrix direction;
+  double total = 0.0;  // variance, of all there are
 };
 
-Components componentsOf(const Matrix& rows) {
+// The first `kept`, by subspace iteration.
+Components componentsOf(const Matrix& rows, Eigen::Index kept) {
+  constexpr int kIterations = 8;
+  constexpr Eigen::Index kBeside = 16;  // directions carried along to sharpen the others
   Components result;
   result.mean = rows.colwise().mean();
   const Matrix centred = rows.rowwise() - result.mean;
-  const Matrix covariance = centred.transpose() * centred / float(rows.rows());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(covariance);
-  result.variance = solver.eigenvalues().reverse().cast<double>().cwiseMax(0.0);
-  result.direction = solver.eigenvectors().rowwise().reverse();
+  const Eigen::MatrixXf covariance = centred.transpose() * centred / float(rows.rows());
+  result.total = covariance.diagonal().cast<double>().sum();
+  const Eigen::Index size = covariance.rows(), carried = std::min(kept + kBeside, size);
+  Dice dice(1);
+  Eigen::MatrixXf basis(size, carried);
+  for (float& entry : basis.reshaped()) entry = float(dice.normal());
+  for (int i = 0; i < kIterations; ++i) {
+    const Eigen::HouseholderQR<Eigen::MatrixXf> orthogonal(basis);
+    basis = covariance * (orthogonal.householderQ() * Eigen::MatrixXf::Identity(size, carried));
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXf> orthogonal(basis);
+  basis = orthogonal.householderQ() * Eigen::MatrixXf::Identity(size, carried);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(basis.transpose() * covariance * basis);
+  kept = std::min(kept, size);
+  result.variance = solver.eigenvalues().reverse().head(kept).cast<double>().cwiseMax(0.0);
+  result.direction = (basis * solver.eigenvectors().rowwise().reverse()).leftCols(kept);
   return result;
 }
 
@@ -101,10 +117,10 @@ struct PatchJudge::Space {
   Matrix slices;  // of the reference, each row sorted
 
   Space(const Matrix& patches, Dice& dice) {
-    const Components components = componentsOf(patches);
+    const Components components = componentsOf(patches, kKept);
     mean = components.mean;
     const Eigen::VectorXd& variance = components.variance;
-    const double total = std::max(variance.sum(), 1e-12);
+    const double total = std::max(components.total, 1e-12);
     Eigen::Index explained = 0;
     for (double sum = 0.0; explained < variance.size() && sum < 0.995 * total; ++explained)
       sum += variance[explained];
@@ -212,7 +228,7 @@ CoverageMap::CoverageMap(const Image& encoded, Dice& dice) : m_internals(std::ma
   for (Eigen::Index i = 0; i < sample.rows(); ++i)
     sample.row(i) = patches.row(Eigen::Index(dice.below(std::uint64_t(patches.rows()))));
   m_internals->mean = patches.colwise().mean();
-  m_internals->basis = componentsOf(sample).direction.leftCols(In::kKept);
+  m_internals->basis = componentsOf(sample, In::kKept).direction;
   m_internals->known = (patches.rowwise() - m_internals->mean) * m_internals->basis;
   m_internals->half = 0.5f * m_internals->known.rowwise().squaredNorm();
 }
@@ -244,7 +260,7 @@ Reduced reducedWindows(const std::vector<float>& windows, int dimension) {
   const Eigen::Index step = std::max<Eigen::Index>(1, rows.rows() / kSample);
   Matrix sample((rows.rows() + step - 1) / step, dimension);
   for (Eigen::Index i = 0; i < sample.rows(); ++i) sample.row(i) = rows.row(i * step);
-  const Matrix basis = componentsOf(sample).direction.leftCols(std::min<Eigen::Index>(kKept, dimension));
+  const Matrix basis = componentsOf(sample, kKept).direction;
   const Row mean = rows.colwise().mean();
   const Matrix values = (rows.rowwise() - mean) * basis;
   return {int(basis.cols()), {values.data(), values.data() + values.size()}};
