@@ -85,7 +85,7 @@ Image blurred(const Image& image) {
 
 }  // namespace
 
-TEST_CASE("measure: the exemplar itself is like itself, as sharp and all in use", "[texture]") {
+TEST_CASE("measure: the exemplar itself is like itself, as sharp and all in use", "[texture][slow]") {
   const Image picture = cells(144);
   LikenessJudge judge(picture);
   const auto itself = judge(sheet(picture, turned));
@@ -98,7 +98,7 @@ TEST_CASE("measure: the exemplar itself is like itself, as sharp and all in use"
   const auto soft = judge(sheet(blurred(picture), turned));
   REQUIRE(soft);
   CHECK(soft->sharpness < 0.7 * itself->sharpness);
-  CHECK(soft->likeness > 1.3 * itself->likeness);
+  CHECK(soft->likeness > 1.1 * itself->likeness);
   const auto other = judge(sheet(stripes(144), turned));
   REQUIRE(other);
   CHECK(other->likeness > 3.0 * itself->likeness);
@@ -122,7 +122,7 @@ TEST_CASE("measure: a surface that nowhere is flat has no likeness", "[texture]"
   CHECK_FALSE(judge({}));
 }
 
-TEST_CASE("measure: what is shown twice repeats", "[texture]") {
+TEST_CASE("measure: what is shown twice repeats", "[texture][slow]") {
   const Image picture = cells(192);  // both sides of the sheet have parts of their own
   LikenessJudge judge(picture);
   const auto once = judge(sheet(picture, asItIs), true);
