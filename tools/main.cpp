@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   int exitCode = kDone;
   addRun(app, exitCode);
   addCheck(app, exitCode);
+  addMeasure(app, exitCode);
   addValidate(app, exitCode);
   if (argc > 1 && argv[1][0] != '-') {
     bool found = false;
