@@ -16,6 +16,9 @@ namespace {
 // A ring averages the slope as it fits it, by h^2/8 of its Laplacian; a mean over the ring differs by h^2/4.
 constexpr float kSharpen = 0.5f;
 constexpr int kSharpenSweeps = 2;
+// A neighbour that has turned by more than this part of the period says that a singularity is near, where the
+// angle has no slope.
+constexpr float kMostTurn = 0.25f;
 // The cubic leaves the linear interpolant by no more than this, radians: beside singularities slopes are
 // wild.
 constexpr float kMostBend = 0.3f;
@@ -64,6 +67,7 @@ Vec3f fittedSlope(const TexturedSurface& surface, const Rings& rings, std::uint3
     const Vec3f edge = surface.positions[u] - surface.positions[v];
     const float x = edge.dot(d), y = edge.dot(across);
     const float angle = angleBetween(d, turned(surface.orientation[u], surface.normals[u], n), n, period);
+    if (std::abs(angle) > kMostTurn * period) return Vec3f(0.0f);
     xx += x * x, xy += x * y, yy += y * y;
     xa += x * angle, ya += y * angle;
   }
@@ -84,7 +88,8 @@ std::vector<Vec3f> angleSlopes(const TexturedSurface& surface, int symmetry) {
   for (int sweep = 0; sweep < kSharpenSweeps; ++sweep) {
     texture::forEachIndex(slopes.size(), [&](std::uint32_t v) {
       const std::uint32_t begin = rings.first[v], end = rings.first[v + 1];
-      if (begin == end) return;
+      next[v] = fitted[v];
+      if (fitted[v] == Vec3f(0.0f)) return;
       Vec3f mean(0.0f);
       for (std::uint32_t i = begin; i < end; ++i) mean += slopes[rings.neighbor[i]];
       mean /= float(end - begin);

@@ -9,7 +9,7 @@
 namespace fluidtex::transport {
 namespace {
 
-constexpr float kMuchStretch = 2.0f;
+constexpr float kMuchStretch = 2.0f, kLeastForStretch = 0.6f;
 // Of a difference between neighbours, in spacings (or edges, where these are longer).
 constexpr float kUsualJump = 0.5f, kLargeJump = 1.5f;
 
@@ -35,7 +35,7 @@ float stretchTrust(const TexelGradient& gradient, double spacing) {
   const auto scale = float(spacing);
   const float larger = std::sqrt(mean + spread) * scale,
               smaller = std::sqrt(std::max(mean - spread, 0.0f)) * scale;
-  return std::min({1.0f, kMuchStretch / std::max(larger, 1e-6f), kMuchStretch * smaller});
+  return std::clamp(kMuchStretch * std::min(1.0f / std::max(larger, 1e-6f), smaller), kLeastForStretch, 1.0f);
 }
 
 std::vector<float> neighborTrust(const texture::SurfaceMesh& mesh, const std::vector<Vec3f>& landed,

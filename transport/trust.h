@@ -12,9 +12,10 @@ namespace fluidtex::transport {
 // degrees. Surface that the velocity does not explain is found by this, and surface that is new.
 float landingTrust(const Landing& landing, double scale, const Vec3f& carriedNormal);
 
-// The texture was deformed since it was laid: 1 up to a stretch of 2, 2 / stretch beyond. The stretch is
-// max(s1, 1 / s2), s1 >= s2 being the singular values of the carried gradient, which was 1 / spacing when the
-// texture was laid and has gathered every deformation since.
+// The texture was deformed since it was laid: 1 up to a stretch of 2, 2 / stretch beyond, but not below 0.6:
+// what is stretched is held less, and still is no new surface. The stretch is max(s1, 1 / s2), s1 >= s2 being
+// the singular values of the carried gradient, which was 1 / spacing when the texture was laid and has
+// gathered every deformation since.
 float stretchTrust(const TexelGradient& gradient, double spacing);
 
 // How far the landing places of neighbours differ from what the flow's map says of the edge between them,

@@ -71,8 +71,7 @@ inline TexturedSurface texturedMesh(const SurfaceMesh& mesh, const Flow& directi
 // The textures here are stretched without end where the surface is upright to a plane of their coordinates;
 // what else speaks against a vertex is left when that is taken out. 1 where the stretch leaves nothing.
 inline float trustBesidesStretch(const Carried& carried, const TexturedSurface& previous, std::size_t v) {
-  const float stretch = transport::stretchTrust(carried.gradient[v], previous.spacing);
-  return stretch > 0.01f ? carried.trust[v] / stretch : 1.0f;
+  return carried.trust[v] / transport::stretchTrust(carried.gradient[v], previous.spacing);
 }
 
 inline Flow constantDirection(const Vec3d& d) {
