@@ -186,6 +186,31 @@ void checkVolume(const Scene& scene, Reader& reader) {
   }
 }
 
+// A flow in closed form moves what is there from the start, and knows nothing else.
+void checkKnownFlow(const Scene& scene, Reader& reader) {
+  using sim::MotionKind;
+  const MotionKind flow = scene.motion.flow;
+  const auto ofUse = [&](const char* key, std::initializer_list<MotionKind> to, const char* names) {
+    const std::string path = std::string("motion.") + key;
+    if (!reader.given(path) || !reader.clean("motion.flow")) return;
+    if (std::find(to.begin(), to.end(), flow) == to.end())
+      reader.fault(path, "is of no use here", std::string("give it together with flow = ") + names);
+  };
+  ofUse("period", {MotionKind::vortex, MotionKind::deformation}, "\"vortex\" or \"deformation\"");
+  ofUse("rate", {MotionKind::rotation, MotionKind::vortex, MotionKind::stretch, MotionKind::sourceSink},
+        "\"rotation\", \"vortex\", \"stretch\" or \"source_sink\"");
+  if (flow == MotionKind::solver || !reader.clean("motion.flow")) return;
+  for (const char* key : {"solid", "source", "drain"})
+    if (reader.given(key))
+      reader.fault(key, "is of no use with a flow in closed form, which knows of no other bodies",
+                   "leave it out, or give motion.flow = \"solver\"");
+  for (std::size_t i = 0; i < scene.sim.liquid.size(); ++i) {
+    const std::string path = "liquid." + std::to_string(i) + ".from";
+    if (reader.clean(path) && scene.sim.liquid[i].from > 0.0)
+      reader.fault(path, "a flow in closed form moves what is there from the start", "leave it out");
+  }
+}
+
 void checkBodies(const Scene& scene, Reader& reader) {
   if (scene.sim.liquid.empty() && scene.sim.sources.empty() && reader.clean("liquid") &&
       reader.clean("source"))
@@ -338,6 +363,7 @@ void check(const Scene& scene, Reader& reader) {
     reader.fault("name", "\"" + scene.name + "\" is a folder", "give a name that can be a file's");
   checkDomain(scene, reader);
   checkBodies(scene, reader);
+  checkKnownFlow(scene, reader);
   checkHeat(scene.sim.heat.law, reader);
   checkFlows(scene, reader);
   checkVolume(scene, reader);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/options.h"
+#include "sim/motion_options.h"
 #include "sim/options.h"
 #include "texture/options.h"
 #include "transport/options.h"
@@ -25,6 +26,7 @@ struct Scene {
   int frames = 72;  // how many; numbered from 1
   std::uint64_t seed = 1;
   sim::Options sim;
+  sim::MotionOptions motion;
   texture::Options texture;
   std::vector<sim::Shape> keepClear;  // places where the orientation field should have no singularities
   transport::Options transport;

@@ -19,7 +19,16 @@ void describeWall(Visitor& visitor, sim::Wall& wall) {
   visitor.vector("wall_velocity", wall.velocity, kAny);
 }
 
-void describeMotion(Visitor& visitor, sim::Options& sim) {
+void describeMotion(Visitor& visitor, sim::MotionOptions& motion) {
+  visitor.table("motion", [&] {
+    choice(visitor, "flow", motion.flow,
+           {"solver", "rest", "rotation", "vortex", "deformation", "stretch", "source_sink"});
+    visitor.number("period", motion.period, kPositive);
+    visitor.number("rate", motion.rate, kPositive);
+  });
+}
+
+void describeLiquid(Visitor& visitor, sim::Options& sim) {
   visitor.table(
       "domain",
       [&] {
@@ -206,7 +215,8 @@ void describe(Visitor& visitor, Scene& scene) {
   visitor.integer("frames", scene.frames, {.low = 1, .high = 9999});
   visitor.number("frame_rate", scene.sim.frameRate, {.low = 1.0, .high = 1000.0});
   visitor.seed("seed", scene.seed);
-  describeMotion(visitor, scene.sim);
+  describeMotion(visitor, scene.motion);
+  describeLiquid(visitor, scene.sim);
   describeTexture(visitor, scene);
   describePicture(visitor, scene.render);
 }

@@ -1,6 +1,7 @@
 #include "sim/solver.h"
 
 #include "sim/advect_velocity.h"
+#include "sim/describe_liquid.h"
 #include "sim/flows.h"
 #include "sim/heat.h"
 #include "sim/keep_substep.h"
@@ -17,8 +18,6 @@
 namespace fluidtex::sim {
 namespace {
 
-// Half width of the textured surface's band, voxels.
-constexpr int kSurfaceBand = 5;
 // How often a step that fails is halved.
 constexpr int kMaxHalvings = 6;
 // Times closer than this share of a frame are one.
@@ -154,6 +153,14 @@ constexpr double kShortest = 1e-5;
 
 }  // namespace
 
+void checkResolution(const State& state, const Options& options) {
+  const double written = state.phi->voxelSize()[0], asked = options.voxelSize();
+  if (std::abs(written - asked) <= 1e-9 * asked) return;
+  std::ostringstream message;
+  message << "the state was made with cells of " << written << " m, the scene asks for " << asked << " m";
+  throw SolverError(message.str());
+}
+
 Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_shared<Solids>(options)) {
   const double h = options.voxelSize();
   m_state.poured.assign(options.liquid.size(), false);
@@ -164,13 +171,8 @@ Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_
 
 Solver::Solver(const Options& options, State state)
     : m_options(options), m_state(std::move(state)), m_solids(std::make_shared<Solids>(options)) {
-  const double written = m_state.phi->voxelSize()[0], asked = options.voxelSize();
-  if (std::abs(written - asked) > 1e-9 * asked) {
-    std::ostringstream message;
-    message << "the state was made with cells of " << written << " m, the scene asks for " << asked << " m";
-    throw SolverError(message.str());
-  }
-  setTransforms(m_state, asked);
+  checkResolution(m_state, options);
+  setTransforms(m_state, options.voxelSize());
   if (options.heat.simulated && !m_state.temperature)
     throw SolverError("the state was made without heat, the scene asks for it");
   if (!options.heat.simulated) m_state.temperature = nullptr;
@@ -314,13 +316,8 @@ Frame Solver::next(const std::function<void(double)>& progress) {
     }
   }
   m_state.frame = frame.index;
-  const auto surface = toOpenVdb(*visibleSurface(*m_state.phi, *m_solid, kSurfaceBand));
-  surface->setTransform(cellTransform(m_options.voxelSize()));
-  frame.surfacePhi = surface;
-  frame.solidPhi = m_solid->phi;
+  describeLiquid(frame, *m_state.phi, *m_solid);
   if (m_state.temperature) frame.fields["temperature"] = m_state.temperature;
-  frame.stats.cells = liquidCells(*m_state.phi, *m_solid);
-  frame.stats.volume = liquidVolume(*m_state.phi, *m_solid);
   if (progress) progress(1.0);
   return frame;
 }

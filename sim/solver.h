@@ -69,6 +69,9 @@ class Solver {
   std::vector<std::string> m_warnings;
 };
 
+// Throws SolverError when the state was made with cells of another size than the options ask for.
+void checkResolution(const State& state, const Options& options);
+
 // The state as one .vdb file, uncompressed so that every value returns bit for bit.
 // Throws openvdb::IoError when the file cannot be written or read.
 void writeState(const State& state, const std::filesystem::path& file);

@@ -284,17 +284,14 @@ void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& af
   cutSolids(*liquid.phi, *before.phi, left);
 }
 
-bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options, StepReport* report,
-            const RunningFlows& flows) {
-  FloatGrid& phi = *liquid.phi;
-  applyFlows(phi, liquid.markers, flows);
+void settleSurface(FloatGrid& phi, const SolidField& solid) {
   for (const Coord& origin : wetLeaves(phi, solid.cells, kMargin)) phi.tree().touchLeaf(origin);
   for (auto leaf = solid.phi->constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
   // A body that ends at a wall has its surface there; extending and reinitialising in turn makes it go on
   // behind.
   constexpr int kIterations = 4;
   const int rounds =
-      static_cast<int>(phi.background() / (voxelSize(liquid) * kReinitReach * kIterations)) + 2;
+      static_cast<int>(phi.background() / (phi.voxelSize()[0] * kReinitReach * kIterations)) + 2;
   const LetGo never = [](const Coord&) { return false; };
   for (int n = 0; n < rounds; ++n) {
     extendIntoSolids(phi, *solid.phi, never);
@@ -302,6 +299,13 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   }
   extendIntoSolids(phi, *solid.phi, never);
   trimBand(phi, *solid.phi);
+}
+
+bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options, StepReport* report,
+            const RunningFlows& flows) {
+  FloatGrid& phi = *liquid.phi;
+  applyFlows(phi, liquid.markers, flows);
+  settleSurface(phi, solid);
   liquid.markers = seedMarkers(phi, *solid.phi, static_cast<std::uint64_t>(liquid.steps));
 
   const Velocity before = liquid.velocity;

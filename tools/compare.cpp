@@ -6,6 +6,7 @@
 #include "tools/compare_table.h"
 #include "tools/contact_sheet.h"
 #include "tools/errors.h"
+#include "tools/measure.h"
 #include "tools/run.h"
 
 #include <fmt/core.h>
@@ -20,15 +21,16 @@ namespace {
 struct Variant {
   const char* folder;
   const char* label;
+  bool textured;
   std::vector<std::string> set;  // on top of the scene and of the user's own
 };
 
 const std::array<Variant, 5> kVariants{
-    {{"untextured", "untextured", {"texture.method=none"}},
-     {"advected", "pure advection", {"texture.later_frames=advect"}},
-     {"alone", "each frame alone", {"texture.later_frames=alone"}},
-     {"scalars", "orientation as scalars", {"texture.transport.orientation=scalars"}},
-     {"full", "full method", {}}}};
+    {{"untextured", "untextured", false, {"texture.method=none"}},
+     {"advected", "pure advection", true, {"texture.later_frames=advect"}},
+     {"alone", "each frame alone", true, {"texture.later_frames=alone"}},
+     {"scalars", "orientation as scalars", true, {"texture.transport.orientation=scalars"}},
+     {"full", "full method", true, {}}}};
 
 constexpr int kSheetRows = 4, kSheetWidth = 384;  // pixels, of one picture
 constexpr int kVideoColumns = 3, kVideoWidth = 480;
@@ -73,7 +75,10 @@ void compare(CommonOptions options) {
   for (const Variant& variant : kVariants) {
     if (!options.quiet) fmt::print(stderr, "{}\n", variant.label);
     runInto(out / variant.folder, sceneOf(variant, options), options);
-    rows.push_back(comparedRun(variant.label, out / variant.folder, plain.texture.exemplar));
+    // What has no texture has nothing to be measured.
+    if (variant.textured)
+      measureRun({.out = out / variant.folder, .json = out / variant.folder / "measure.json", .quiet = true});
+    rows.push_back(comparedRun(variant.label, out / variant.folder));
   }
   writeTextAtomically(out / "compare.json", toJson(rows));
   writeTextAtomically(out / "compare.md", toMarkdown(rows));

@@ -19,8 +19,9 @@ struct Column {
 };
 const Column kColumns[] = {{"likeness", "likeness", &Compared::likeness},
                            {"sharpness", "sharpness", &Compared::sharpness},
-                           {"change_along_flow", "change along the flow", &Compared::change},
-                           {"pops", "pops", &Compared::pops},
+                           {"change_along_flow", "change along the flow", &Compared::alongFlow},
+                           {"pop", "pops", &Compared::pop},
+                           {"shape", "stretch", &Compared::shape},
                            {"renewed", "renewed", &Compared::renewed},
                            {"seconds", "transport and synthesis, s a frame", &Compared::seconds}};
 
@@ -51,19 +52,24 @@ std::optional<double> meanOf(const Json& frames, const std::string& pointer) {
 
 }  // namespace
 
-Compared comparedRun(const std::string& label, const std::filesystem::path& out,
-                     const texture::ExemplarOptions&) {
+Compared comparedRun(const std::string& label, const std::filesystem::path& out) {
   const Json report = readReport(out / "run.json"), &frames = report.at("frames");
   Compared row;
   row.label = label;
-  row.likeness = meanOf(frames, "/likeness");
-  row.sharpness = meanOf(frames, "/sharpness");
-  row.change = meanOf(frames, "/change_along_flow");
-  row.pops = meanOf(frames, "/pops");
   row.renewed = meanOf(frames, "/renewed");
   const auto transport = meanOf(frames, "/seconds/transport"),
              synthesize = meanOf(frames, "/seconds/synthesize");
   if (transport && synthesize) row.seconds = *transport + *synthesize;
+  if (!std::filesystem::exists(out / "measure.json")) return row;
+  const Json measured = readReport(out / "measure.json"), mean = measured.value("mean", Json::object());
+  const auto figure = [&](const char* key) {
+    return mean.contains(key) ? std::optional(mean.at(key).get<double>()) : std::nullopt;
+  };
+  row.likeness = figure("likeness");
+  row.sharpness = figure("sharpness");
+  row.alongFlow = figure("change_along_flow");
+  row.pop = figure("pop");
+  row.shape = figure("shape");
   return row;
 }
 

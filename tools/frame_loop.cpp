@@ -2,9 +2,9 @@
 
 #include "render/frame_name.h"
 #include "render/render.h"
+#include "sim/motion.h"
 #include "sim/pose.h"
 #include "sim/shapes.h"
-#include "sim/solver.h"
 #include "texture/prepare.h"
 #include "texture/synthesize.h"
 #include "tools/atomic_file.h"
@@ -81,14 +81,14 @@ class FrameLoop {
 
   void run() {
     if (!m_options.resume || !continueFromState()) {
-      m_solver = std::make_unique<sim::Solver>(m_scene.sim);
+      m_motion = sim::makeMotion(m_scene.sim, m_scene.motion);
       clearEarlierRun(m_options.out, m_scene.name);
     }
-    for (const std::string& warning : m_solver->warnings()) {
+    for (const std::string& warning : sim::warningsOf(*m_motion)) {
       spdlog::warn("{}", warning);
       if (!m_options.quiet) fmt::print(stderr, "warning: {}\n", warning);
     }
-    const int first = m_solver->state().frame + 1;
+    const int first = sim::stateOf(*m_motion).frame + 1;
     spdlog::info("{}: frames {} to {}, {} threads", m_scene.name, first, m_last, m_options.threads);
     Progress progress(first, m_last, m_options.quiet);
     m_progress = &progress;
@@ -110,7 +110,7 @@ class FrameLoop {
     {
       Stopwatch watch(seconds.write);
       recordCost(m_report.frames.back(), seconds);
-      saveState(m_solver->state(), m_surface, toJson(m_report), m_options.out / "state");
+      saveState(sim::stateOf(*m_motion), m_surface, toJson(m_report), m_options.out / "state");
     }
     recordCost(m_report.frames.back(), seconds);
     writeTextAtomically(m_options.out / "run.json", toJson(m_report));
@@ -136,7 +136,7 @@ class FrameLoop {
     StageSeconds& seconds = result.seconds;
     {
       Stopwatch watch(seconds.simulate);
-      result.motion = m_solver->next(reporter("simulate"));
+      result.motion = sim::nextFrame(*m_motion, reporter("simulate"));
     }
     const sim::Frame& motion = result.motion;
     const texture::SurfaceOptions& surfaceOptions = m_scene.texture.surface;
@@ -259,7 +259,7 @@ class FrameLoop {
         missingResult(m_options.out, m_options.firstFrame, std::min(done, m_last), m_options.render);
     if (!missing.empty())
       refuse(fmt::format("frames 1 to {} are done, but {} is not there", done, missing.generic_string()));
-    m_solver = std::make_unique<sim::Solver>(m_scene.sim, std::move(state->solver));
+    m_motion = sim::makeMotion(m_scene.sim, m_scene.motion, std::move(state->solver));
     m_surface = std::move(state->surface);
     m_report.frames = std::move(report.frames);
     // Killed right after the state was saved, run.json lacks that state's frame.
@@ -270,7 +270,7 @@ class FrameLoop {
   std::function<void(double)> reporter(const char* stage) {
     return [this, stage](double part) {
       if (m_stop) throw Interrupted();
-      m_progress->update(m_solver->state().frame + (std::string_view(stage) == "simulate" ? 1 : 0), stage,
+      m_progress->update(sim::stateOf(*m_motion).frame + (std::string_view(stage) == "simulate" ? 1 : 0), stage,
                          part);
     };
   }
@@ -281,7 +281,7 @@ class FrameLoop {
   int m_last;
   texture::Synthesizer m_synthesizer;
   OrientationGuide m_guide;
-  std::unique_ptr<sim::Solver> m_solver;
+  std::optional<sim::Motion> m_motion;
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
   std::vector<std::pair<std::size_t, sim::Pose>> m_visible;  // numbers and places of the solids in m_solids
   std::vector<render::Solid> m_solids;

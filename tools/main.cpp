@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   addRun(app, exitCode);
   addCompare(app, exitCode);
   addCheck(app, exitCode);
+  addMeasure(app, exitCode);
   addValidate(app, exitCode);
   if (argc > 1 && argv[1][0] != '-') {
     bool found = false;

@@ -12,4 +12,9 @@ namespace fluidtex::tools {
 // corner. Throws std::system_error when the file cannot be written.
 void writePly(const texture::TexturedSurface& surface, const std::filesystem::path& file);
 
+// Reads back what writePly() wrote of a texture from an exemplar of that size (texels); further maps are left
+// out, and so is the gradient, which the file does not hold: zero. Throws UsageError that names the file
+// where it is something else.
+texture::TexturedSurface readPly(const std::filesystem::path& file, int exemplarWidth, int exemplarHeight);
+
 }  // namespace fluidtex::tools

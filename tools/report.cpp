@@ -46,6 +46,7 @@ Json frameRecord(const sim::Frame& frame, const texture::TexturedSurface& surfac
   record["vertices"] = surface.positions.size();
   record["triangles"] = surface.triangles.size();
   record["components"] = mesh.components;
+  record["spacing"] = orNull(textured, surface.spacing);
   record["edge_mean"] = orNull(textured, mesh.edgeMean);
   record["edge_cv"] = orNull(textured, mesh.edgeCv);
   record["singularities"] = singularities ? Json(singularities->size()) : Json(nullptr);

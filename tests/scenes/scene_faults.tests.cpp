@@ -138,6 +138,29 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
   });
 }
 
+TEST_CASE("scene faults: a flow in closed form and what it knows nothing of", "[scenes]") {
+  const std::string ball = "sphere = { center = [1, 1, 1], radius = 0.5 }";
+  checkCases({
+      {"motion.flow = 'swirl'",
+       "s.toml:6:8: error: motion.flow: \"swirl\" is unknown; give \"solver\", \"rest\", \"rotation\", "
+       "\"vortex\", \"deformation\", \"stretch\" or \"source_sink\""},
+      {"motion.period = 2",
+       "s.toml:6:8: error: motion.period: is of no use here; give it together with flow = \"vortex\" or "
+       "\"deformation\""},
+      {"motion = { flow = 'deformation', rate = 2 }",
+       "s.toml:6:34: error: motion.rate: is of no use here; give it together with flow = \"rotation\", "
+       "\"vortex\", \"stretch\" or \"source_sink\""},
+      {"motion = { flow = 'stretch', rate = 0 }",
+       "s.toml:6:30: error: motion.rate: 0 is not above 0; give a number above 0"},
+      {"[motion]\nflow = 'rest'\n[[drain]]\n" + ball,
+       "s.toml:8:3: error: drain: is of no use with a flow in closed form, which knows of no other bodies; leave "
+       "it out, or give motion.flow = \"solver\""},
+      {"[motion]\nflow = 'rest'\n[[liquid]]\n" + ball + "\nfrom = 1",
+       "s.toml:10:1: error: liquid.1.from: a flow in closed form moves what is there from the start; leave it "
+       "out"},
+  });
+}
+
 TEST_CASE("scene faults: liquid wholly outside the domain", "[scenes]") {
   const std::string fault =
       "s.toml:6:1: error: liquid.1: lies wholly outside the domain; put at least a part of it between [0, 0, "

@@ -34,11 +34,13 @@ double heightAt(const terrain::Ground& ground, double x, double y) {
 }  // namespace
 
 TEST_CASE("shipped scenes: are read in every quality, with files that are there", "[scenes]") {
-  for (const std::string name : {"river", "pour", "drops"}) {
+  for (const std::string file : {"river", "pour", "drops", "flows/deformation", "flows/stretch",
+                                 "flows/source_sink", "flows/vortex", "flows/sphere", "flows/torus"}) {
+    const std::string name = file.substr(file.find('/') + 1);
     for (const Quality quality : {Quality::preview, Quality::standard, Quality::final}) {
       Overrides overrides;
       overrides.quality = quality;
-      const Scene scene = loadScene(FLUIDTEX_SOURCE_DIR "/scenes/" + name + ".toml", overrides);
+      const Scene scene = loadScene(FLUIDTEX_SOURCE_DIR "/scenes/" + file + ".toml", overrides);
       CHECK(scene.name == name);
       CHECK(std::filesystem::is_regular_file(scene.texture.exemplar.file));
       for (const sim::Solid& solid : scene.sim.solids) {

@@ -2,6 +2,7 @@
 
 #include "tests/tools/sample_surface.h"
 #include "tests/scratch.h"
+#include "tools/errors.h"
 
 #include <catch2/catch.hpp>
 
@@ -87,4 +88,49 @@ TEST_CASE("PLY: a folder that is not there is an error that names the file", "[t
   const Scratch scratch;
   CHECK_THROWS_WITH(tools::writePly({}, scratch.path / "no" / "a.ply"),
                     Catch::Contains("a.ply: cannot write"));
+}
+
+TEST_CASE("PLY: what was written is read back, to the file's own steps", "[tools]") {
+  const Scratch scratch;
+  const texture::TexturedSurface surface = sampleSurface();
+  tools::writePly(surface, scratch.path / "a.ply");
+  const texture::TexturedSurface back = tools::readPly(scratch.path / "a.ply", 8, 4);
+  CHECK(back.positions == surface.positions);
+  CHECK(back.normals == surface.normals);
+  CHECK(back.orientation == surface.orientation);
+  CHECK(back.triangles == surface.triangles);
+  CHECK(back.previousPosition == surface.previousPosition);
+  CHECK(back.velocity == surface.velocity);
+  CHECK(back.trust == surface.trust);
+  CHECK(back.age == surface.age);
+  CHECK(back.contact == surface.contact);
+  CHECK((back.exemplarWidth == 8 && back.exemplarHeight == 4));
+  for (std::size_t v = 0; v < 4; ++v) {
+    CHECK(back.coordinate[v].x() == Approx(surface.coordinate[v].x()).margin(1e-5));
+    CHECK(back.coordinate[v].y() == Approx(surface.coordinate[v].y()).margin(1e-5));
+    for (int c = 0; c < 3; ++c) CHECK(back.color[v][c] == Approx(surface.color[v][c]).margin(0.01));
+    CHECK(back.color[v][3] == Approx(surface.color[v][3]).margin(0.5 / 255));
+  }
+}
+
+TEST_CASE("PLY: a file that is cut short, too long or another one is refused by name", "[tools]") {
+  const Scratch scratch;
+  const std::filesystem::path file = scratch.path / "a.ply", broken = scratch.path / "broken.ply";
+  tools::writePly(sampleSurface(), file);
+  const std::string bytes = readBytes(file);
+  const auto refused = [&](const std::string& content) {
+    std::ofstream(broken, std::ios::binary) << content;
+    CHECK_THROWS_AS(tools::readPly(broken, 8, 4), tools::UsageError);
+    CHECK_THROWS_WITH(tools::readPly(broken, 8, 4), Catch::Contains("broken.ply"));
+  };
+  for (std::size_t length = 0; length < bytes.size(); length += 7) refused(bytes.substr(0, length));
+  refused(bytes + "x");
+  std::string ascii = bytes;
+  refused(ascii.replace(ascii.find("binary_little_endian"), 20, "ascii"));
+  std::string corner = bytes;
+  corner[corner.size() - 1] = 0x7f;  // of the last corner's number
+  refused(corner);
+  std::string without = bytes;
+  refused(without.replace(without.find("float trust"), 11, "float truss"));
+  CHECK_THROWS_AS(tools::readPly(scratch.path / "none.ply", 8, 4), tools::UsageError);
 }

@@ -45,8 +45,8 @@ AdvectionResult run(const AdvectionTest& test, int resolution, const Progress& p
   sim::trimBand(*phi, *solid->phi);
   sim::Markers markers = sim::seedMarkers(*phi, *solid->phi, 0);
 
-  const sim::Velocity flow = faceVelocity(test.flow, cells, kMargin, h);
-  sim::Velocity velocity = faceVelocity(test.flow, cells, kMargin, h);
+  const sim::Velocity flow = sim::faceVelocity(test.flow, cells, kMargin, h);
+  sim::Velocity velocity = sim::faceVelocity(test.flow, cells, kMargin, h);
   const double speed = sim::maxAbs(flow), duration = test.flow.duration * test.turns;
   const int steps = static_cast<int>(std::ceil(duration * speed / (test.cfl * h)));
   const double dt = duration / steps;
@@ -66,7 +66,7 @@ AdvectionResult run(const AdvectionTest& test, int resolution, const Progress& p
   result.before = outline(*phi, cells, slice);
   for (int n = 0; n < steps; ++n) {
     // The flow in the middle of the step: second order in time.
-    scale(flow, test.flow.strength((n + 0.5) * dt), velocity);
+    sim::scale(flow, test.flow.strength((n + 0.5) * dt), velocity);
     sim::moveSurface(*phi, markers, velocity, *solid->phi, dt, static_cast<std::uint64_t>(n) + 1);
     if (n + 1 == (steps + 1) / 2) {
       result.volumeHalf = compare(*phi, test.start, cells, samples).volume / unit;

@@ -1,8 +1,8 @@
 // A shape carried by a known flow with the solver's own kernels (sim/move_surface.h), and what became of it.
 #pragma once
 
+#include "sim/known_flow.h"
 #include "tests/validation/case.h"
-#include "tests/validation/flows.h"
 #include "tests/validation/measure.h"
 
 #include <utility>
@@ -11,7 +11,7 @@ namespace fluidtex::validation {
 
 struct AdvectionTest {
   Distance start, end;  // the shape before and after
-  Flow flow;
+  sim::KnownFlow flow;
   double width = 1.0, height = 1.0;  // of the domain along x and y; 2D tests are a slab of one leaf along z
   bool slab = true;
   double surface = 0.0;  // length of the exact outline (slab) or area of the surface

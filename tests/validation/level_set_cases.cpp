@@ -70,13 +70,13 @@ const std::string kIsoAdvector = "isoAdvector iso-alpha, TwoPhaseFlow";
 const std::string kPlicRdf = "isoAdvector plicRDF, TwoPhaseFlow";
 
 Case translation() {
-  AdvectionTest test{circle(0.5, 0.5, 0.15), circle(1.5, 1.5, 0.15), diagonal(), 2.0, 2.0, true, 0.3 * pi};
+  AdvectionTest test{circle(0.5, 0.5, 0.15), circle(1.5, 1.5, 0.15), sim::diagonal(), 2.0, 2.0, true, 0.3 * pi};
   return advectionCase("translation", "A circle moved by (1, 1)", test, {32, 64, 128}, {},
                        {{64, {.volume = {0.05, 0.005, {}}, .farthest = {0.1, 0.02, {}}}}});
 }
 
 Case zalesak(int turns) {
-  AdvectionTest test{slottedDisk(), slottedDisk(), rotation(), 1.0, 1.0, true, 1.43805};
+  AdvectionTest test{slottedDisk(), slottedDisk(), sim::rotation(), 1.0, 1.0, true, 1.43805};
   test.turns = turns;
   // Enright's lengths are in a domain of 100; 0.01 m of the unit square.
   std::map<int, Bars> bars;
@@ -96,7 +96,7 @@ Case zalesak(int turns) {
 }
 
 Case zalesakSphere() {
-  AdvectionTest test{slottedSphere(), slottedSphere(), rotation(), 1.0, 1.0, false, 0.3433};
+  AdvectionTest test{slottedSphere(), slottedSphere(), sim::rotation(), 1.0, 1.0, false, 0.3433};
   test.sliceAt = 0.5;
   return advectionCase("zalesak_sphere", "A slotted sphere, one turn", test, {50, 100}, {},
                        {{100, {.volume = {1.0, 0.1, {}}}}});
@@ -104,7 +104,7 @@ Case zalesakSphere() {
 
 Case vortex(double duration) {
   AdvectionTest test{
-      circle(0.5, 0.75, 0.15), circle(0.5, 0.75, 0.15), singleVortex(duration), 1.0, 1.0, true, 0.3 * pi};
+      circle(0.5, 0.75, 0.15), circle(0.5, 0.75, 0.15), sim::singleVortex(duration), 1.0, 1.0, true, 0.3 * pi};
   if (duration < 3.0) {
     return advectionCase(
         "vortex_2", "The single vortex, T = 2", test, {64, 128, 256}, {},
@@ -131,14 +131,14 @@ Case vortex(double duration) {
 Case deformation16() {
   // The vortices repeat every half metre; the domain is twice as high so that no liquid meets its ends.
   AdvectionTest test{
-      circle(0.5, 1.25, 0.15), circle(0.5, 1.25, 0.15), deformation2d(), 1.0, 2.0, true, 0.3 * pi};
+      circle(0.5, 1.25, 0.15), circle(0.5, 1.25, 0.15), sim::deformation2d(), 1.0, 2.0, true, 0.3 * pi};
   return advectionCase("deformation_2d", "Sixteen vortices, T = 2", test, {64, 128}, {},
                        {{128, {.volume = {2.0, 0.2, {}}}}});
 }
 
 Case deformation() {
   const Distance ball = sphere(Vec3d(0.35), 0.15);
-  AdvectionTest test{ball, ball, deformation3d(), 1.0, 1.0, false, 0.09 * pi};
+  AdvectionTest test{ball, ball, sim::deformation3d(), 1.0, 1.0, false, 0.09 * pi};
   return advectionCase(
       "deformation_3d", "The sphere of LeVeque and Enright, T = 3", test, {32, 64, 100, 128}, {},
       {{32, {.difference = {{}, {}, {{8.6e-3, kIsoAdvector}, {7.7e-3, kPlicRdf}}}}},

@@ -1,0 +1,23 @@
+// Where frames come from: the solver, or a flow known in closed form.
+#pragma once
+
+#include "sim/analytic_flow.h"
+#include "sim/solver.h"
+
+#include <optional>
+#include <variant>
+
+namespace fluidtex::sim {
+
+using Motion = std::variant<Solver, AnalyticFlow>;
+
+// What `motion` asks for, from the start or on from a state. Throws SolverError when the state was
+// made at another resolution.
+Motion makeMotion(const Options& options, const MotionOptions& motion, std::optional<State> state = {});
+
+// As Solver::next(), Solver::state() and Solver::warnings().
+Frame nextFrame(Motion& motion, const std::function<void(double)>& progress = {});
+const State& stateOf(const Motion& motion);
+std::vector<std::string> warningsOf(const Motion& motion);
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,67 @@
+// fluidtex measure: a run's figures, and where they go.
+#include "tests/tools/program.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+TEST_CASE("fluidtex measure: fills the report of a run and writes all figures", "[tools][slow]") {
+  const Scratch scratch;
+  const fs::path out = scratch.path / "out", json = scratch.path / "m.json";
+  REQUIRE(
+      runProgram({"run", kSmallScene, "--out", out.string(), "--frames", "1:3", "--no-render"}).exitCode ==
+      0);
+  const Finished done = runProgram({"measure", out.string(), "--json", json.string(), "--every", "2"});
+  INFO(done.err);
+  REQUIRE(done.exitCode == 0);
+  CHECK_THAT(done.out, Catch::Contains("likeness") && Catch::Contains("mean"));
+  const Json figures = Json::parse(readBytes(json)), report = Json::parse(readBytes(out / "run.json"));
+  REQUIRE(figures["frames"].size() == 3);
+  CHECK(figures["spacing"].get<double>() == report["frames"][0]["spacing"].get<double>());
+  for (int n = 0; n < 3; ++n) {
+    INFO(n);
+    const Json &frame = figures["frames"][n], &record = report["frames"][n];
+    CHECK(frame["frame"] == n + 1);
+    CHECK(frame.contains("likeness") == (n != 1));
+    CHECK(frame.contains("pop") == (n > 0));
+    CHECK(record["sharpness"].is_number() == (n != 1));
+    CHECK(record["change_along_flow"].is_number() == (n > 0));
+  }
+  CHECK(figures["frames"][2]["likeness"] == report["frames"][2]["likeness"]);
+  CHECK(figures["frames"][0]["shape"].get<double>() >= 1.0);
+  CHECK(figures["mean"]["pop"] ==
+        (figures["frames"][1]["pop"].get<double>() + figures["frames"][2]["pop"].get<double>()) / 2);
+  // The same once more: nothing in it depends on chance.
+  REQUIRE(runProgram({"measure", out.string(), "--json", (scratch.path / "n.json").string(), "--every", "2"})
+              .exitCode == 0);
+  CHECK(readBytes(scratch.path / "n.json") == readBytes(json));
+
+  fs::remove(out / "surface" / "0002.ply");
+  REQUIRE(runProgram({"measure", out.string(), "--json", json.string(), "--quiet"}).exitCode == 0);
+  CHECK_FALSE(Json::parse(readBytes(json))["frames"][1].contains("pop"));
+}
+
+TEST_CASE("fluidtex measure: a folder that holds no run is refused in one sentence", "[tools]") {
+  const Scratch scratch;
+  const auto refusedFor = [&](const std::string& why) {
+    const Finished done = runProgram({"measure", scratch.path.string()});
+    CHECK(done.exitCode == 1);
+    CHECK_THAT(done.err, Catch::StartsWith("error: ") && Catch::Contains(why));
+    CHECK(std::count(done.err.begin(), done.err.end(), '\n') == 1);
+  };
+  refusedFor("run.json: cannot be read");
+  std::ofstream(scratch.path / "run.json") << "{\"frames\": []";
+  refusedFor("run.json: is no report of a run");
+  const auto write = [&](const std::string& exemplar) {
+    std::ofstream(scratch.path / "run.json")
+        << R"({"scene": {"texture": {"exemplar": ")" << exemplar << R"("}}, "frames": []})";
+  };
+  write("/no/such.png");
+  refusedFor("/no/such.png: the exemplar of the run is not there");
+  write(FLUIDTEX_SOURCE "/scenes/exemplars/green_scales.png");
+  refusedFor("holds no surface");
+}

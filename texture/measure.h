@@ -1,0 +1,94 @@
+// How good the texture of a run is, in figures. Colours are sRGB-encoded and lie in 0..1, lengths are in
+// texels: one is the surface's spacing. Ratios to the exemplar are taken to the exemplar laid on the same
+// vertices and read back the same way, so that they do not depend on the mesh.
+#pragma once
+
+#include "texture/exemplar.h"
+#include "texture/surface.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace fluidtex::texture {
+
+struct MeasureOptions {
+  int tile = 47;    // texels across of the flat tiles that likeness is judged by; shorter where none are flat
+  int tiles = 160;  // how many
+  int patches = 2500;  // drawn from them
+  bool repeats = true;
+  std::uint64_t seed = 1;
+};
+
+// What one frame shows, on square tiles of the surface that are laid flat, in CIELAB / 100 (and alpha).
+struct Likeness {
+  // Sliced Wasserstein distance of the tiles' patches (7 and 15 texels wide, at every level of a pyramid that
+  // holds them) to the exemplar's, over that of the exemplar's halves to each other: 1 is as like as the
+  // exemplar is to itself, less is liker. Slices run along the exemplar's principal components, half
+  // whitened, and along random mixtures of three; mean over widths and levels.
+  double likeness = 0.0;
+  // Mean squared gradient of the lightness over the exemplar's: 1 is right, less is blurred, more is noise.
+  double sharpness = 0.0;
+  // How much of the exemplar is in use: effective number (exponential of the entropy) of the 8 x 8 parts of
+  // the exemplar that patches of 9 texels are nearest to, over the same of the exemplar itself.
+  double coverage = 0.0;
+  // Share of windows of 9 texels, read along the orientation, with a near-duplicate (within a fifth of the
+  // usual contrast) more than 18 texels away on the surface, less the same share of the exemplar. 0 where
+  // not asked for.
+  double repeats = 0.0;
+  int tile = 0, tiles = 0;  // size and number of the tiles
+};
+
+// What one frame's exemplar coordinates show. Two neighbours cohere where each one's gradient, fitted to its
+// neighbours, puts the other within 0.75 texels (mean of both) of where it is; pieces are what coheres.
+// Surface that is new in its frame (trust below kNewSurface) is left out, unless all is.
+struct Pieces {
+  double shape = 0.0;  // 95th percentile by area of max(s1, 1 / s2), s the singular values of the
+                       // coordinates' gradient in texels a texel, of triangles in one piece; 1 is undistorted
+  double seams = 0.0;  // rms difference of colour a texel across edges between pieces, over that between
+                       // texels side by side in the exemplar; 0 without such edges
+  double joints = 0.0;  // share of the edges that lie between pieces
+  double chips = 0.0;   // share of the vertices in pieces of fewer than 25
+  int pieces = 0;
+};
+
+// What is new from one frame to the next. Vertices of new surface are left out.
+struct Change {
+  double pop =
+      0.0;  // 99.9th percentile of a vertex's change along the flow: mean over R, G, B of the difference
+            // from the last frame's colour where the vertex was, read between its vertices
+  // rms difference of luminance between what is shown and the last picture merely carried: the exemplar at
+  // the carried coordinate (at the shown one where it is the same within half a texel), plus what the last
+  // picture differed from the exemplar at its own, as in a fade. What resampling costs is not in it.
+  double change = 0.0;
+  double renewed = 0.0;  // share of the vertices whose coordinate is not the carried one
+  double alongFlow =
+      0.0;             // mean change along the flow, R, G and B, with the last frame read by a smooth kernel
+  double ratio = 0.0;  // the same less what that reading costs, over shuffled vertices': 0 carried, 1 fresh
+};
+
+inline constexpr float kNewSurface = 0.5f;
+
+// Judges frames against one exemplar; what belongs to the exemplar is made when first asked for, and kept.
+class LikenessJudge {
+ public:
+  // color: linear RGBA.
+  explicit LikenessJudge(const Image& color, const MeasureOptions& options = {});
+  ~LikenessJudge();
+
+  // Nothing where fewer than four tiles of the surface are flat.
+  std::optional<Likeness> operator()(const TexturedSurface& surface);
+
+ private:
+  struct Internals;
+  std::unique_ptr<Internals> m_internals;
+};
+
+// Nothing without a surface.
+std::optional<Pieces> measurePieces(const TexturedSurface& surface, const Image& color, bool toroidal);
+
+// after.previousPosition lies on `before`. Nothing where no vertex was there before.
+std::optional<Change> measureChange(const TexturedSurface& before, const TexturedSurface& after,
+                                    const Image& color, bool toroidal);
+
+}  // namespace fluidtex::texture

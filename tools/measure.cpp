@@ -1,0 +1,230 @@
+// fluidtex measure OUT: how good the texture of a finished run is, in figures.
+#include "tools/measure.h"
+
+#include "render/frame_name.h"
+#include "texture/measure.h"
+#include "texture/read_image.h"
+#include "tools/atomic_file.h"
+#include "tools/commands.h"
+#include "tools/errors.h"
+#include "tools/ply.h"
+#include "tools/report.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+namespace fluidtex::tools {
+namespace fs = std::filesystem;
+namespace {
+
+// Keys of a frame, and heads of the columns that show them.
+constexpr std::pair<const char*, const char*> kColumns[] = {
+    {"likeness", "likeness"},  {"sharpness", "sharp"}, {"coverage", "coverage"},
+    {"repeats", "repeats"},    {"shape", "shape"},     {"seams", "seams"},
+    {"joints", "joints"},      {"chips", "chips"},     {"pop", "pop"},
+    {"change", "change"},      {"renewed", "renewed"}, {"change_along_flow", "along flow"},
+    {"coherence", "coherence"}};
+
+Json readReport(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw UsageError(file.string() + ": cannot be read; give the folder of a run of fluidtex run");
+  Json report = Json::parse(std::string{std::istreambuf_iterator<char>(in), {}}, nullptr, false);
+  if (report.is_discarded() || !report.contains("/scene/texture"_json_pointer) ||
+      !report.contains("frames") || !report["frames"].is_array())
+    throw UsageError(file.string() + ": is no report of a run; give the folder of a run of fluidtex run");
+  return report;
+}
+
+// The frames whose surface is there.
+std::vector<int> framesIn(const fs::path& folder) {
+  std::vector<int> frames;
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(folder, missing))
+    if (entry.path().extension() == ".ply")
+      if (const auto frame = render::frameNumber(entry.path().stem().string())) frames.push_back(*frame);
+  std::sort(frames.begin(), frames.end());
+  if (frames.empty())
+    throw UsageError(folder.string() + ": holds no surface; give the folder of a run of fluidtex run");
+  return frames;
+}
+
+// What a frame's record says of the key; null where there is no such frame or key.
+Json* recordOf(Json& report, int frame) {
+  for (Json& record : report["frames"])
+    if (record.value("frame", -1) == frame) return &record;
+  return nullptr;
+}
+
+class Measurer {
+ public:
+  explicit Measurer(const MeasureWishes& wishes)
+      : m_wishes(wishes), m_report(readReport(wishes.out / "run.json")) {
+    const Json& texture = m_report["scene"]["texture"];
+    m_exemplar = !wishes.exemplar.empty() ? wishes.exemplar : fs::path(texture.value("exemplar", ""));
+    if (!fs::exists(m_exemplar))
+      throw UsageError(fmt::format("{}: the exemplar of the run is not there; give --exemplar IMAGE",
+                                   m_exemplar.string()));
+    m_toroidal = texture.value("toroidal", false);
+    m_color = texture::readImage(m_exemplar);
+  }
+
+  void run() {
+    const std::vector<int> frames = framesIn(m_wishes.out / "surface");
+    texture::MeasureOptions options;
+    texture::LikenessJudge judge(m_color, options);
+    if (!m_wishes.quiet) printHead();
+    Json rows = Json::array();
+    texture::TexturedSurface before;
+    for (std::size_t n = 0; n < frames.size(); ++n) {
+      const int frame = frames[n];
+      texture::TexturedSurface surface = readSurface(frame);
+      Json row;
+      row["frame"] = frame;
+      row["vertices"] = surface.positions.size();
+      if (n % std::size_t(m_wishes.every) == 0 || n + 1 == frames.size()) {
+        addLikeness(row, judge(surface));
+        addPieces(row, texture::measurePieces(surface, m_color, m_toroidal));
+      }
+      if (n > 0 && frames[n - 1] == frame - 1)
+        addChange(row, texture::measureChange(before, surface, m_color, m_toroidal));
+      if (!m_wishes.quiet && row.size() > 2) printRow(fmt::format("{}", frame), row);
+      rows.push_back(std::move(row));
+      before = std::move(surface);
+    }
+    const Json mean = meanOf(rows);
+    if (!m_wishes.quiet) printRow("mean", mean);
+    fillReport(rows);
+    if (m_wishes.json.empty()) return;
+    const Json all = {{"exemplar", m_exemplar.generic_string()},
+                      {"spacing", m_spacing},
+                      {"every", m_wishes.every},
+                      {"frames", rows},
+                      {"mean", mean}};
+    writeTextAtomically(m_wishes.json, all.dump(1) + "\n");
+  }
+
+ private:
+  // One vertex shows a texel: on the first frame the points are as many as squares of the spacing cover it.
+  texture::TexturedSurface readSurface(int frame) {
+    texture::TexturedSurface surface = readPly(m_wishes.out / "surface" / (render::frameName(frame) + ".ply"),
+                                               m_color.width, m_color.height);
+    if (m_spacing == 0.0 && !surface.empty()) m_spacing = spacingOf(surface, frame);
+    surface.spacing = m_spacing;
+    return surface;
+  }
+
+  double spacingOf(const texture::TexturedSurface& surface, int frame) {
+    const Json* record = recordOf(m_report, frame);
+    if (record != nullptr && record->contains("spacing") && (*record)["spacing"].is_number())
+      return (*record)["spacing"].get<double>();
+    double area = 0.0;
+    for (const texture::Vec3I& t : surface.triangles) {
+      const texture::Vec3f &a = surface.positions[t[0]], &b = surface.positions[t[1]],
+                           &c = surface.positions[t[2]];
+      area += 0.5 * (b - a).cross(c - a).length();
+    }
+    return std::sqrt(area / double(surface.positions.size()));
+  }
+
+  static void addLikeness(Json& row, const std::optional<texture::Likeness>& found) {
+    if (!found) return;
+    row["likeness"] = found->likeness;
+    row["sharpness"] = found->sharpness;
+    row["coverage"] = found->coverage;
+    row["repeats"] = found->repeats;
+    row["tile"] = found->tile;
+    row["tiles"] = found->tiles;
+  }
+  static void addPieces(Json& row, const std::optional<texture::Pieces>& found) {
+    if (!found) return;
+    row["shape"] = found->shape;
+    row["seams"] = found->seams;
+    row["joints"] = found->joints;
+    row["chips"] = found->chips;
+    row["pieces"] = found->pieces;
+  }
+  static void addChange(Json& row, const std::optional<texture::Change>& found) {
+    if (!found) return;
+    row["pop"] = found->pop;
+    row["change"] = found->change;
+    row["renewed"] = found->renewed;
+    row["change_along_flow"] = found->alongFlow;
+    row["coherence"] = found->ratio;
+  }
+
+  // Of every key over the frames that have it.
+  static Json meanOf(const Json& rows) {
+    Json mean;
+    for (const auto& [key, head] : kColumns) {
+      double sum = 0.0;
+      int count = 0;
+      for (const Json& row : rows)
+        if (row.contains(key)) {
+          sum += row[key].get<double>();
+          ++count;
+        }
+      if (count > 0) mean[key] = sum / count;
+    }
+    return mean;
+  }
+
+  static void printHead() {
+    fmt::print("{:>6}", "frame");
+    for (const auto& [key, head] : kColumns) fmt::print(" {:>10}", head);
+    fmt::print("\n");
+  }
+  static void printRow(const std::string& name, const Json& row) {
+    fmt::print("{:>6}", name);
+    for (const auto& [key, head] : kColumns)
+      fmt::print(" {:>10}", row.contains(key) ? fmt::format("{:.4f}", row[key].get<double>()) : "");
+    fmt::print("\n");
+  }
+
+  void fillReport(const Json& rows) {
+    for (const Json& row : rows) {
+      Json* record = recordOf(m_report, row["frame"].get<int>());
+      if (record == nullptr) continue;
+      for (const char* key : {"likeness", "sharpness", "change_along_flow"})
+        if (row.contains(key)) (*record)[key] = row[key];
+    }
+    writeTextAtomically(m_wishes.out / "run.json", m_report.dump(2) + "\n");
+  }
+
+  const MeasureWishes& m_wishes;
+  Json m_report;
+  fs::path m_exemplar;
+  bool m_toroidal = false;
+  texture::Image m_color;
+  double m_spacing = 0.0;
+};
+
+}  // namespace
+
+void measureRun(const MeasureWishes& wishes) {
+  Measurer(wishes).run();
+}
+
+void addMeasure(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand("measure", "Measure the texture of a finished run");
+  auto wishes = std::make_shared<MeasureWishes>();
+  command->add_option("out", wishes->out, "Folder of the run")->required()->type_name("OUT");
+  command
+      ->add_option("--exemplar", wishes->exemplar, "The run's exemplar, where it is no longer at its place")
+      ->type_name("IMAGE");
+  command->add_option("--json", wishes->json, "Write all figures to this file")->type_name("FILE");
+  command
+      ->add_option("--every", wishes->every,
+                   "Likeness and pieces on every K-th frame and the last (default: 8); change on all")
+      ->check(CLI::Range(1, 9999))
+      ->type_name("K");
+  command->add_flag("--quiet", wishes->quiet, "No table, only files");
+  command->footer("Example:\n  fluidtex measure out/dam_break --json measures.json");
+  command->callback([wishes, &exitCode] { exitCode = guarded([&] { measureRun(*wishes); }); });
+}
+
+}  // namespace fluidtex::tools
