@@ -7,6 +7,32 @@
 using namespace fluidtex;
 using namespace fluidtex::testing;
 
+TEST_CASE("closed forms: linear flows, the trace exact, components as scalars wrong", "[transport]") {
+  for (const LinearCase& c : linearCases()) {
+    INFO(c.name);
+    CHECK(linearErrors(c, {Method::trace, Turning::vector}, 20).mean < 0.01);
+    CHECK(linearErrors(c, {Method::trace, Turning::scalars}, 20).mean > 3.0);
+  }
+}
+
+TEST_CASE("closed forms: a single vortex there and back, every vertex picked up anew each frame",
+          "[transport]") {
+  const auto errors = [](const Options& options, int cells, int frames) {
+    return planarErrors(singleVortex(0.5), options, cells, frames).mean;
+  };
+  CHECK(errors({Method::trace, Turning::vector}, 32, 20) < 0.5);
+  CHECK(errors({Method::grid, Turning::vector}, 32, 20) > errors({Method::trace, Turning::vector}, 32, 20));
+}
+
+TEST_CASE("closed forms: the single vortex of T = 2 in 100 frames", "[transport][slow]") {
+  CHECK(planarErrors(singleVortex(2.0), {Method::trace, Turning::vector}, 64, 100).mean < 1.5);
+  CHECK(planarErrors(singleVortex(2.0), {Method::trace, Turning::vector}, 128, 100).mean < 0.4);
+}
+
+TEST_CASE("closed forms: a swirl over 200 steps", "[transport][slow]") {
+  CHECK(planarErrors(swirl(3.0), {Method::trace, Turning::vector}, 64, 200).mean < 0.1);
+}
+
 TEST_CASE("transport table: orientation by every way, in degrees", "[.table]") {
   std::printf("%-28s", "mean / worst");
   for (const Way& way : kWays) std::printf("%22s", way.name);
