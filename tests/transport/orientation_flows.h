@@ -100,9 +100,9 @@ inline PlanarCase singleVortex(double duration) {
           constantDirection({1, 0, 0})};
 }
 
-// B5: angular rate exp(-r^2) about the middle of the unit square, r in fifths of it.
+// B5: angular rate exp(-r^2) about the middle of the unit square, r in quarters of it.
 inline PlanarCase swirl(double duration) {
-  const double scale = 5.0;
+  const double scale = 4.0;
   const auto rate = [scale](double r) { return std::exp(-scale * scale * r * r); };
   return {"swirl",
           [rate](const Vec3d& x) {
