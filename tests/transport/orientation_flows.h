@@ -73,8 +73,8 @@ inline AngleErrors linearErrors(const LinearCase& c, const Options& options, int
   return angleErrors(errors);
 }
 
-// Flows in the plane, on the flat top of a slab, whose mesh stays where it is: one vertex a cell. What counts
-// is that top inside a circle around `center`.
+// Flows in the plane, on the flat top of a slab: one vertex a cell. What counts is that top inside a circle
+// around `center`.
 struct PlanarCase {
   const char* name;
   Flow flow;                               // at strength 1
@@ -129,7 +129,10 @@ inline PlanarCase swirl(double duration) {
           }};
 }
 
-inline AngleErrors planarErrors(const PlanarCase& c, const Options& options, int cells, int frames) {
+enum class Points { ride, stay };  // with the flow, or where they are, so that each frame reads between them
+
+inline AngleErrors planarErrors(const PlanarCase& c, const Options& options, int cells, int frames,
+                                Points points = Points::stay) {
   const double h = 1.0 / cells;
   // Cells reach one beyond the square on all sides, and a few above and below the surface.
   sim::Substep unit;
@@ -152,7 +155,7 @@ inline AngleErrors planarErrors(const PlanarCase& c, const Options& options, int
     return grid;
   };
   const std::array<sim::FloatGrid::Ptr, 3> velocity{component(0), component(1), component(2)};
-  const SurfaceMesh mesh = boxMesh({0, 0, -3 * h}, {1, 1, 0}, {cells, cells, 3});
+  SurfaceMesh mesh = boxMesh({0, 0, -3 * h}, {1, 1, 0}, {cells, cells, 3});
   TexturedSurface surface = texturedMesh(mesh, constantDirection({1, 0, 0}));
   for (int step = 0; step < frames; ++step) {
     const double strength = c.strength((step + 0.5) * c.time / frames);
@@ -165,6 +168,7 @@ inline AngleErrors planarErrors(const PlanarCase& c, const Options& options, int
     sim::Frame frame;
     frame.index = step + 2;
     frame.substeps = {{c.time / frames, scaled[0], scaled[1], scaled[2]}};
+    if (points == Points::ride) mesh.positions = transport::moved(mesh.positions, frame);
     surface = continued(carry(surface, frame, mesh, 1, options), mesh);
   }
   std::vector<double> errors;
