@@ -287,6 +287,7 @@ void checkScale(const Scene& scene, Reader& reader) {
 void checkTexture(const Scene& scene, Reader& reader) {
   checkScale(scene, reader);
   checkOrientation(scene, reader);
+  if (!scene.onto.files.empty() && reader.clean("frames")) checkSequence(scene.onto, "texture.onto", reader);
   const texture::SynthesisOptions& synthesis = scene.texture.synthesis;
   const std::vector<int>& windows = synthesis.windows;
   if (reader.clean("texture.windows")) {
@@ -353,6 +354,7 @@ void checkPicture(const Scene& scene, Reader& reader) {
 void complete(Scene& scene, const Reader& reader) {
   if (scene.name.empty()) scene.name = scene.file.stem().string();
   scene.texture.surface.seed = scene.texture.synthesis.seed = scene.seed;
+  scene.onto.last = scene.onto.first + scene.frames - 1;
 
   for (std::size_t i = 0; i < scene.sim.solids.size(); ++i) {
     std::string& name = scene.sim.solids[i].name;

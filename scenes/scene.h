@@ -6,6 +6,7 @@
 #include "sim/motion_options.h"
 #include "sim/options.h"
 #include "texture/options.h"
+#include "transport/options.h"
 
 #include <filesystem>
 #include <stdexcept>
@@ -29,6 +30,8 @@ struct Scene {
   texture::Options texture;
   std::vector<sim::Shape> scaleFrom;  // what ScaleBy::distance is measured from
   std::vector<sim::Shape> keepClear;  // places where the orientation field should have no singularities
+  transport::Options transport;
+  sim::MeshSequence onto;  // meshes that get the texture too, one a frame; no name: none
   render::Options render;
   std::string resolved;  // the whole scene after quality and overrides, every key with its value, as JSON
 };

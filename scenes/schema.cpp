@@ -161,7 +161,8 @@ void describeTexture(Visitor& visitor, Scene& scene) {
           visitor.absent("spacing");
         }
         texture::SynthesisOptions& synthesis = texture.synthesis;
-        choice(visitor, "method", synthesis.method, {"coordinates", "kwatra07"});
+        choice(visitor, "method", synthesis.method, {"coordinates", "kwatra07", "none"});
+        choice(visitor, "later_frames", texture.laterFrames, {"synthesize", "advect", "alone"});
         visitor.integers("windows", synthesis.windows, {.low = 3, .high = 255});
         visitor.integers("first_iterations", synthesis.firstIterations, {.low = 1, .high = 1000});
         visitor.integers("later_iterations", synthesis.laterIterations, {.low = 0, .high = 1000});
@@ -181,6 +182,16 @@ void describeTexture(Visitor& visitor, Scene& scene) {
         });
         visitor.table("scale", [&] { describeScale(visitor, scene); });
         visitor.table("orientation", [&] { describeOrientation(visitor, scene); });
+        visitor.table("transport", [&] {
+          choice(visitor, "method", scene.transport.method, {"trace", "grid"});
+          choice(visitor, "orientation", scene.transport.orientation, {"vector", "scalars"});
+        });
+        visitor.table("onto", [&] {
+          visitor.files("files", scene.onto.files, {".obj", ".ply", ".stl"});
+          visitor.integer("first", scene.onto.first, {.low = 0, .high = 1e9});
+          visitor.number("scale", scene.onto.scale, kPositive);
+          visitor.vector("translate", scene.onto.translate, kAny);
+        });
       },
       Need::required);
 }

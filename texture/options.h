@@ -14,6 +14,14 @@ namespace fluidtex::texture {
 enum class Method {
   coordinates,  // ours: every vertex carries where in the exemplar it came from; colour is looked up afresh
   kwatra07,     // the paper's own: colours are carried and averaged [Kwatra07 sec. V-B]
+  none,         // no texture: one plain colour
+};
+
+// How the frames after the first get theirs; all but the first are for comparison.
+enum class LaterFrames {
+  synthesize,  // from what was carried
+  advect,      // what was carried, and nothing more; colours are carried, since nothing is looked up
+  alone,       // each frame like a first one
 };
 
 enum class Points {
@@ -100,6 +108,7 @@ struct Options {
   // gets `points` points.
   double spacing = 0.0;
   int points = 40000;
+  LaterFrames laterFrames = LaterFrames::synthesize;
   SurfaceOptions surface;
   ScaleOptions scale;
   OrientationOptions orientation;

@@ -19,7 +19,7 @@ void removeFrames(const fs::path& folder, const char* extension) {
 }  // namespace
 
 void removeLeftovers(const fs::path& out) {
-  for (const char* folder : {"", "frames", "surface", "state"}) removeTemporaries(out / folder);
+  for (const char* folder : {"", "frames", "surface", "onto", "state"}) removeTemporaries(out / folder);
 }
 
 void clearEarlierRun(const fs::path& out, const std::string& sceneName) {
@@ -30,6 +30,7 @@ void clearEarlierRun(const fs::path& out, const std::string& sceneName) {
   fs::remove(out / (sceneName + ".mp4"));
   removeFrames(out / "frames", ".png");
   removeFrames(out / "surface", ".ply");
+  removeFrames(out / "onto", ".ply");
   if (fs::exists(out / "log.txt")) fs::resize_file(out / "log.txt", 0);
 }
 

@@ -11,12 +11,14 @@
 #include "tools/atomic_file.h"
 #include "tools/earlier_run.h"
 #include "tools/errors.h"
+#include "tools/onto_mesh.h"
 #include "tools/orientation_guide.h"
 #include "tools/ply.h"
 #include "tools/progress.h"
 #include "tools/report.h"
 #include "tools/state.h"
 #include "tools/texture_scale.h"
+#include "tools/textured.h"
 #include "transport/carry.h"
 
 #include <fmt/core.h>
@@ -151,7 +153,7 @@ class FrameLoop {
       if (m_surface.spacing > 0.0)
         surface = texture::prepareSurface(
             *motion.surfacePhi, m_surface.spacing, seedsFor(m_surface, motion, surfaceOptions),
-            m_surface.empty() ? surfaceOptions.levels : 1, surfaceOptions, scale);
+            needsAllLevels(m_scene, m_surface) ? surfaceOptions.levels : 1, surfaceOptions, scale);
     }
     if (surface.empty()) {
       result.surface.spacing = m_surface.spacing;
@@ -161,7 +163,8 @@ class FrameLoop {
     {
       Stopwatch watch(seconds.transport);
       reporter("transport")(0.0);
-      carried = transport::carry(m_surface, motion, surface.levels[0], m_guide.options.symmetry);
+      carried = transport::carry(m_surface, motion, surface.levels[0], m_guide.options.symmetry,
+                                 m_scene.transport);
     }
     {
       Stopwatch watch(seconds.prepare);
@@ -180,9 +183,8 @@ class FrameLoop {
     }
     {
       Stopwatch watch(seconds.synthesize);
-      result.surface =
-          texture::synthesize(m_synthesizer, std::move(surface), carried, motion.index,
-                              1.0 / m_scene.sim.frameRate, result.synthesis, reporter("synthesize"));
+      result.surface = textured(m_scene, m_synthesizer, std::move(surface), carried, motion.index,
+                                result.synthesis, reporter("synthesize"));
     }
     {
       Stopwatch watch(seconds.transport);
@@ -209,6 +211,10 @@ class FrameLoop {
     Stopwatch watch(seconds.write);
     writeAtomically(m_options.out / "surface" / (name + ".ply"),
                     [&](const fs::path& file) { writePly(m_surface, file); });
+    if (m_scene.onto.files.empty()) return;
+    const texture::TexturedSurface other = ontoMesh(m_surface, m_scene.onto, motion.index);
+    writeAtomically(m_options.out / "onto" / (name + ".ply"),
+                    [&](const fs::path& file) { writePly(other, file); });
   }
 
   // Made anew only where a solid has come, gone or moved.

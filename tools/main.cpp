@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
       "final");
   int exitCode = kDone;
   addRun(app, exitCode);
+  addCompare(app, exitCode);
   addCheck(app, exitCode);
   addMeasure(app, exitCode);
   addValidate(app, exitCode);

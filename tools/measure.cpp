@@ -1,7 +1,8 @@
 // fluidtex measure OUT: how good the texture of a finished run is, in figures.
-#include "texture/measure.h"
+#include "tools/measure.h"
 
 #include "render/frame_name.h"
+#include "texture/measure.h"
 #include "texture/read_image.h"
 #include "tools/atomic_file.h"
 #include "tools/commands.h"
@@ -20,12 +21,6 @@
 namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
-
-struct Wishes {
-  fs::path out, exemplar, json;
-  int every = 8;
-  bool quiet = false;
-};
 
 // Keys of a frame, and heads of the columns that show them.
 constexpr std::pair<const char*, const char*> kColumns[] = {
@@ -67,7 +62,8 @@ Json* recordOf(Json& report, int frame) {
 
 class Measurer {
  public:
-  explicit Measurer(const Wishes& wishes) : m_wishes(wishes), m_report(readReport(wishes.out / "run.json")) {
+  explicit Measurer(const MeasureWishes& wishes)
+      : m_wishes(wishes), m_report(readReport(wishes.out / "run.json")) {
     const Json& texture = m_report["scene"]["texture"];
     m_exemplar = !wishes.exemplar.empty() ? wishes.exemplar : fs::path(texture.value("exemplar", ""));
     if (!fs::exists(m_exemplar))
@@ -198,7 +194,7 @@ class Measurer {
     writeTextAtomically(m_wishes.out / "run.json", m_report.dump(2) + "\n");
   }
 
-  const Wishes& m_wishes;
+  const MeasureWishes& m_wishes;
   Json m_report;
   fs::path m_exemplar;
   bool m_toroidal = false;
@@ -208,9 +204,13 @@ class Measurer {
 
 }  // namespace
 
+void measureRun(const MeasureWishes& wishes) {
+  Measurer(wishes).run();
+}
+
 void addMeasure(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("measure", "Measure the texture of a finished run");
-  auto wishes = std::make_shared<Wishes>();
+  auto wishes = std::make_shared<MeasureWishes>();
   command->add_option("out", wishes->out, "Folder of the run")->required()->type_name("OUT");
   command
       ->add_option("--exemplar", wishes->exemplar, "The run's exemplar, where it is no longer at its place")
@@ -225,7 +225,7 @@ void addMeasure(CLI::App& app, int& exitCode) {
       ->type_name("K");
   command->add_flag("--quiet", wishes->quiet, "No table, only files");
   command->footer("Example:\n  fluidtex measure out/dam_break --json measures.json");
-  command->callback([wishes, &exitCode] { exitCode = guarded([&] { Measurer(*wishes).run(); }); });
+  command->callback([wishes, &exitCode] { exitCode = guarded([&] { measureRun(*wishes); }); });
 }
 
 }  // namespace fluidtex::tools

@@ -1,4 +1,6 @@
 // fluidtex run SCENE: simulate, texture, render and write, frame by frame, in memory.
+#include "tools/run.h"
+
 #include "tools/common_options.h"
 #include "tools/errors.h"
 #include "tools/frame_loop.h"
@@ -40,10 +42,11 @@ void logTo(const std::filesystem::path& file, bool verbose) {
   spdlog::set_default_logger(logger);
 }
 
-void run(const CommonOptions& options) {
-  const scenes::Scene scene = loadScene(options);
+}  // namespace
+
+void runInto(const std::filesystem::path& out, const scenes::Scene& scene, const CommonOptions& options) {
   RunOptions run;
-  run.out = options.out.empty() ? std::filesystem::path("out") / scene.name : options.out;
+  run.out = out;
   parseFrames(options.frames, scene.frames, run.firstFrame, run.lastFrame);
   run.resume = options.resume;
   run.render = !options.noRender;
@@ -57,8 +60,6 @@ void run(const CommonOptions& options) {
   runScene(scene, run, stopRequested);
 }
 
-}  // namespace
-
 void addRun(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("run", "Simulate, texture, render and write, frame by frame");
   auto options = std::make_shared<CommonOptions>();
@@ -70,7 +71,13 @@ void addRun(CLI::App& app, int& exitCode) {
       "Example:\n"
       "  fluidtex run scenes/dam_break.toml --quality preview --exemplar bark.jpg --set texture.points=20000 "
       "--out out/bark");
-  command->callback([options, &exitCode] { exitCode = guarded([&] { run(*options); }); });
+  command->callback([options, &exitCode] {
+    exitCode = guarded([&] {
+      const scenes::Scene scene = loadScene(*options);
+      runInto(options->out.empty() ? std::filesystem::path("out") / scene.name : options->out, scene,
+              *options);
+    });
+  });
 }
 
 }  // namespace fluidtex::tools

@@ -34,33 +34,41 @@ struct Path {
   double known = 0;  // s
 };
 
-// dX/ds = sign u(X), dB/ds = sign A(X) B, A = grad u. Both are advanced by the same stages; what multiplies B
-// is then the derivative of the discrete step: with K1 = A1, K2 = A2 (I + h/2 K1), K3 = A3 (I + 3h/4 K2) it
-// is I + h (2 K1 + 3 K2 + 4 K3) / 9.
+// dX/ds = sign u(X), dB/ds = sign A(X) B, A = grad u. A is taken in the middle of each inner step, and held:
+// B is multiplied by exp(h A) up to its third power, second order in all and third where A is the same
+// everywhere.
 template <bool kGradient>
 void follow(VelocitySampler& sampler, double dt, double sign, Path& path) {
-  const auto sample = [&](const Vec3d& x) {
-    return kGradient ? sampler.velocityAndGradient(x) : sampler.velocity(x);
-  };
   double left = dt;
   for (int step = 0; step < kMaxSteps && left > 0.0; ++step) {
-    const VelocitySample first = sample(path.x);
+    const VelocitySample first = sampler.velocity(path.x);
     const double speed = first.velocity.length();
     if (!std::isfinite(speed)) return;
-    double wanted = left * speed / (kCellsPerStep * sampler.voxelSize());
-    if constexpr (kGradient) wanted = std::max(wanted, left * largestEntry(first.gradient) / kStrainPerStep);
-    const double steps = std::clamp(std::ceil(wanted - 1e-9), 1.0, double(kMaxSteps - step));
-    const double length = left / steps, h = sign * length;
-    const VelocitySample second = sample(path.x + first.velocity * (0.5 * h));
-    const VelocitySample third = sample(path.x + second.velocity * (0.75 * h));
+    const double wanted = left * speed / (kCellsPerStep * sampler.voxelSize());
+    double steps = std::clamp(std::ceil(wanted - 1e-9), 1.0, double(kMaxSteps - step));
+    double length = left / steps, h = sign * length;
+    const auto middle = [&] {
+      const Vec3d x = path.x + first.velocity * (0.5 * h);
+      return kGradient ? sampler.velocityAndGradient(x) : sampler.velocity(x);
+    };
+    VelocitySample second = middle();
+    if constexpr (kGradient) {
+      const double strain = length * largestEntry(second.gradient);
+      if (strain > kStrainPerStep && step + 1 < kMaxSteps) {
+        steps = std::min(std::ceil(steps * strain / kStrainPerStep), double(kMaxSteps - step));
+        length = left / steps, h = sign * length;
+        second = middle();
+      }
+    }
+    const VelocitySample third = sampler.velocity(path.x + second.velocity * (0.75 * h));
     const Vec3d mean = (first.velocity * 2.0 + second.velocity * 3.0 + third.velocity * 4.0) / 9.0;
     if (!std::isfinite(mean.length())) return;
     path.x += mean * h;
     if constexpr (kGradient) {
-      const Mat3d k2 = second.gradient + second.gradient * first.gradient * (0.5 * h);
-      const Mat3d k3 = third.gradient + third.gradient * k2 * (0.75 * h);
-      const Mat3d sum = first.gradient * 2.0 + k2 * 3.0 + k3 * 4.0;
-      path.map = path.map + sum * path.map * (h / 9.0);
+      // exp(h A) B by Horner's rule.
+      Mat3d turned = path.map + second.gradient * path.map * (h / 3.0);
+      turned = path.map + second.gradient * turned * (h / 2.0);
+      path.map = path.map + second.gradient * turned * h;
     }
     path.known += length * (2.0 * first.known + 3.0 * second.known + 4.0 * third.known) / 9.0;
     left = steps > 1.0 ? left - length : 0.0;

@@ -19,7 +19,8 @@ struct Backtrace {
 };
 
 // Follows positions at the end of the frame back to its start: third-order Runge-Kutta through each substep's
-// velocity, constant in time, the last substep first. The gradient B is that of the very same discrete map.
+// velocity, constant in time, the last substep first. B follows the velocity's gradient along that path,
+// taken over a voxel (VelocitySample): the slope of the interpolated velocity itself jumps from cell to cell.
 // One inner step moves a point by about one cell at most.
 Backtrace traceBack(const std::vector<Vec3f>& positions, const sim::Frame& frame);
 

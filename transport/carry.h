@@ -3,6 +3,7 @@
 
 #include "sim/frame.h"
 #include "texture/surface.h"
+#include "transport/options.h"
 
 namespace fluidtex::transport {
 
@@ -15,16 +16,17 @@ std::vector<texture::Vec3f> velocityAt(const std::vector<texture::Vec3f>& positi
 // 1 where a position is nearer to a solid than half a voxel, else 0.
 std::vector<std::uint8_t> contactAt(const std::vector<texture::Vec3f>& positions, const sim::Frame& frame);
 
-// Each vertex of surface.levels[0] is traced back through the substeps' velocities (third-order Runge-Kutta), together with
-// the gradient of that map; lands on the closest point of `previous`; and picks up what is there:
+// Each vertex of `next` is traced back through the frame, together with the gradient of that map, by options.method; lands on
+// the closest point of `previous`; and picks up what is there:
 //  - exemplar coordinate: the nearest corner's plus its gradient times the offset, never averaged across a jump;
 //    its gradient deformed by the flow; likewise the place that fades;
 //  - colour and age by barycentric interpolation;
-//  - orientation, interpolated and turned with the flow by equation (4), tangent to the new surface; directions that turns
-//    of 360 / symmetry degrees make equal are interpolated as one.
-// trust falls with the distance of the traced point from the old surface and with missing velocity.
+//  - orientation, by a cubic between the corners, turned with the flow by equation (4), or not (options.orientation), tangent
+//    to the new surface; directions that turns of 360 / symmetry degrees make equal are interpolated as one. With Method::grid
+//    it goes over the grid instead, as an arrow: symmetry 1.
+// trust: transport/trust.h, times the share of the path along which the velocity is known.
 // previous empty (the first frame with a surface): an empty result.
 texture::Carried carry(const texture::TexturedSurface& previous, const sim::Frame& frame, const texture::SurfaceMesh& next,
-                       int symmetry = 1);
+                       int symmetry = 1, const Options& options = {});
 
 }  // namespace fluidtex::transport

@@ -14,6 +14,17 @@ using openvdb::Coord;
 // (y+1, z+1).
 constexpr std::uint64_t kSquare = 0x303;
 
+// Of the trilinear interpolant f between eight values, at t in the cell: d f / d t[axis].
+template <int kAxis>
+double slopeWithin(const std::array<double, 8>& c, const Vec3d& t) {
+  constexpr unsigned kStep = 4u >> kAxis, kFirst = kAxis == 0 ? 2 : 4, kSecond = kAxis == 2 ? 2 : 1;
+  const double a = t[kAxis == 0 ? 1 : 0], b = t[kAxis == 2 ? 1 : 2];
+  const double s00 = c[kStep] - c[0], s01 = c[kStep + kSecond] - c[kSecond];
+  const double s10 = c[kStep + kFirst] - c[kFirst], s11 = c[kStep + kFirst + kSecond] - c[kFirst + kSecond];
+  const double s0 = s00 + b * (s01 - s00), s1 = s10 + b * (s11 - s10);
+  return s0 + a * (s1 - s0);
+}
+
 }  // namespace
 
 VelocitySampler::VelocitySampler(const sim::Substep& substep) {
@@ -97,6 +108,25 @@ unsigned VelocitySampler::valuesAround(Component& component, const Coord& lower,
   return active;
 }
 
+// f(t + 1/2) - f(t - 1/2) along each axis: the mean of the slopes of this cell and of the next one, weighted
+// by how far the voxel around t reaches into each. Where the next one is not all known, this cell's own.
+Vec3d VelocitySampler::slopes(Component& component, const Coord& lower, const std::array<double, 8>& values,
+                              const Vec3d& t) {
+  Vec3d result(slopeWithin<0>(values, t), slopeWithin<1>(values, t), slopeWithin<2>(values, t));
+  std::array<double, 8> next;
+  const auto blend = [&]<int kAxis>() {
+    const double weight = std::abs(t[kAxis] - 0.5);
+    Coord beside = lower;
+    beside[kAxis] += t[kAxis] < 0.5 ? -1 : 1;
+    if (valuesAround(component, beside, next) != 0xffu) return;
+    result[kAxis] += weight * (slopeWithin<kAxis>(next, t) - result[kAxis]);
+  };
+  blend.template operator()<0>();
+  blend.template operator()<1>();
+  blend.template operator()<2>();
+  return result;
+}
+
 template <bool kGradient>
 double VelocitySampler::sampleComponent(Component& component, const Vec3d& x, double& value,
                                         Vec3d& gradient) {
@@ -120,10 +150,8 @@ double VelocitySampler::sampleComponent(Component& component, const Vec3d& x, do
   const double c0 = c00 + fy * (c01 - c00), c1 = c10 + fy * (c11 - c10);
   value = c0 + fx * (c1 - c0);
   if constexpr (kGradient) {
-    const double dz0 = (c[1] - c[0]) + fy * ((c[3] - c[2]) - (c[1] - c[0]));
-    const double dz1 = (c[5] - c[4]) + fy * ((c[7] - c[6]) - (c[5] - c[4]));
     gradient = component.scale *
-               Vec3d(c1 - c0, (c01 - c00) + fx * ((c11 - c10) - (c01 - c00)), dz0 + fx * (dz1 - dz0));
+               slopes(component, Coord(int(floor.x()), int(floor.y()), int(floor.z())), c, Vec3d(fx, fy, fz));
   }
   return known;
 }

@@ -12,8 +12,10 @@ using openvdb::Vec3d;
 
 struct VelocitySample {
   Vec3d velocity{0.0};  // m/s
-  Mat3d gradient;       // gradient[i][j] = d u_i / d x_j, 1/s; only where asked for
-  double known = 0.0;   // share of the values around that are active in their grid, 0..1
+  // gradient[i][j] = d u_i / d x_j, 1/s, by the difference of the interpolated velocity over a voxel along
+  // x_j: continuous and second order, as the slope within a cell is not. Only where asked for.
+  Mat3d gradient;
+  double known = 0.0;  // share of the values around that are active in their grid, 0..1
 };
 
 // Reads the grids in place, each component through its own transform, leaf by leaf. Where some of the values
@@ -53,6 +55,8 @@ class VelocitySampler {
   // The eight values around, [4 dx + 2 dy + dz]; the same bit of the result is set where the value is active.
   static unsigned valuesAround(Component& component, const openvdb::Coord& lower,
                                std::array<double, 8>& values);
+  static Vec3d slopes(Component& component, const openvdb::Coord& lower, const std::array<double, 8>& values,
+                      const Vec3d& t);
   template <bool kGradient>
   static double sampleComponent(Component& component, const Vec3d& x, double& value, Vec3d& gradient);
   template <bool kGradient>

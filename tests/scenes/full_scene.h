@@ -131,6 +131,7 @@ exemplar = "e.png"
 toroidal = true
 points = 1234
 method = "kwatra07"
+later_frames = "advect"
 windows = [21, 11]
 first_iterations = [7, 8]
 later_iterations = [0, 2]
@@ -166,6 +167,14 @@ direction = [0, 1, 0]
 field = "f.vdb"
 [[texture.orientation.keep_clear]]
 sphere = { center = [1, 1, 1], radius = 0.25 }
+[texture.transport]
+method = "grid"
+orientation = "scalars"
+[texture.onto]
+files = "t_%d.obj"
+first = 0
+scale = 2
+translate = [1, 2, 3]
 [camera]
 from = [9, 8, 7]
 at = [1, 2, 3]

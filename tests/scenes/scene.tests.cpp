@@ -174,6 +174,14 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(texture.surface.points == texture::Points::random);
   CHECK(texture.surface.levels == 4);
   CHECK(texture.surface.repulsionSweeps == 12);
+  CHECK(texture.laterFrames == texture::LaterFrames::advect);
+  CHECK(scene.transport.method == transport::Method::grid);
+  CHECK(scene.transport.orientation == transport::Turning::scalars);
+  CHECK(scene.onto.files.filename() == "t_%d.obj");
+  CHECK(scene.onto.first == 0);
+  CHECK(scene.onto.last == 4);
+  CHECK(scene.onto.scale == 2.0);
+  CHECK(scene.onto.translate == sim::Vec3d(1, 2, 3));
   const render::Options& render = scene.render;
   CHECK(render.camera.from == sim::Vec3d(9, 8, 7));
   CHECK(render.camera.at == sim::Vec3d(1, 2, 3));

@@ -263,6 +263,15 @@ TEST_CASE("scene faults: files that are not there", "[scenes]") {
        "folder"},
       {"[[solid]]\nmesh_sequence = { files = 'm_%d.obj', last = 4 }",
        "s.toml:7:19: error: solid.0.mesh_sequence.files: no such file: m_3.obj; give all from number 1 to 4"},
+      {"[texture.onto]\nfiles = 't_%d.obj'\nfirst = 1",
+       "s.toml:7:1: error: texture.onto.files: no such file: t_5.obj; give all from number 1 to 72"},
+      {"[texture.onto]\nfirst = 1",
+       "s.toml:6:1: error: texture.onto.files: missing; write for example files = \"rock_%04d.obj\""},
+      {"[texture.transport]\nmethod = 'magic'",
+       "s.toml:7:1: error: texture.transport.method: \"magic\" is unknown; give \"trace\" or \"grid\""},
+      {"[texture.transport]\norientation = 'none'",
+       "s.toml:7:1: error: texture.transport.orientation: \"none\" is unknown; give \"vector\" or "
+       "\"scalars\""},
       {"[[solid]]\nmesh_sequence = { files = 'm.obj', last = 4 }",
        "s.toml:7:19: error: solid.0.mesh_sequence.files: m.obj has no place for a number; write %d for it, "
        "or "

@@ -27,6 +27,7 @@ class SceneFolder {
     write("m_0.obj", "");
     write("m_1.obj", "");
     write("m_2.obj", "");
+    for (const char* name : {"t_0.obj", "t_1.obj", "t_2.obj", "t_3.obj", "t_4.obj"}) write(name, "");
   }
   ~SceneFolder() {
     std::error_code ignored;

@@ -103,6 +103,9 @@ TEST_CASE("scene faults: wrong type", "[scenes]") {
        "s.toml:1:9: error: texture.windows: wrong type, a decimal number where a whole number is wanted; "
        "write for example "
        "windows = [33, 17, 9]"},
+      {"texture.later_frames = 'never'\n" + kGoodScene,
+       "s.toml:1:9: error: texture.later_frames: \"never\" is unknown; give \"synthesize\", \"advect\" or "
+       "\"alone\""},
       {"texture.method = 7\n" + kGoodScene,
        "s.toml:1:9: error: texture.method: wrong type, a whole number where a string is wanted; write for "
        "example method = "

@@ -22,7 +22,7 @@ TEST_CASE("carry: nothing moved, nothing changes", "[transport]") {
     REQUIRE((carried.orientation[v] - previous.orientation[v]).length() < 5e-6f);
     REQUIRE((carried.gradient[v].s - previous.gradient[v].s).length() < 1e-4f);
     REQUIRE(carried.age[v] == Approx(previous.age[v]));
-    REQUIRE(carried.trust[v] == 1.0f);
+    REQUIRE(trustBesidesStretch(carried, previous, v) == Approx(1.0f));
     REQUIRE(carried.previousPosition[v] == mesh.positions[v]);
   }
 }
@@ -46,7 +46,7 @@ TEST_CASE("carry: a uniform stream takes everything with it onto another mesh", 
     REQUIRE((carried.coordinate[v] - Vec2f(old.x(), old.y()) * float(kTexelsPerMeter)).length() < 0.15f);
     REQUIRE(carried.color[v][0] == Approx(0.5 + 0.1 * old.x()).margin(1e-3));
     REQUIRE(carried.age[v] == Approx(2.0 + old.z()).margin(0.01));
-    REQUIRE(carried.trust[v] > 0.98f);
+    REQUIRE(trustBesidesStretch(carried, previous, v) > 0.98f);
     turns.push_back(angleBetween(Vec3d(projected(Vec3f(0.3f, 0.5f, 0.8f), after.normals[v])),
                                  Vec3d(carried.orientation[v])));
   }

@@ -4,6 +4,7 @@
 #include "tests/texture/closed_meshes.h"
 #include "tests/transport/velocity_grids.h"
 #include "transport/carry.h"
+#include "transport/trust.h"
 
 #include <catch2/catch.hpp>
 
@@ -72,6 +73,12 @@ inline TexturedSurface texturedMesh(const SurfaceMesh& mesh, const Flow& directi
   }
   texture.previousPosition = mesh.positions;
   return continued(texture, mesh);
+}
+
+// The textures here are stretched without end where the surface is upright to a plane of their coordinates;
+// what else speaks against a vertex is left when that is taken out. 1 where the stretch leaves nothing.
+inline float trustBesidesStretch(const Carried& carried, const TexturedSurface& previous, std::size_t v) {
+  return carried.trust[v] / transport::stretchTrust(carried.gradient[v], previous.spacing);
 }
 
 inline Flow constantDirection(const Vec3d& d) {

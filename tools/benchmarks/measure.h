@@ -41,5 +41,6 @@ void registerPressure();
 void registerMemory();
 void registerScaling();
 void registerSurface();
+void registerTransport();
 
 }  // namespace fluidtex::benchmarks

@@ -26,15 +26,6 @@ using texture::Vec3f;
 constexpr double kFrame = 1.0 / 24.0;  // s
 constexpr double kPi = std::numbers::pi;
 
-// LeVeque's deformation with a period of 3 s.
-Vec3d velocity(const Vec3d& p, double t) {
-  const auto square = [](double x) { return x * x; };
-  const double x = p.x(), y = p.y(), z = p.z(), pace = std::cos(kPi * t / 3.0);
-  const double x2 = std::sin(2.0 * kPi * x), y2 = std::sin(2.0 * kPi * y), z2 = std::sin(2.0 * kPi * z);
-  return pace * Vec3d(2.0 * square(std::sin(kPi * x)) * y2 * z2, -x2 * square(std::sin(kPi * y)) * z2,
-                      -x2 * y2 * square(std::sin(kPi * z)));
-}
-
 // Where p at time `from` is at time `to`, by fourth-order Runge-Kutta.
 Vec3d carried(Vec3d p, double from, double to) {
   constexpr double kStep = 0.025;  // s
@@ -42,8 +33,8 @@ Vec3d carried(Vec3d p, double from, double to) {
   const double dt = (to - from) / steps;
   for (int s = 0; s < steps; ++s) {
     const double t = from + s * dt;
-    const Vec3d k1 = velocity(p, t), k2 = velocity(p + 0.5 * dt * k1, t + 0.5 * dt),
-                k3 = velocity(p + 0.5 * dt * k2, t + 0.5 * dt), k4 = velocity(p + dt * k3, t + dt);
+    const Vec3d k1 = deformationVelocity(p, t), k2 = deformationVelocity(p + 0.5 * dt * k1, t + 0.5 * dt),
+                k3 = deformationVelocity(p + 0.5 * dt * k2, t + 0.5 * dt), k4 = deformationVelocity(p + dt * k3, t + dt);
     p += dt / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
   }
   return p;
@@ -222,6 +213,14 @@ MovingSurface damBreak(int points) {
 }
 
 }  // namespace
+
+Vec3d deformationVelocity(const Vec3d& p, double t) {
+  const auto square = [](double x) { return x * x; };
+  const double x = p.x(), y = p.y(), z = p.z(), pace = std::cos(kPi * t / 3.0);
+  const double x2 = std::sin(2.0 * kPi * x), y2 = std::sin(2.0 * kPi * y), z2 = std::sin(2.0 * kPi * z);
+  return pace * Vec3d(2.0 * square(std::sin(kPi * x)) * y2 * z2, -x2 * square(std::sin(kPi * y)) * z2,
+                      -x2 * y2 * square(std::sin(kPi * z)));
+}
 
 MovingSurface movingSurface(const std::string& name, int points) {
   const Vec3d centre(0.35);

@@ -1,0 +1,100 @@
+// The paper's transport over the grid, where it must be exact or has a bound.
+#include "tests/transport/orientation_flows.h"
+#include "transport/band.h"
+#include "transport/carry.h"
+#include "transport/coordinate_fields.h"
+
+#include <tbb/global_control.h>
+
+#include <cstring>
+
+using namespace fluidtex;
+using namespace fluidtex::testing;
+using namespace fluidtex::transport;
+
+TEST_CASE("band: the cells whose velocity is known, and their neighbours", "[transport]") {
+  const Cells cells{0.1, -3, 4};
+  const Band band = bandOf(steadyFrame(cells, 1.0, 2, [](const Vec3d&) { return Vec3d(1.0); }));
+  CHECK(band.h == Approx(0.1));
+  REQUIRE(band.cells.size() == 8 * 8 * 8);
+  for (std::size_t cell = 0; cell < band.cells.size(); ++cell) {
+    for (std::size_t side = 0; side < 6; ++side) {
+      openvdb::Coord beside = band.cells[cell];
+      beside[int(side / 2)] += side % 2 ? 1 : -1;
+      const std::int32_t found = band.neighbor[cell][side];
+      const int place = beside[int(side / 2)];
+      REQUIRE((found == Band::kNone) == (place < -3 || place > 4));
+      if (found != Band::kNone) REQUIRE(band.cells[std::size_t(found)] == beside);
+    }
+    REQUIRE((band.center(cell) - band.cells[cell].asVec3d() * 0.1).length() < 1e-6);
+  }
+  CHECK(bandOf(sim::Frame{}).cells.empty());
+}
+
+TEST_CASE("band: the velocity's gradient is exact for a linear flow, inside", "[transport]") {
+  const Mat3d a = matrix(0.5, 1.0, -0.25, 2.0, -1.5, 0.125, 0.75, -0.5, 1.0);
+  const sim::Frame frame = steadyFrame({0.1, -6, 6}, 1.0, 1, linearFlow(a));
+  const Band band = bandOf(frame);
+  const std::vector<Vec3d> velocity = velocityAtCells(band, frame.substeps[0]);
+  for (std::size_t cell = 0; cell < band.cells.size(); ++cell) {
+    const openvdb::Coord& c = band.cells[cell];
+    if (std::max({std::abs(c[0]), std::abs(c[1]), std::abs(c[2])}) > 4) continue;
+    REQUIRE((velocity[cell] - a * band.center(cell)).length() < 1e-5);
+    REQUIRE(largestDifference(velocityGradient(band, velocity, cell), a) < 1e-4);
+  }
+}
+
+TEST_CASE("coordinate fields: a uniform stream is exact, and no velocity moves nothing", "[transport]") {
+  const Vec3d velocity(1.5, -0.75, 0.5);
+  const sim::Frame frame = steadyFrame({0.1, -12, 12}, 0.2, 3, constantDirection(velocity));
+  const std::vector<Vec3f> points{Vec3f(0.11f, -0.23f, 0.4f), Vec3f(-0.5f, 0.2f, -0.31f)};
+  const Backtrace trace = traceOnGrid(points, frame);
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    CHECK((trace.origin[v] - (Vec3d(points[v]) - velocity * 0.2)).length() < 1e-5);
+    CHECK(largestDifference(trace.map[v], Mat3d::identity()) < 1e-4);
+    CHECK(trace.known[v] == Approx(1.0f));
+  }
+  CHECK(traceOnGrid(points, sim::Frame{}).origin[0] == Vec3d(points[0]));
+  const Backtrace far = traceOnGrid({Vec3f(9, 9, 9)}, frame);
+  CHECK(far.known[0] == 0.0f);
+  CHECK(far.origin[0] == Vec3d(9, 9, 9));
+}
+
+TEST_CASE("carry by the grid: whole, and the same bytes on any number of threads", "[transport]") {
+  const sim::Frame frame = steadyFrame({0.1, -14, 14}, 0.1, 2, linearFlow(rotationAbout({1, 1, 0}, 0.7)));
+  const TexturedSurface previous = texturedMesh(sphereMesh(16), constantDirection({0.3, 0.5, 0.8}));
+  const SurfaceMesh next = sphereMesh(13);
+  const auto run = [&](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+    return carry(previous, frame, next, 1, {Method::grid, Turning::vector});
+  };
+  const Carried one = run(1), four = run(4);
+  requireWhole(one, next);
+  CHECK(std::memcmp(one.orientation.data(), four.orientation.data(),
+                    one.orientation.size() * sizeof(Vec3f)) == 0);
+  CHECK(std::memcmp(one.coordinate.data(), four.coordinate.data(), one.coordinate.size() * sizeof(Vec2f)) ==
+        0);
+}
+
+TEST_CASE("carry by the grid: a small turn is followed, by components alone it is not", "[transport]") {
+  const double angle = 0.3;
+  const Vec3d axis(0, 0, 1);
+  const sim::Frame frame = steadyFrame({0.1, -16, 16}, 1.0, 4, linearFlow(rotationAbout(axis, angle)));
+  const SurfaceMesh mesh = sphereMesh(10);
+  const TexturedSurface previous = texturedMesh(mesh, constantDirection({1, 0, 0}));
+  const Mat3d turn = exponential(rotationAbout(axis, angle));
+  const auto meanError = [&](const Options& options) {
+    const Carried carried = carry(previous, frame, mesh, 1, options);
+    std::vector<double> errors;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+      if (mesh.normals[v].z() < 0.7f) continue;  // where the direction is far from its singular points
+      errors.push_back(angleBetween(Vec3d(projected(Vec3f(turn * Vec3d(1, 0, 0)), mesh.normals[v])),
+                                    Vec3d(carried.orientation[v])));
+    }
+    return angleErrors(errors).mean;
+  };
+  CHECK(meanError({Method::trace, Turning::vector}) < 0.1);
+  CHECK(meanError({Method::grid, Turning::vector}) < 1.5);
+  CHECK(meanError({Method::trace, Turning::scalars}) > 10.0);
+  CHECK(meanError({Method::grid, Turning::scalars}) > 10.0);
+}

@@ -1,0 +1,107 @@
+// fluidtex compare SCENE: the paper's variants side by side [Kwatra07 sec. VII, figures 7A and 11A].
+#include "render/frame_name.h"
+#include "render/render.h"
+#include "tools/atomic_file.h"
+#include "tools/common_options.h"
+#include "tools/compare_table.h"
+#include "tools/contact_sheet.h"
+#include "tools/errors.h"
+#include "tools/measure.h"
+#include "tools/run.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <memory>
+
+namespace fluidtex::tools {
+namespace fs = std::filesystem;
+namespace {
+
+struct Variant {
+  const char* folder;
+  const char* label;
+  bool textured;
+  std::vector<std::string> set;  // on top of the scene and of the user's own
+};
+
+const std::array<Variant, 5> kVariants{
+    {{"untextured", "untextured", false, {"texture.method=none"}},
+     {"advected", "pure advection", true, {"texture.later_frames=advect"}},
+     {"alone", "each frame alone", true, {"texture.later_frames=alone"}},
+     {"scalars", "orientation as scalars", true, {"texture.transport.orientation=scalars"}},
+     {"full", "full method", true, {}}}};
+
+constexpr int kSheetRows = 4, kSheetWidth = 384;  // pixels, of one picture
+constexpr int kVideoColumns = 3, kVideoWidth = 480;
+
+scenes::Scene sceneOf(const Variant& variant, CommonOptions options) {
+  options.set.insert(options.set.end(), variant.set.begin(), variant.set.end());
+  return loadScene(options);
+}
+
+// One row a moment, spread over the frames that were written, the last one included; a column a variant.
+void writeSheet(const fs::path& out, int first, int last) {
+  std::vector<LabelledPicture> pictures;
+  const int rows = std::min(kSheetRows, last - first + 1);
+  for (int row = 1; row <= rows; ++row) {
+    const int frame = first + (last - first) * row / rows;
+    for (const Variant& variant : kVariants)
+      pictures.push_back({out / variant.folder / "frames" / (render::frameName(frame) + ".png"),
+                          fmt::format("{}, {}", variant.label, frame)});
+  }
+  writeContactSheet(pictures, int(kVariants.size()), kSheetWidth, out / "compare.jpg");
+}
+
+void writeVideo(const fs::path& out, int first, int last, double frameRate) {
+  for (int frame = first; frame <= last; ++frame) {
+    const std::string name = render::frameName(frame) + ".png";
+    std::vector<LabelledPicture> pictures;
+    for (const Variant& variant : kVariants)
+      pictures.push_back({out / variant.folder / "frames" / name, variant.label});
+    writeContactSheet(pictures, kVideoColumns, kVideoWidth, out / "frames" / name);
+  }
+  writeAtomically(out / "compare.mp4", [&](const fs::path& file) {
+    render::writeVideo(out / "frames", first, last, frameRate, file);
+  });
+}
+
+void compare(CommonOptions options) {
+  int first = 1, last = 0;
+  const scenes::Scene plain = loadScene(options);
+  parseFrames(options.frames, plain.frames, first, last);
+  const fs::path out = options.out.empty() ? fs::path("out") / (plain.name + "_compare") : options.out;
+  std::vector<Compared> rows;
+  for (const Variant& variant : kVariants) {
+    if (!options.quiet) fmt::print(stderr, "{}\n", variant.label);
+    runInto(out / variant.folder, sceneOf(variant, options), options);
+    // What has no texture has nothing to be measured.
+    if (variant.textured)
+      measureRun({.out = out / variant.folder, .json = out / variant.folder / "measure.json", .quiet = true});
+    rows.push_back(comparedRun(variant.label, out / variant.folder));
+  }
+  writeTextAtomically(out / "compare.json", toJson(rows));
+  writeTextAtomically(out / "compare.md", toMarkdown(rows));
+  if (!options.quiet) fmt::print("{}", toMarkdown(rows));
+  if (options.noRender) return;
+  writeSheet(out, first, last);
+  writeVideo(out, first, last, plain.sim.frameRate);
+}
+
+}  // namespace
+
+void addCompare(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand(
+      "compare", "Run a scene in the paper's variants; contact sheet, video and table side by side");
+  auto options = std::make_shared<CommonOptions>();
+  addSceneOptions(*command, *options);
+  command->add_flag("--resume", options->resume,
+                    "Go on with the variants that an earlier call has left undone");
+  command->add_flag("--no-render", options->noRender, "Only the table, no pictures and no video");
+  command->footer(
+      "Example:\n  fluidtex compare scenes/dam_break.toml --quality preview --out out/compare\n"
+      "Writes compare.jpg, compare.mp4, compare.md and compare.json, and each variant's run beside them.");
+  command->callback([options, &exitCode] { exitCode = guarded([&] { compare(*options); }); });
+}
+
+}  // namespace fluidtex::tools

@@ -1,0 +1,45 @@
+#include "tools/textured.h"
+
+#include "texture/plain.h"
+
+namespace fluidtex::tools {
+
+using texture::LaterFrames;
+using texture::Method;
+
+texture::TexturedSurface textured(const scenes::Scene& scene, texture::Synthesizer& synthesizer,
+                                  texture::Surface surface, const texture::Carried& carried, int frame,
+                                  texture::SynthesisStats& stats,
+                                  const std::function<void(double)>& progress) {
+  const double seconds = 1.0 / scene.sim.frameRate;
+  const LaterFrames later = scene.texture.laterFrames;
+  if (scene.texture.synthesis.method == Method::none) {
+    stats = {};
+    stats.renewed = 0.0;
+    return texture::untextured(std::move(surface), carried);
+  }
+  if (later == LaterFrames::advect && !carried.empty()) {
+    stats = {};
+    stats.renewed = 0.0;
+    texture::TexturedSurface result = texture::advected(std::move(surface), carried, seconds);
+    result.exemplarWidth = synthesizer.exemplar.color.width;
+    result.exemplarHeight = synthesizer.exemplar.color.height;
+    return result;
+  }
+  if (later == LaterFrames::alone && !carried.empty()) {
+    texture::TexturedSurface result =
+        texture::synthesize(synthesizer, std::move(surface), {}, frame, seconds, stats, progress);
+    result.trust = carried.trust;
+    result.previousPosition = carried.previousPosition;
+    return result;
+  }
+  return texture::synthesize(synthesizer, std::move(surface), carried, frame, seconds, stats, progress);
+}
+
+bool needsAllLevels(const scenes::Scene& scene, const texture::TexturedSurface& last) {
+  const bool eachAlone =
+      scene.texture.laterFrames == LaterFrames::alone && scene.texture.synthesis.method != Method::none;
+  return last.empty() || eachAlone;
+}
+
+}  // namespace fluidtex::tools

@@ -1,0 +1,90 @@
+#include "transport/onto.h"
+
+#include "texture/parallel.h"
+#include "texture/tangent.h"
+#include "transport/smooth_directions.h"
+#include "transport/trust.h"
+
+#include <stdexcept>
+
+namespace fluidtex::transport {
+namespace {
+
+using texture::forEachIndex;
+
+// A side that faces away is taken only where no other is within so many spacings.
+constexpr double kOtherSide = 4.0;
+
+std::vector<Vec3f> normalsOf(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles) {
+  std::vector<Vec3f> normals(positions.size(), Vec3f(0.0f));
+  for (const Vec3I& t : triangles) {
+    for (int i = 0; i < 3; ++i) {
+      if (t[i] >= positions.size())
+        throw std::invalid_argument("transport onto a mesh: a triangle has a vertex that does not exist");
+    }
+    const Vec3f& a = positions[t[0]];
+    const Vec3f area = (positions[t[1]] - a).cross(positions[t[2]] - a);
+    for (int i = 0; i < 3; ++i) normals[t[i]] += area;
+  }
+  for (Vec3f& n : normals) {
+    if (!n.normalize(0.0f)) n = Vec3f(0.0f, 0.0f, 1.0f);
+  }
+  return normals;
+}
+
+}  // namespace
+
+TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> positions,
+                     std::vector<Vec3I> triangles) {
+  TexturedSurface result;
+  result.normals = normalsOf(positions, triangles);
+  result.positions = std::move(positions);
+  result.triangles = std::move(triangles);
+  result.spacing = surface.spacing;
+  result.exemplarWidth = surface.exemplarWidth;
+  result.exemplarHeight = surface.exemplarHeight;
+  const std::size_t count = result.positions.size();
+  result.orientation = texture::referenceVectors(result.normals);
+  result.color.assign(count, Vec4f(0.5f, 0.5f, 0.5f, 1.0f));
+  result.coordinate.assign(count, Vec2f(0.0f));
+  result.gradient.resize(count);
+  result.age.assign(count, 0.0f);
+  result.trust.assign(count, 0.0f);
+  result.previousPosition = result.positions;
+  result.velocity.assign(count, Vec3f(0.0f));
+  result.contact.assign(count, 0);
+  for (const auto& [name, values] : surface.maps) result.maps[name].assign(count, 0.0f);
+  if (surface.empty() || surface.triangles.empty()) return result;
+
+  const ClosestPoint closest(surface.positions, surface.triangles);
+  const std::vector<Vec3f> slopes = angleSlopes(surface, 1);
+  forEachIndex(count, [&](std::uint32_t v) {
+    const Vec3f& normal = result.normals[v];
+    const Landing landing =
+        landingAt(surface, closest.nearest(Vec3d(result.positions[v]), normal, kOtherSide * surface.spacing));
+    const Texel texel =
+        texelAt(surface, surface.coordinate, surface.gradient, landing, Mat3d::identity(), normal);
+    result.coordinate[v] = texel.coordinate;
+    result.gradient[v] = texel.gradient;
+    result.color[v] = colorAt(surface, landing);
+    result.orientation[v] =
+        texture::tangentUnit(directionAt(surface, slopes, landing, 1), normal, result.orientation[v]);
+    result.age[v] = valueAt(surface.age, landing);
+    result.trust[v] = valueAt(surface.trust, landing) * landingTrust(landing, surface.spacing, normal);
+    // What the place moved by, so that a vertex off the surface keeps its distance.
+    const Vec3f before = valueAt(surface.previousPosition, landing);
+    result.previousPosition[v] += before - Vec3f(landing.point.position);
+    result.velocity[v] = valueAt(surface.velocity, landing);
+    result.contact[v] = surface.contact[landing.nearestVertex()];
+  });
+  for (auto& [name, values] : result.maps) {
+    const std::vector<float>& from = surface.maps.at(name);
+    forEachIndex(count, [&, &to = values](std::uint32_t v) {
+      to[v] = valueAt(from, landingAt(surface, closest.nearest(Vec3d(result.positions[v]), result.normals[v],
+                                                               kOtherSide * surface.spacing)));
+    });
+  }
+  return result;
+}
+
+}  // namespace fluidtex::transport
