@@ -20,8 +20,8 @@ constexpr float kDiscShare = 0.8f, kDiscsApart = 1.6f;  // of a disc's nominal r
 constexpr float kMostYoung = 0.35f;                     // share of a disc
 constexpr float kTooYoung =
     0.3f;  // around a centre with more of it none is tried again, of the nominal radius
-// Where the stretch is this many times what is kept, discs may cover more than the budget.
-constexpr float kUrgent = 2.0f;
+// Where the log stretch is this many times what is kept, discs may cover more than the budget.
+constexpr float kUrgent = 1.5f;
 
 bool lost(const TexelImage& image, const Label& label, float trust) {
   if (!believed(trust)) return true;
@@ -127,7 +127,7 @@ Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<
 
 float fadingSpeed(float logStretch, float age, double keepStretch, double fade) {
   const double most = double(kUrgent) * std::log(std::max(keepStretch, 1.01));
-  return float(std::max(1.0 / fade, double(logStretch) / std::max(double(age), 1e-3) / most));
+  return float(std::max(1.0 / std::max(fade, 1e-3), double(logStretch) / std::max(double(age), 1e-3) / most));
 }
 
 std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,

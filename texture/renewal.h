@@ -29,7 +29,8 @@ struct Disc {
 struct DiscOptions {
   double keepStretch = 1.35;  // what is coherent and stretched less is kept
   double radius = 36.0;       // pixels; discs reach 0.8 of it, and their centres are at least 1.6 of it apart
-  // Share of the vertices that discs may cover; more where the stretch is twice what is kept.
+  // Share of the vertices that discs may cover; more where the log stretch is one and a half times what is
+  // kept.
   double budget = 0.1;
 };
 
@@ -49,8 +50,8 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
                              const DiscOptions& options, std::uint64_t seed);
 
 // 1/s, how fast the old texture gives way where it is renewed: in `fade` seconds, or in the time in which
-// texture at this place is stretched by keepStretch twice over, if that is shorter. The time is told by its
-// log stretch since it was laid `age` seconds ago.
+// texture at this place is stretched half as much again (log) as keepStretch, if that is shorter. The time is
+// told by its log stretch since it was laid `age` seconds ago.
 float fadingSpeed(float logStretch, float age, double keepStretch, double fade);
 
 // 1 where labels must be renewed whatever else is: beyond the edge of an exemplar that does not wrap, or

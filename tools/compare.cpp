@@ -77,7 +77,10 @@ void compare(CommonOptions options) {
     runInto(out / variant.folder, sceneOf(variant, options), options);
     // What has no texture has nothing to be measured.
     if (variant.textured)
-      measureRun({.out = out / variant.folder, .json = out / variant.folder / "measure.json", .quiet = true});
+      measureRun({.out = out / variant.folder,
+                  .exemplar = {},
+                  .json = out / variant.folder / "measure.json",
+                  .quiet = true});
     rows.push_back(comparedRun(variant.label, out / variant.folder));
   }
   writeTextAtomically(out / "compare.json", toJson(rows));

@@ -143,6 +143,9 @@ core = 0.9
 feature = 0.4
 gradient = 0.6
 keep_stretch = 2
+renewal_radius = 20
+renewal_rate = 5
+fade = 0.25
 [texture.surface]
 points = "random"
 levels = 4

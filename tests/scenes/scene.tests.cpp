@@ -169,6 +169,9 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(texture.synthesis.featureWeight == 0.4);
   CHECK(texture.synthesis.gradientWeight == 0.6);
   CHECK(texture.synthesis.keepStretch == 2.0);
+  CHECK(texture.synthesis.renewalRadius == 20.0);
+  CHECK(texture.synthesis.renewalRate == 5.0);
+  CHECK(texture.synthesis.fade == 0.25);
   CHECK(texture.synthesis.seed == 99);
   CHECK(texture.surface.seed == 99);
   CHECK(texture.surface.points == texture::Points::random);
