@@ -252,9 +252,9 @@ TEST_CASE("measure: renewed surface changes by what is shown instead", "[texture
 
   // A fade: the colours go half the way, whatever the coordinates say already.
   TexturedSurface fading = after;
-  const float half = decodeSrgb(0.5f);
+  const float grey = decodeSrgb(0.5f);
   for (std::size_t v = 0; v < fading.positions.size(); ++v)
-    if (fading.coordinate[v] != before.coordinate[v]) fading.color[v] = Vec4f(half, half, half, 1.0f);
+    if (fading.coordinate[v] != before.coordinate[v]) fading.color[v] = Vec4f(grey, grey, grey, 1.0f);
   const auto begun = measureChange(before, fading, picture, true);
   const auto ended = measureChange(fading, after, picture, true);
   REQUIRE((begun && ended));

@@ -47,7 +47,8 @@ inline TexturedSurface continued(const Carried& carried, const SurfaceMesh& mesh
           .previousPosition = carried.previousPosition,
           .velocity = {},
           .contact = {},
-          .maps = {}};
+          .maps = {},
+          .scale = {}};
 }
 
 // Exemplar coordinates that are one linear function of position all over; colour and age likewise.
