@@ -18,6 +18,7 @@ TexturedSurface meshOf(Surface surface) {
   result.normals = std::move(mesh.normals);
   result.orientation = std::move(mesh.orientation);
   result.triangles = std::move(mesh.triangles);
+  result.scale = std::move(mesh.scale);
   return result;
 }
 
@@ -29,6 +30,7 @@ TexturedSurface untextured(Surface surface, const Carried& carried) {
   result.color.assign(count, kPale);
   result.coordinate.assign(count, Vec2f(0.0f));
   result.gradient.resize(count);
+  result.fading = noFading(count);
   result.age.assign(count, 0.0f);
   result.trust = carried.empty() ? std::vector<float>(count, 0.0f) : carried.trust;
   result.previousPosition = carried.empty() ? result.positions : carried.previousPosition;
@@ -42,6 +44,7 @@ TexturedSurface advected(Surface surface, const Carried& carried, double seconds
   result.color = carried.color;
   result.coordinate = carried.coordinate;
   result.gradient = carried.gradient;
+  result.fading = noFading(result.positions.size());
   result.age = carried.age;
   for (float& age : result.age) age += float(secondsSinceLast);
   result.trust = carried.trust;

@@ -54,6 +54,12 @@ struct Fading {
   std::vector<float> speed;              // 1/s: by how much the weight falls
 };
 
+// Nothing that fades, at `count` vertices.
+inline Fading noFading(std::size_t count) {
+  return {std::vector<Vec2f>(count, Vec2f(0.0f)), std::vector<TexelGradient>(count), std::vector<float>(count, 0.0f),
+          std::vector<float>(count, 0.0f)};
+}
+
 // The earlier frame's texture brought onto a new surface. Every array has one entry per vertex of levels[0], or none at all
 // on the first frame.
 struct Carried {

@@ -78,11 +78,6 @@ Fading fadingAfter(const Carried& carried, const LaterFrame& later, double secon
   return result;
 }
 
-Fading nothingFading(std::size_t count) {
-  return {std::vector<Vec2f>(count), std::vector<TexelGradient>(count), std::vector<float>(count, 0.0f),
-          std::vector<float>(count, 0.0f)};
-}
-
 // The exemplar's colour at the present place mixed with that at the old one, premultiplied.
 Vec4f shownColor(const Exemplar& exemplar, const Vec2f& present, const Vec2f& former, float weight) {
   const auto at = [&](const Vec2f& texel) {
@@ -162,7 +157,7 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
   result.coordinate.resize(count);
   result.gradient.resize(count);
   result.age.assign(count, 0.0f);
-  if (result.fading.weight.empty()) result.fading = nothingFading(count);
+  if (result.fading.weight.empty()) result.fading = noFading(count);
   const TexelImage& image = synthesizer.tables->image.front();
   forEachIndex(count, [&](std::uint32_t v) {
     const Label& label = state.labels[v];

@@ -145,8 +145,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   carried.color.resize(count);
   carried.coordinate.resize(count);
   carried.gradient.resize(count);
-  carried.fading = {std::vector<Vec2f>(count), std::vector<TexelGradient>(count), std::vector<float>(count),
-                    std::vector<float>(count)};
+  carried.fading = texture::noFading(count);
   carried.age.resize(count);
   carried.trust.resize(count);
   carried.previousPosition.resize(count);
@@ -177,7 +176,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
     else
       carried.orientation[v] = texture::tangentUnit(direction, normal, anyTangent(normal));
     carried.trust[v] = landingTrust(landing, scale, oldNormal) * trace.known[v] *
-                       stretchTrust(texel.gradient, next.spacingAt(v));
+                       stretchTrust(texel.gradient, previous.spacing * next.spacingAt(v) / next.spacing);
     carried.previousPosition[v] = Vec3f(landing.point.position);
   });
   const std::vector<float> neighbors = neighborTrust(next, carried.previousPosition, trace.map);

@@ -48,6 +48,7 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
   result.color.assign(count, Vec4f(0.5f, 0.5f, 0.5f, 1.0f));
   result.coordinate.assign(count, Vec2f(0.0f));
   result.gradient.resize(count);
+  result.fading = texture::noFading(count);
   result.age.assign(count, 0.0f);
   result.trust.assign(count, 0.0f);
   result.previousPosition = result.positions;

@@ -192,7 +192,7 @@ TEST_CASE("scene faults: a number out of its range", "[scenes]") {
       {"texture.renewal_radius = 2\n" + kGoodScene,
        "s.toml:1:9: error: texture.renewal_radius: 2 is too small; give a number from 4 to 1000"},
       {"texture.fade = -1\n" + kGoodScene,
-       "s.toml:1:9: error: texture.fade: -1 is too small; give a number 0 or more"},
+       "s.toml:1:9: error: texture.fade: -1 is negative; give a number 0 or more"},
       {"texture.keep_stretch = 0.5\n" + kGoodScene,
        "s.toml:1:9: error: texture.keep_stretch: 0.5 is too small; give a number 1 or more"},
       {"texture.surface.levels = 0\n" + kGoodScene,
