@@ -89,6 +89,7 @@ std::shared_ptr<const Problem> problem(int points) {
   p->previous.color.assign(count, texture::Vec4f(0.5f, 0.5f, 0.5f, 1.0f));
   p->previous.coordinate.assign(count, texture::Vec2f(1.0f, 2.0f));
   p->previous.gradient.resize(count);
+  p->previous.fading = texture::noFading(count);
   p->previous.age.assign(count, 1.0f);
   p->previous.trust.assign(count, 1.0f);
   p->previous.positions = std::move(mesh.positions);
