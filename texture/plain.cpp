@@ -14,15 +14,19 @@ TexturedSurface meshOf(Surface surface) {
   if (mesh.orientation.size() != mesh.positions.size())
     throw std::invalid_argument("a surface without orientation cannot be textured");
   result.spacing = mesh.spacing;
+  takeMesh(mesh, result);
+  return result;
+}
+
+}  // namespace
+
+void takeMesh(SurfaceMesh& mesh, TexturedSurface& result) {
   result.positions = std::move(mesh.positions);
   result.normals = std::move(mesh.normals);
   result.orientation = std::move(mesh.orientation);
   result.triangles = std::move(mesh.triangles);
   result.scale = std::move(mesh.scale);
-  return result;
 }
-
-}  // namespace
 
 TexturedSurface untextured(Surface surface, const Carried& carried) {
   TexturedSurface result = meshOf(std::move(surface));

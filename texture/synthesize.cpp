@@ -4,6 +4,7 @@
 #include "texture/first_frame.h"
 #include "texture/later_frame.h"
 #include "texture/parallel.h"
+#include "texture/plain.h"
 #include "texture/renewal.h"
 #include "texture/srgb.h"
 
@@ -175,11 +176,7 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
   if (progress) progress(1.0);
   result.trust = carried.empty() ? std::vector<float>(count, 0.0f) : carried.trust;
   result.previousPosition = carried.empty() ? mesh.positions : carried.previousPosition;
-  result.positions = std::move(mesh.positions);
-  result.normals = std::move(mesh.normals);
-  result.orientation = std::move(mesh.orientation);
-  result.triangles = std::move(mesh.triangles);
-  result.scale = std::move(mesh.scale);
+  takeMesh(mesh, result);
   return result;
 }
 
