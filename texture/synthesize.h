@@ -17,6 +17,7 @@ struct Synthesizer {
   Exemplar exemplar;
   SynthesisOptions options;
   std::shared_ptr<SearchTables> tables;
+  Image around;  // meansAround(exemplar)
 };
 
 // Throws std::invalid_argument if no window fits the exemplar, or options.windows is empty.
