@@ -119,10 +119,12 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   for (const Disc& disc : discs)
     for (const std::uint32_t v : disc.members) level.wanted[v] = 1;
   const std::vector<std::uint8_t> large = searched(synthesizer, view.graph);
-  const auto leaveDroplets = [&] {
-    for (std::size_t v = 0; v < large.size(); ++v) level.wanted[v] &= large[v];
+  // Droplets too small for texture stay as they are; so does what still fades, or it would jump.
+  const auto leaveAlone = [&] {
+    for (std::size_t v = 0; v < large.size(); ++v)
+      level.wanted[v] &= large[v] && !(carried.fading.weight[v] > 0.0f && believed(carried.trust[v]));
   };
-  leaveDroplets();
+  leaveAlone();
   if (!any(level.wanted)) return result;
 
   State state;
@@ -133,7 +135,7 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   if (tables.image.size() > 1) layOut(synthesizer, view, level.wanted, frame, state.labels, stats, progress);
   state.value = lookUp(image, state.labels);
   level.wanted = grown(view.graph, level.wanted, kRim);
-  leaveDroplets();
+  leaveAlone();
   const std::size_t windows = windowsOf(synthesizer, 0).size();
   runPasses(synthesizer, level,
             {0, frame, options.laterIterations, 1, false, windows > 1 ? std::size_t(1) : 0}, state, stats,
