@@ -20,9 +20,6 @@ constexpr int kRim = 5;
 constexpr float kData = 0.4f;
 // Vertices that stand for the surface at half its detail lie 1 to 2 of its pixels apart.
 constexpr float kHalfRadius = 0.8f;
-// Texture is laid for the surface of this many seconds ahead, strained by this share of what is kept at most
-// (log).
-constexpr double kAhead = 0.5, kMostAhead = 0.6;
 
 // Texel x of the full exemplar lies at (x - 1/2) / 2 of the halved one; what a label says of its surroundings
 // in pixels stays.
@@ -118,8 +115,8 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
 
   // From here on the surface is that of a while ahead, and labels are what they will be there.
   const std::vector<Strain> ahead =
-      strainAhead(now, carried.previousPosition, carried.trust, secondsSinceLast, kAhead,
-                  kMostAhead * std::log(options.keepStretch));
+      strainAhead(now, carried.previousPosition, carried.trust, secondsSinceLast, options.lookAhead,
+                  std::log(options.keepStretch));
   const Connection connection = strained(now, ahead);
   const MeshView view{now.mesh, now.graph, connection, now.pixel, now.members};
   const SeamModel seams = seamModel(synthesizer, view, 0);
