@@ -3,6 +3,7 @@
 #include "texture/fresh.h"
 #include "texture/label_expansion.h"
 #include "texture/random.h"
+#include "texture/table_cache.h"
 
 #include <algorithm>
 
@@ -20,10 +21,9 @@ const SearchTable& tableFor(Synthesizer& synthesizer, int level, int window) {
   auto it = synthesizer.tables->table.find(key);
   if (it == synthesizer.tables->table.end()) {
     const bool labels = synthesizer.options.method == Method::coordinates;
-    SearchTable table =
-        buildSearchTable(synthesizer.exemplar.match[std::size_t(level)], synthesizer.exemplar.toroidal,
-                         window, synthesizer.options.seed, level == 0 && labels ? kSimilar : 0);
-    table.padded = {};  // distances are taken from the level's TexelImage
+    SearchTable table = cachedSearchTable(
+        synthesizer.exemplar.match[std::size_t(level)], synthesizer.exemplar.toroidal, window,
+        synthesizer.options.seed, level == 0 && labels ? kSimilar : 0, synthesizer.cache);
     it = synthesizer.tables->table.emplace(key, std::move(table)).first;
   }
   return it->second;
@@ -42,6 +42,11 @@ void record(SynthesisStats& stats, const EnergyTrace& trace) {
 
 }  // namespace
 
+void prepareTables(Synthesizer& synthesizer) {
+  for (int level = 0; level < int(synthesizer.exemplar.match.size()); ++level)
+    for (const auto& [window, place] : windowsOf(synthesizer, level)) tableFor(synthesizer, level, window);
+}
+
 PreparedMesh::PreparedMesh(const SurfaceMesh& surface)
     : mesh(surface),
       graph(buildVertexGraph(surface)),
@@ -50,9 +55,10 @@ PreparedMesh::PreparedMesh(const SurfaceMesh& surface)
 Float8 seamChannels(const Synthesizer& synthesizer) {
   Float8 weight{};
   const int channels = synthesizer.exemplar.match.front().channels;
-  const bool gradient =
-      synthesizer.options.gradientWeight > 0.0 && channels > synthesizer.exemplar.colorChannels;
+  const bool gradient = synthesizer.options.gradientWeight > 0.0 &&
+                        channels > synthesizer.exemplar.colorChannels + synthesizer.exemplar.guided;
   for (int c = 0; c < channels - (gradient ? 1 : 0); ++c) weight[c] = 1.0f;
+  if (synthesizer.exemplar.guided) weight[synthesizer.exemplar.colorChannels] = 0.0f;
   return weight;
 }
 

@@ -9,6 +9,7 @@
 #include "texture/prepare.h"
 #include "texture/synthesize.h"
 #include "tools/atomic_file.h"
+#include "tools/cache_folder.h"
 #include "tools/earlier_run.h"
 #include "tools/errors.h"
 #include "tools/onto_mesh.h"
@@ -17,6 +18,7 @@
 #include "tools/progress.h"
 #include "tools/report.h"
 #include "tools/state.h"
+#include "tools/texture_guidance.h"
 #include "tools/texture_scale.h"
 #include "tools/textured.h"
 #include "transport/carry.h"
@@ -73,9 +75,10 @@ class FrameLoop {
         m_synthesizer(
             texture::makeSynthesizer(texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis,
                                                            scene.texture.surface.levels),
-                                     scene.texture.synthesis)),
+                                     scene.texture.synthesis, cacheFolder())),
         m_guide(orientationGuide(scene)),
-        m_scale(textureScale(scene)) {
+        m_scale(textureScale(scene)),
+        m_guidance(textureGuidance(scene)) {
     m_surface.spacing = scene.texture.spacing;
     m_report.scene = Json::parse(scene.resolved);
     m_report.seed = scene.seed;
@@ -180,6 +183,7 @@ class FrameLoop {
       texture::calmDroplets(surface.levels[0],
                             texture::droplets(graph, *std::min_element(windows.begin(), windows.end())),
                             carried);
+      guide(m_guidance, motion, carried, surface);
     }
     {
       Stopwatch watch(seconds.synthesize);
@@ -294,6 +298,7 @@ class FrameLoop {
   texture::Synthesizer m_synthesizer;
   OrientationGuide m_guide;
   TextureScale m_scale;
+  TextureGuidance m_guidance;
   std::optional<sim::Motion> m_motion;
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
   std::vector<std::pair<std::size_t, sim::Pose>> m_visible;  // numbers and places of the solids in m_solids

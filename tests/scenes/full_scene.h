@@ -161,6 +161,20 @@ value = 2
 factor = 3
 [[texture.scale.from]]
 sphere = { center = [1, 1, 1], radius = 0.25 }
+[texture.guidance]
+by = "field"
+map = "e.png"
+weight = 2
+field = "f.vdb"
+[[texture.guidance.point]]
+value = 1
+level = 0.5
+[[texture.guidance.point]]
+value = 2
+level = 0.75
+[[texture.map]]
+name = "height"
+file = "e.png"
 [texture.orientation]
 symmetry = 2
 align = "field"
