@@ -29,6 +29,22 @@ std::vector<int> fitted(std::vector<int> iterations, std::size_t windows) {
   return iterations;
 }
 
+// What coherence says of keys that are not given. Half of it leaves their defaults; towards 1 what is kept may be stretched more and
+// more (log), less is renewed in a second, and it fades slower; towards 0 all of that less. None of it: each frame alone.
+void followCoherence(texture::Options& texture, const Reader& reader) {
+  constexpr double kMostStretch = 8.0, kLongestFade = 1.0;  // torn; s
+  texture::SynthesisOptions& synthesis = texture.synthesis;
+  const double coherence = texture.coherence;
+  if (coherence == 0.5) return;
+  if (coherence == 0.0 && !reader.given("texture.later_frames"))
+    texture.laterFrames = texture::LaterFrames::alone;
+  const double more = std::max(coherence, 1e-3) / std::max(1.0 - coherence, 1e-3);
+  if (!reader.given("texture.keep_stretch"))
+    synthesis.keepStretch = std::min(std::pow(synthesis.keepStretch, more), kMostStretch);
+  if (!reader.given("texture.renewal_rate")) synthesis.renewalRate /= more;
+  if (!reader.given("texture.fade")) synthesis.fade = std::min(synthesis.fade * more, kLongestFade);
+}
+
 // To two digits, as a length that can be recommended.
 double roundedUp(double length) {
   const double step = std::pow(10.0, std::floor(std::log10(length)) - 1.0);
@@ -305,7 +321,7 @@ void checkGuidance(const Scene& scene, Reader& reader) {
 // Names that the vertices of a PLY have anyway.
 const std::set<std::string> kVertexNames = {
     "x",  "y",  "z",  "nx", "ny", "nz", "red", "green", "blue", "alpha", "s",   "t",       "dx",
-    "dy", "dz", "bx", "by", "bz", "vx", "vy",  "vz",    "trust", "age",  "contact", "guidance"};
+    "dy", "dz", "bx", "by", "bz", "vx", "vy",  "vz",    "trust", "age",  "contact", "guidance", "fade_s", "fade_t", "fade"};
 
 void checkMaps(const Scene& scene, Reader& reader) {
   std::set<std::string> names;
@@ -410,6 +426,7 @@ void complete(Scene& scene, const Reader& reader) {
   }
 
   texture::SynthesisOptions& synthesis = scene.texture.synthesis;
+  followCoherence(scene.texture, reader);
   if (!reader.given("texture.first_iterations"))
     synthesis.firstIterations = fitted(synthesis.firstIterations, synthesis.windows.size());
   if (!reader.given("texture.later_iterations"))

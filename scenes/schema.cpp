@@ -193,6 +193,7 @@ void describeTexture(Visitor& visitor, Scene& scene) {
         visitor.number("core", synthesis.core, kShare);
         visitor.number("feature", synthesis.featureWeight, kNotNegative);
         visitor.number("gradient", synthesis.gradientWeight, kNotNegative);
+        visitor.number("coherence", texture.coherence, kShare);
         visitor.number("keep_stretch", synthesis.keepStretch, {.low = 1.0});
         visitor.number("renewal_radius", synthesis.renewalRadius, {.low = 4.0, .high = 1000.0});
         visitor.number("renewal_rate", synthesis.renewalRate, kNotNegative);

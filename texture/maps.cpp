@@ -4,6 +4,34 @@
 #include "texture/parallel.h"
 
 namespace fluidtex::texture {
+namespace {
+
+// From texels of a surface's exemplar to pixels of an image that lies over it.
+class ToImage {
+ public:
+  ToImage(const TexturedSurface& surface, const Image& image)
+      : m_scale(float(image.width) / float(surface.exemplarWidth),
+                float(image.height) / float(surface.exemplarHeight)) {
+    if (image.data.empty()) throw std::invalid_argument("lookUpMap: the map has no pixels");
+    if (surface.exemplarWidth < 1 || surface.exemplarHeight < 1)
+      throw std::invalid_argument("lookUpMap: the surface does not know the size of its exemplar");
+  }
+  // Centres lie at integers, in the exemplar as in the image.
+  Vec2f operator()(const Vec2f& texel) const {
+    const Vec2f half(0.5f, 0.5f);
+    return (texel + half) * m_scale - half;
+  }
+
+ private:
+  Vec2f m_scale;
+};
+
+// Of a vertex's former place.
+float leftOf(const Fading& fading, std::uint32_t v) {
+  return fading.weight.empty() ? 0.0f : fading.weight[v];
+}
+
+}  // namespace
 
 Image vertexMap(Image map, int exemplarWidth, bool toroidal) {
   while (map.width >= 2 * exemplarWidth && map.width > 1 && map.height > 1) map = halve(map, toroidal);
@@ -16,30 +44,48 @@ std::vector<std::string> mapNames(const std::string& name, int channels) {
 }
 
 void lookUpMap(const std::string& name, const Image& map, bool toroidal, TexturedSurface& surface) {
-  if (map.data.empty() || (map.channels != 1 && map.channels != 3))
-    throw std::invalid_argument("lookUpMap: the map must have pixels of one or three channels");
-  if (surface.exemplarWidth < 1 || surface.exemplarHeight < 1)
-    throw std::invalid_argument("lookUpMap: the surface must know the size of its exemplar");
+  const ToImage toMap(surface, map);
+  if (map.channels != 1 && map.channels != 3)
+    throw std::invalid_argument("lookUpMap: the map must have one or three channels");
   const std::size_t count = surface.positions.size();
-  const Vec2f scale(float(map.width) / float(surface.exemplarWidth),
-                    float(map.height) / float(surface.exemplarHeight));
   std::vector<std::vector<float>*> results;
   for (const std::string& own : mapNames(name, map.channels)) {
     results.push_back(&surface.maps[own]);
     results.back()->resize(count);
   }
-  // Texel centres lie at integers, in the exemplar as in the map.
-  const auto sample = [&](const Vec2f& texel, float* out) {
-    const Vec2f half(0.5f, 0.5f);
-    sampleBilinear(map, toroidal, (texel + half) * scale - half, out);
-  };
   forEachIndex(count, [&](std::uint32_t v) {
     float now[3], former[3] = {0.0f, 0.0f, 0.0f};
-    sample(surface.coordinate[v], now);
-    const float weight = surface.fading.weight.empty() ? 0.0f : surface.fading.weight[v];
-    if (weight > 0.0f) sample(surface.fading.coordinate[v], former);
+    sampleBilinear(map, toroidal, toMap(surface.coordinate[v]), now);
+    const float weight = leftOf(surface.fading, v);
+    if (weight > 0.0f) sampleBilinear(map, toroidal, toMap(surface.fading.coordinate[v]), former);
     for (std::size_t c = 0; c < results.size(); ++c)
       (*results[c])[v] = now[c] + weight * (former[c] - now[c]);
+  });
+}
+
+Vec4f shownColor(const Image& color, bool toroidal, const Vec2f& present, const Vec2f& former, float weight) {
+  const auto at = [&](const Vec2f& texel) {
+    Vec4f result;
+    sampleBilinear(color, toroidal, texel, result.asPointer());
+    return result;
+  };
+  const Vec4f now = at(present);
+  if (weight == 0.0f) return now;
+  const Vec4f old = at(former);
+  const float a = (1.0f - weight) * now[3], b = weight * old[3], alpha = a + b;
+  if (!(alpha > 1e-6f)) return now;
+  return {(a * now[0] + b * old[0]) / alpha, (a * now[1] + b * old[1]) / alpha,
+          (a * now[2] + b * old[2]) / alpha, alpha};
+}
+
+void lookUpColor(const Image& color, bool toroidal, TexturedSurface& surface) {
+  const ToImage toColor(surface, color);
+  if (color.channels != 4) throw std::invalid_argument("lookUpColor: colours must be RGBA");
+  surface.color.resize(surface.positions.size());
+  forEachIndex(surface.color.size(), [&](std::uint32_t v) {
+    const float weight = leftOf(surface.fading, v);
+    const Vec2f former = weight > 0.0f ? toColor(surface.fading.coordinate[v]) : Vec2f(0.0f);
+    surface.color[v] = shownColor(color, toroidal, toColor(surface.coordinate[v]), former, weight);
   });
 }
 

@@ -22,4 +22,11 @@ std::vector<std::string> mapNames(const std::string& name, int channels);
 // exemplar.
 void lookUpMap(const std::string& name, const Image& map, bool toroidal, TexturedSurface& surface);
 
+// What a vertex shows of colours (linear RGBA): those at its place, mixed with those at the former one, of which so much is
+// left, premultiplied.
+Vec4f shownColor(const Image& color, bool toroidal, const Vec2f& present, const Vec2f& former, float weight);
+
+// Looks surface.color up anew, in colours of any size. Throws as lookUpMap().
+void lookUpColor(const Image& color, bool toroidal, TexturedSurface& surface);
+
 }  // namespace fluidtex::texture

@@ -82,22 +82,6 @@ Fading fadingAfter(const Carried& carried, const LaterFrame& later, double secon
   return result;
 }
 
-// The exemplar's colour at the present place mixed with that at the old one, premultiplied.
-Vec4f shownColor(const Exemplar& exemplar, const Vec2f& present, const Vec2f& former, float weight) {
-  const auto at = [&](const Vec2f& texel) {
-    Vec4f color;
-    sampleBilinear(exemplar.color, exemplar.toroidal, texel, color.asPointer());
-    return color;
-  };
-  const Vec4f now = at(present);
-  if (weight == 0.0f) return now;
-  const Vec4f old = at(former);
-  const float a = (1.0f - weight) * now[3], b = weight * old[3], alpha = a + b;
-  if (!(alpha > 1e-6f)) return now;
-  return {(a * now[0] + b * old[0]) / alpha, (a * now[1] + b * old[1]) / alpha,
-          (a * now[2] + b * old[2]) / alpha, alpha};
-}
-
 }  // namespace
 
 Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options, std::filesystem::path cache) {
@@ -174,8 +158,8 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
                               : gradientOf(label, mesh.orientation[v], mesh.normals[v], mesh.spacingAt(v));
     if (kept) result.age[v] = carried.age[v] + float(secondsSinceLast);
     if (labels)
-      result.color[v] = shownColor(synthesizer.exemplar, result.coordinate[v], result.fading.coordinate[v],
-                                   result.fading.weight[v]);
+      result.color[v] = shownColor(synthesizer.exemplar.color, synthesizer.exemplar.toroidal,
+                                   result.coordinate[v], result.fading.coordinate[v], result.fading.weight[v]);
     else
       result.color[v] = decoded(state.value[v], synthesizer.exemplar.colorChannels);
   });

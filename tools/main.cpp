@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   int exitCode = kDone;
   addRun(app, exitCode);
   addCompare(app, exitCode);
+  addApply(app, exitCode);
   addCheck(app, exitCode);
   addMeasure(app, exitCode);
   addValidate(app, exitCode);

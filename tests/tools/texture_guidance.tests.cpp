@@ -20,17 +20,16 @@ scenes::Scene sceneBy(GuidanceBy by, double low, double high) {
 }
 
 // What is wanted on a ball of radius 1 around the origin.
-struct Guided {
-  texture::SurfaceMesh mesh;
-  const std::vector<float>& level() const { return mesh.guidance; }
-};
-
-Guided guided(GuidanceBy by, double low, double high, const sim::Frame& frame = {},
+texture::SurfaceMesh guided(GuidanceBy by, double low, double high, const sim::Frame& frame = {},
               const texture::Carried& carried = {}) {
   texture::Surface surface;
   surface.levels.push_back(testing::sphereMesh(8));
   guide(textureGuidance(sceneBy(by, low, high)), frame, carried, surface);
-  return {surface.levels[0]};
+  return surface.levels[0];
+}
+
+std::vector<float> levelsOf(const texture::SurfaceMesh& mesh) {
+  return mesh.guidance;
 }
 
 // Turns about the z axis, 3 radians a second.
@@ -62,26 +61,26 @@ sim::Frame turningFrame() {
 }  // namespace
 
 TEST_CASE("texture guidance: by nothing there is none") {
-  CHECK(guided(GuidanceBy::none, 0, 1).level().empty());
+  CHECK(guided(GuidanceBy::none, 0, 1).guidance.empty());
 }
 
 TEST_CASE("texture guidance: by height and by curvature") {
-  const Guided height = guided(GuidanceBy::height, -1.0, 1.0);
-  for (std::size_t v = 0; v < height.level().size(); ++v)
-    CHECK(height.level()[v] == Approx(0.5f * (1.0f + height.mesh.positions[v].z())).margin(1e-6));
-  for (const float level : guided(GuidanceBy::curvature, 0.0, 2.0).level()) CHECK(level == Approx(0.5f).epsilon(0.01));
+  const texture::SurfaceMesh height = guided(GuidanceBy::height, -1.0, 1.0);
+  for (std::size_t v = 0; v < height.guidance.size(); ++v)
+    CHECK(height.guidance[v] == Approx(0.5f * (1.0f + height.positions[v].z())).margin(1e-6));
+  for (const float level : levelsOf(guided(GuidanceBy::curvature, 0.0, 2.0))) CHECK(level == Approx(0.5f).epsilon(0.01));
 }
 
 TEST_CASE("texture guidance: by speed and by vorticity, both 0 where nothing has moved yet") {
   const sim::Frame turning = turningFrame();
-  const Guided speed = guided(GuidanceBy::speed, 0.0, 3.0, turning);
-  for (std::size_t v = 0; v < speed.level().size(); ++v) {
-    const Vec3f& x = speed.mesh.positions[v];
-    CHECK(speed.level()[v] == Approx(std::hypot(x.x(), x.y())).margin(1e-3));
+  const texture::SurfaceMesh speed = guided(GuidanceBy::speed, 0.0, 3.0, turning);
+  for (std::size_t v = 0; v < speed.guidance.size(); ++v) {
+    const Vec3f& x = speed.positions[v];
+    CHECK(speed.guidance[v] == Approx(std::hypot(x.x(), x.y())).margin(1e-3));
   }
-  for (const float level : guided(GuidanceBy::vorticity, 0.0, 12.0, turning).level()) CHECK(level == Approx(0.5f).margin(1e-3));
+  for (const float level : levelsOf(guided(GuidanceBy::vorticity, 0.0, 12.0, turning))) CHECK(level == Approx(0.5f).margin(1e-3));
   for (const GuidanceBy by : {GuidanceBy::speed, GuidanceBy::vorticity})
-    for (const float level : guided(by, 0.0, 1.0).level()) CHECK(level == 0.0f);
+    for (const float level : levelsOf(guided(by, 0.0, 1.0))) CHECK(level == 0.0f);
 }
 
 TEST_CASE("texture guidance: by temperature, by a painted volume") {
@@ -90,9 +89,9 @@ TEST_CASE("texture guidance: by temperature, by a painted volume") {
   const auto grid = sim::FloatGrid::create(300.0f);
   grid->fill(openvdb::CoordBBox(openvdb::Coord(-8, -8, 0), openvdb::Coord(8)), 500.0f);
   hot.fields["temperature"] = grid;
-  const Guided heat = guided(GuidanceBy::temperature, 300.0, 700.0, hot);
-  for (std::size_t v = 0; v < heat.level().size(); ++v)
-    if (heat.mesh.positions[v].z() >= 0.0f) CHECK(heat.level()[v] == Approx(0.5f));
+  const texture::SurfaceMesh heat = guided(GuidanceBy::temperature, 300.0, 700.0, hot);
+  for (std::size_t v = 0; v < heat.guidance.size(); ++v)
+    if (heat.positions[v].z() >= 0.0f) CHECK(heat.guidance[v] == Approx(0.5f));
 
   const Scratch folder;
   const auto painted = openvdb::FloatGrid::create(2.0f);
@@ -111,7 +110,7 @@ TEST_CASE("texture guidance: by age, which starts anew where surface has just co
   carried.age.assign(count, 2.0f);
   carried.trust.assign(count, 1.0f);
   carried.trust[7] = 0.0f;
-  const Guided age = guided(GuidanceBy::age, 0.0, 4.0, {}, carried);
-  CHECK(age.level()[6] == Approx(0.5f));
-  CHECK(age.level()[7] == 0.0f);
+  const texture::SurfaceMesh age = guided(GuidanceBy::age, 0.0, 4.0, {}, carried);
+  CHECK(age.guidance[6] == Approx(0.5f));
+  CHECK(age.guidance[7] == 0.0f);
 }
