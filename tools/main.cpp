@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   addCompare(app, exitCode);
   addApply(app, exitCode);
   addCheck(app, exitCode);
+  addRender(app, exitCode);
   addMeasure(app, exitCode);
   addValidate(app, exitCode);
   if (argc > 1 && argv[1][0] != '-') {

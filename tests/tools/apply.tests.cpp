@@ -94,3 +94,40 @@ TEST_CASE("fluidtex apply: what is no map is refused in one sentence", "[tools]"
   refused("trust=a.png", "trust: is what every vertex has anyway");
   refused("height=a.png", "run.json: cannot be read");
 }
+
+TEST_CASE("fluidtex render: shows what the run has shown, and other colours once they are applied", "[tools][slow]") {
+  const Scratch scratch;
+  const fs::path out = scratch.path / "out", again = scratch.path / "again";
+  const auto well = [](const std::vector<std::string>& args) {
+    const Finished done = runProgram(args);
+    INFO(done.err);
+    REQUIRE(done.exitCode == 0);
+  };
+  const auto picture = [](const fs::path& folder) {
+    const auto in = OIIO::ImageInput::open((folder / "frames" / "0002.png").string());
+    REQUIRE(in);
+    std::vector<std::uint8_t> pixels(std::size_t(in->spec().width) * std::size_t(in->spec().height) * 3);
+    REQUIRE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, pixels.data()));
+    return pixels;
+  };
+  const auto difference = [](const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+    REQUIRE(a.size() == b.size());
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(int(a[i]) - int(b[i])) / double(a.size());
+    return sum;
+  };
+  well({"run", kSmallScene, "--out", out.string(), "--frames", "1:2"});
+  well({"render", kSmallScene, "--from", out.string(), "--out", again.string(), "--frames", "1:2"});
+  CHECK(fs::exists(again / "small.mp4"));
+  const std::vector<std::uint8_t> before = picture(out), same = picture(again);
+  CHECK(difference(before, same) < 0.5);  // colours went through eight bits
+  writeImage(scratch.path / "grey.png", 64, 1);
+  well({"apply", out.string(), "color=" + (scratch.path / "grey.png").string()});
+  well({"render", kSmallScene, "--from", out.string(), "--out", again.string(), "--frames", "1:2"});
+  CHECK(difference(before, picture(again)) > 2.0);
+
+  const Finished missing =
+      runProgram({"render", kSmallScene, "--from", out.string(), "--out", again.string(), "--frames", "1:3"});
+  CHECK(missing.exitCode == 1);
+  CHECK_THAT(missing.err, Catch::Contains("0003.ply: is not there"));
+}
