@@ -32,12 +32,13 @@ Image encodedColors(const Image& premultiplied, int channels) {
 // `image` with one more channel, scaled.
 Image withChannel(const Image& image, const Image& channel, float scale) {
   Image result{image.width, image.height, image.channels + 1, {}};
-  result.data.reserve(image.data.size() + channel.data.size());
-  for (std::size_t i = 0; i < channel.data.size(); ++i) {
-    const auto pixel = image.data.begin() + std::ptrdiff_t(i) * image.channels;
-    result.data.insert(result.data.end(), pixel, pixel + image.channels);
-    result.data.push_back(channel.data[i] * scale);
-  }
+  result.data.resize(image.data.size() + channel.data.size());
+  tbb::parallel_for(0, image.height, [&](int y) {
+    for (int x = 0; x < image.width; ++x) {
+      float* end = std::copy_n(image.at(x, y), image.channels, result.at(x, y));
+      *end = *channel.at(x, y) * scale;
+    }
+  });
   return result;
 }
 

@@ -32,8 +32,10 @@ TEST_CASE("coherence: the more of it, the less is renewed and the less pops, on 
   CHECK(renewed[0] == Approx(1.0));
   for (std::size_t i = 1; i < renewed.size(); ++i) {
     CHECK(renewed[i] < renewed[i - 1]);
-    CHECK(pop[i] < pop[i - 1]);
+    CHECK(pop[i] < pop[i - 1] + 0.005);  // at the end only the rim pops, and always does
   }
+  CHECK(pop[2] < 0.9 * pop[0]);
+  CHECK(pop[4] < pop[2]);
   // What is torn, at the rim, is renewed whatever one asks for.
   CHECK(renewed.back() < 0.7 * renewed[2]);
 }
