@@ -29,8 +29,9 @@ std::vector<int> fitted(std::vector<int> iterations, std::size_t windows) {
   return iterations;
 }
 
-// What coherence says of keys that are not given. Half of it leaves their defaults; towards 1 what is kept may be stretched more and
-// more (log), less is renewed in a second, and it fades slower; towards 0 all of that less. None of it: each frame alone.
+// What coherence says of keys that are not given. Half of it leaves their defaults; towards 1 what is kept
+// may be stretched more and more (log), less is renewed in a second, and it fades slower; towards 0 all of
+// that less. None of it: each frame alone.
 void followCoherence(texture::Options& texture, const Reader& reader) {
   constexpr double kMostStretch = 8.0, kLongestFade = 1.0;  // torn; s
   texture::SynthesisOptions& synthesis = texture.synthesis;
@@ -283,10 +284,9 @@ void checkOrientation(const Scene& scene, Reader& reader) {
 void checkCurve(const std::vector<texture::CurvePoint>& points, const std::string& path, Reader& reader) {
   for (std::size_t i = 1; reader.clean(path) && i < points.size(); ++i) {
     if (points[i - 1].value < points[i].value) continue;
-    reader.fault(
-        path + "." + std::to_string(i) + ".value",
-        written(points[i].value) + " is not above the one before, " + written(points[i - 1].value),
-        "give them by rising value");
+    reader.fault(path + "." + std::to_string(i) + ".value",
+                 written(points[i].value) + " is not above the one before, " + written(points[i - 1].value),
+                 "give them by rising value");
   }
 }
 
@@ -320,8 +320,9 @@ void checkGuidance(const Scene& scene, Reader& reader) {
 
 // Names that the vertices of a PLY have anyway.
 const std::set<std::string> kVertexNames = {
-    "x",  "y",  "z",  "nx", "ny", "nz", "red", "green", "blue", "alpha", "s",   "t",       "dx",
-    "dy", "dz", "bx", "by", "bz", "vx", "vy",  "vz",    "trust", "age",  "contact", "guidance", "fade_s", "fade_t", "fade"};
+    "x",  "y",     "z",   "nx",      "ny",       "nz",     "red",    "green", "blue", "alpha",
+    "s",  "t",     "dx",  "dy",      "dz",       "bx",     "by",     "bz",    "vx",   "vy",
+    "vz", "trust", "age", "contact", "guidance", "fade_s", "fade_t", "fade"};
 
 void checkMaps(const Scene& scene, Reader& reader) {
   std::set<std::string> names;
@@ -339,7 +340,8 @@ void checkMaps(const Scene& scene, Reader& reader) {
     else if (kVertexNames.contains(name))
       reader.fault(key, "\"" + name + "\" is what every vertex has anyway", "give another name");
     else if (!names.insert(name).second)
-      reader.fault(key, "\"" + name + "\" is the name of an earlier map too", "give each map a name of its own");
+      reader.fault(key, "\"" + name + "\" is the name of an earlier map too",
+                   "give each map a name of its own");
   }
 }
 

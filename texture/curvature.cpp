@@ -15,7 +15,8 @@ std::vector<float> meanCurvature(const SurfaceMesh& mesh) {
   const VertexGraph graph = buildVertexGraph(mesh);
   const std::vector<Vec3f>&x = mesh.positions, &n = mesh.normals;
   std::vector<float> curvature(x.size(), 0.0f), next(x.size()), area(x.size(), 0.0f);
-  // Half the divergence of the normal, which is linear over each triangle; of a vertex, the mean over its triangles by area.
+  // Half the divergence of the normal, which is linear over each triangle; of a vertex, the mean over its
+  // triangles by area.
   for (const Vec3I& t : mesh.triangles) {
     const Vec3f across = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
     const float twice = across.length();
@@ -27,8 +28,7 @@ std::vector<float> meanCurvature(const SurfaceMesh& mesh) {
     }
     for (int k = 0; k < 3; ++k) curvature[t[k]] += 0.5f * divergence, area[t[k]] += twice;
   }
-  for (std::size_t v = 0; v < x.size(); ++v)
-    curvature[v] = area[v] > 0.0f ? curvature[v] / area[v] : 0.0f;
+  for (std::size_t v = 0; v < x.size(); ++v) curvature[v] = area[v] > 0.0f ? curvature[v] / area[v] : 0.0f;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     forEachIndex(x.size(), [&](std::uint32_t v) {
       float sum = curvature[v];

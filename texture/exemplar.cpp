@@ -53,8 +53,9 @@ void check(const Image& color, bool toroidal, const SynthesisOptions& synthesis,
   int window = 1;
   for (const int w : synthesis.windows) window = std::max(window, w);
   if (std::min(color.width, color.height) < window)
-    throw ExemplarError(name + " is too small: it has " + sizeOf(color) + " pixels, and the largest window needs " +
-                        std::to_string(window) + " x " + std::to_string(window) + ".");
+    throw ExemplarError(name + " is too small: it has " + sizeOf(color) +
+                        " pixels, and the largest window needs " + std::to_string(window) + " x " +
+                        std::to_string(window) + ".");
   if (fittingWindow(color, toroidal, kSmallestWindow) < kSmallestWindow)
     throw ExemplarError(name + " is too small: it has " + sizeOf(color) +
                         " pixels, and an image whose edges do not meet needs at least 5 x 5.");
@@ -141,8 +142,9 @@ Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& sy
   if (!options.guidance.empty()) {
     guidance = readMap(options.guidance, 1);
     if (guidance.width != color.width || guidance.height != color.height)
-      throw ExemplarError(options.guidance.string() + " has " + sizeOf(guidance) + " pixels, and its exemplar " +
-                          options.file.string() + " " + sizeOf(color) + "; a guidance map must be of the same size.");
+      throw ExemplarError(options.guidance.string() + " has " + sizeOf(guidance) +
+                          " pixels, and its exemplar " + options.file.string() + " " + sizeOf(color) +
+                          "; a guidance map must be of the same size.");
   }
   Exemplar exemplar = prepare(std::move(color), std::move(guidance), options.toroidal, synthesis, levels,
                               options.file.string());

@@ -60,8 +60,7 @@ bool isGuided(const TexelImage& image, const SurfaceMesh& mesh) {
 void holdGuidance(const TexelImage& image, const SurfaceMesh& mesh, Values& values) {
   if (!isGuided(image, mesh)) return;
   const float scale = std::sqrt(image.guidanceWeight);
-  forEachIndex(values.size(),
-               [&](std::uint32_t v) { values[v][image.guide] = scale * mesh.guidance[v]; });
+  forEachIndex(values.size(), [&](std::uint32_t v) { values[v][image.guide] = scale * mesh.guidance[v]; });
 }
 
 float guidanceCost(const TexelImage& image, const SurfaceMesh& mesh, const Vec2f& texel, std::uint32_t v) {
@@ -88,8 +87,8 @@ Demand demandOn(const TexelImage& image, const SurfaceMesh& mesh) {
     const int x0 = int(cell) % demand.columns * kCell, y0 = int(cell) / demand.columns * kCell;
     for (int y = y0; y < std::min(y0 + kCell, image.height); ++y)
       for (int x = x0; x < std::min(x0 + kCell, image.width); ++x)
-        ++counts[cell][std::size_t(
-            levelOf(scale * image.data[image.nearest(float(x), float(y))][image.guide]))];
+        ++counts[cell]
+                [std::size_t(levelOf(scale * image.data[image.nearest(float(x), float(y))][image.guide]))];
   });
   Shares available{};
   for (const auto& count : counts)

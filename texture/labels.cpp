@@ -14,7 +14,8 @@ namespace fluidtex::texture {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint64_t kGuidedPlaces = 32;  // tried for a block, until its middle is of the level that is wanted
+constexpr std::uint64_t kGuidedPlaces =
+    32;  // tried for a block, until its middle is of the level that is wanted
 
 }  // namespace
 

@@ -158,8 +158,9 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
                               : gradientOf(label, mesh.orientation[v], mesh.normals[v], mesh.spacingAt(v));
     if (kept) result.age[v] = carried.age[v] + float(secondsSinceLast);
     if (labels)
-      result.color[v] = shownColor(synthesizer.exemplar.color, synthesizer.exemplar.toroidal,
-                                   result.coordinate[v], result.fading.coordinate[v], result.fading.weight[v]);
+      result.color[v] =
+          shownColor(synthesizer.exemplar.color, synthesizer.exemplar.toroidal, result.coordinate[v],
+                     result.fading.coordinate[v], result.fading.weight[v]);
     else
       result.color[v] = decoded(state.value[v], synthesizer.exemplar.colorChannels);
   });

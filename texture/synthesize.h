@@ -18,11 +18,14 @@ struct Synthesizer {
   Exemplar exemplar;
   SynthesisOptions options;
   std::shared_ptr<SearchTables> tables;
-  std::filesystem::path cache;  // folder in which search tables are kept from run to run (texture/table_cache.h)
+  std::filesystem::path
+      cache;  // folder in which search tables are kept from run to run (texture/table_cache.h)
 };
 
-// Throws std::invalid_argument if no window fits the exemplar, or options.windows is empty. cache: empty for none.
-Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options, std::filesystem::path cache = {});
+// Throws std::invalid_argument if no window fits the exemplar, or options.windows is empty. cache: empty for
+// none.
+Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options,
+                            std::filesystem::path cache = {});
 
 // Makes the tables of all levels and windows now, not when they are first asked for.
 void prepareTables(Synthesizer& synthesizer);

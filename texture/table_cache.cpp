@@ -24,8 +24,8 @@ constexpr const char* kEnding = ".table";
 
 // All that a table depends on, in 128 bits.
 std::string nameOf(const Image& match, bool toroidal, int window, std::uint64_t seed, int similar) {
-  const std::int64_t settings[] = {std::int64_t(kVersion),  match.width, match.height, match.channels,
-                                   std::int64_t(toroidal),  window,      similar,      kDescriptorSize,
+  const std::int64_t settings[] = {std::int64_t(kVersion),         match.width, match.height, match.channels,
+                                   std::int64_t(toroidal),         window,      similar,      kDescriptorSize,
                                    static_cast<std::int64_t>(seed)};
   const XXH64_hash_t start = XXH3_64bits(settings, sizeof settings);
   const XXH128_hash_t hash =

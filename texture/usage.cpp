@@ -28,7 +28,8 @@ Usage::Usage(const TexelImage& image, int cell, std::size_t count, const Demand&
     for (int i = 0; i < m_columns; ++i) {
       float sum = 0.0f;
       for (int y = 0; y < kSamples; ++y)
-        for (int x = 0; x < kSamples; ++x) sum += demand.at(place(i, x, m_toCell[0]), place(j, y, m_toCell[1]));
+        for (int x = 0; x < kSamples; ++x)
+          sum += demand.at(place(i, x, m_toCell[0]), place(j, y, m_toCell[1]));
       m_asked[std::size_t(j * m_columns + i)] = std::max(kLeastAsked, sum / float(kSamples * kSamples));
     }
 }

@@ -11,8 +11,8 @@ namespace fluidtex::texture {
 // Places in the exemplar, counted in a grid of cells and spread linearly over the four nearest.
 class Usage {
  public:
-  // Square cells of about `cell` texels; `count` places will be counted in all. Where parts are asked for unevenly, each
-  // should be used as much as it is asked for.
+  // Square cells of about `cell` texels; `count` places will be counted in all. Where parts are asked for
+  // unevenly, each should be used as much as it is asked for.
   Usage(const TexelImage& image, int cell, std::size_t count, const Demand& demand = {});
 
   void add(const Vec2f& texel, float amount);

@@ -48,8 +48,9 @@ void applyMaps(const ApplyWishes& wishes) {
   const int width = run.color.width, height = run.color.height;
   std::vector<std::pair<std::string, texture::Image>> maps;
   for (const auto& [name, file] : wishes.maps)
-    maps.emplace_back(name, texture::vertexMap(name == kColor ? texture::readImage(file) : texture::readMap(file),
-                                               width, run.toroidal));
+    maps.emplace_back(
+        name, texture::vertexMap(name == kColor ? texture::readImage(file) : texture::readMap(file), width,
+                                 run.toroidal));
   for (const int frame : run.frames) {
     texture::TexturedSurface surface = readPly(run.surfaceOf(frame), width, height);
     for (const auto& [name, map] : maps) {
@@ -81,7 +82,8 @@ void addApply(CLI::App& app, int& exitCode) {
       ->add_option("--exemplar", arguments->wishes.exemplar,
                    "The run's exemplar, where it is no longer at its place")
       ->type_name("IMAGE");
-  command->footer("Example:\n  fluidtex apply out/dam_break height=scales_height.png roughness=scales_rough.png");
+  command->footer(
+      "Example:\n  fluidtex apply out/dam_break height=scales_height.png roughness=scales_rough.png");
   command->callback([arguments, &exitCode] {
     exitCode = guarded([&] {
       for (const std::string& text : arguments->maps) arguments->wishes.maps.push_back(parseMap(text));

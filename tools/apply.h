@@ -9,14 +9,14 @@
 namespace fluidtex::tools {
 
 struct ApplyWishes {
-  std::filesystem::path out;                                          // the run's folder
+  std::filesystem::path out;                                        // the run's folder
   std::vector<std::pair<std::string, std::filesystem::path>> maps;  // by name; `color` stands for the colours
-  std::filesystem::path exemplar;                                     // empty: the run's own
+  std::filesystem::path exemplar;                                   // empty: the run's own
 };
 
-// Looks the maps up at every vertex of every surface of the run, and writes the surfaces anew with them; nothing is
-// synthesized. Throws UsageError where the folder holds no run, or a name cannot be that of a map, and ExemplarError where
-// an image cannot be read; then nothing has changed.
+// Looks the maps up at every vertex of every surface of the run, and writes the surfaces anew with them;
+// nothing is synthesized. Throws UsageError where the folder holds no run, or a name cannot be that of a map,
+// and ExemplarError where an image cannot be read; then nothing has changed.
 void applyMaps(const ApplyWishes& wishes);
 
 // "NAME=FILE". Throws UsageError where it is something else.

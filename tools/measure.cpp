@@ -34,7 +34,8 @@ Json* recordOf(Json& report, int frame) {
 
 class Measurer {
  public:
-  explicit Measurer(const MeasureWishes& wishes) : m_wishes(wishes), m_run(openRun(wishes.out, wishes.exemplar)) {}
+  explicit Measurer(const MeasureWishes& wishes)
+      : m_wishes(wishes), m_run(openRun(wishes.out, wishes.exemplar)) {}
 
   void run() {
     const std::vector<int>& frames = m_run.frames;

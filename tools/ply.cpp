@@ -73,8 +73,8 @@ float share(float x, float size) {
 
 bool isPlyProperty(const std::string& name) {
   static const std::set<std::string> kNames = {
-      "x",  "y",  "z",  "nx", "ny", "nz", "red", "green", "blue",  "alpha", "s",       "t",      "dx",     "dy",
-      "dz", "bx", "by", "bz", "vx", "vy", "vz",  "trust", "age",   "contact", "fade_s", "fade_t", "fade"};
+      "x",  "y",  "z",  "nx", "ny", "nz", "red", "green", "blue", "alpha",   "s",      "t",      "dx",  "dy",
+      "dz", "bx", "by", "bz", "vx", "vy", "vz",  "trust", "age",  "contact", "fade_s", "fade_t", "fade"};
   return kNames.contains(name);
 }
 

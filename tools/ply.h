@@ -16,8 +16,8 @@ void writePly(const texture::TexturedSurface& surface, const std::filesystem::pa
 // Whether a vertex has a property of that name whatever maps there are.
 bool isPlyProperty(const std::string& name);
 
-// Reads back what writePly() wrote of a texture from an exemplar of that size (texels), with its maps and the place that
-// fades; gradients, which the file does not hold, are zero. Throws UsageError that names the file
+// Reads back what writePly() wrote of a texture from an exemplar of that size (texels), with its maps and the
+// place that fades; gradients, which the file does not hold, are zero. Throws UsageError that names the file
 // where it is something else.
 texture::TexturedSurface readPly(const std::filesystem::path& file, int exemplarWidth, int exemplarHeight);
 

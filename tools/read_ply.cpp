@@ -47,8 +47,8 @@ Header headerOf(const std::string& bytes, const std::filesystem::path& file) {
     header.stride += second == "float" ? 4 : 1;
   }
   if (!binary) refuse(file, "is not in the format binary_little_endian");
-  for (const char* name : {"x", "nx", "red", "alpha", "s", "t", "dx", "bx", "vx", "trust", "age", "contact",
-                           "fade_s", "fade"})
+  for (const char* name :
+       {"x", "nx", "red", "alpha", "s", "t", "dx", "bx", "vx", "trust", "age", "contact", "fade_s", "fade"})
     if (!header.offset.contains(name)) refuse(file, std::string("has no property ") + name);
   constexpr std::size_t kFace = 1 + 3 * 4;
   const std::size_t body = bytes.size() - header.body;

@@ -22,9 +22,7 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
   int first = 1, last = 0;
   parseFrames(options.frames, scene.frames, first, last);
   if (last == 0) last = scene.frames;
-  const auto surfaceOf = [&](int frame) {
-    return from / "surface" / (render::frameName(frame) + ".ply");
-  };
+  const auto surfaceOf = [&](int frame) { return from / "surface" / (render::frameName(frame) + ".ply"); };
   for (int frame = first; frame <= last; ++frame)
     if (!fs::exists(surfaceOf(frame)))
       throw UsageError(fmt::format("{}: is not there; give --frames of which there are surfaces",
@@ -38,9 +36,8 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
     // The size of the exemplar does not matter to colours.
     const texture::TexturedSurface surface = readPly(surfaceOf(frame), 1, 1);
     const double progress = scene.frames > 1 ? double(frame - 1) / (scene.frames - 1) : 0.0;
-    const render::Picture picture =
-        render::render(surface, solids.at((frame - 1) / scene.sim.frameRate), scene.render,
-                       {scene.sim.size, progress, frame});
+    const render::Picture picture = render::render(surface, solids.at((frame - 1) / scene.sim.frameRate),
+                                                   scene.render, {scene.sim.size, progress, frame});
     writeAtomically(out / "frames" / (render::frameName(frame) + ".png"),
                     [&](const fs::path& file) { writePng(picture, file); });
     if (!options.quiet) fmt::print(stderr, "frame {}\n", frame);

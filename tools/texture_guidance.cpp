@@ -59,8 +59,7 @@ std::vector<float> levelsOn(const TextureGuidance& guidance, const sim::Frame& f
     case GuidanceBy::none:
       break;
     case GuidanceBy::height:
-      return alongCurve(points, mesh.positions,
-                        [] { return [](const openvdb::Vec3d& x) { return x.z(); }; });
+      return alongCurve(points, mesh.positions, [] { return [](const openvdb::Vec3d& x) { return x.z(); }; });
     case GuidanceBy::temperature:
       return alongCurve(points, mesh.positions, sampler(*frame.fields.at("temperature")));
     case GuidanceBy::speed:

@@ -14,12 +14,13 @@ struct TextureGuidance {
   openvdb::FloatGrid::Ptr field;  // of GuidanceBy::field
 };
 
-// Reads the scene's painted volume, where it has one. Throws std::runtime_error that names the file and what is wrong.
+// Reads the scene's painted volume, where it has one. Throws std::runtime_error that names the file and what
+// is wrong.
 TextureGuidance textureGuidance(const scenes::Scene& scene);
 
-// Gives every level of the surface the guidance that is wanted on it (SurfaceMesh::guidance); none where the scene
-// has none. What moves the surface is not known in the first frame: speed and vorticity are 0 there. Ages are those of
-// level 0; coarser levels stand for surface that has just come to light.
+// Gives every level of the surface the guidance that is wanted on it (SurfaceMesh::guidance); none where the
+// scene has none. What moves the surface is not known in the first frame: speed and vorticity are 0 there.
+// Ages are those of level 0; coarser levels stand for surface that has just come to light.
 void guide(const TextureGuidance& guidance, const sim::Frame& frame, const texture::Carried& carried,
            texture::Surface& surface);
 

@@ -103,7 +103,8 @@ class Crust {
   }
 
  private:
-  // Widths of cracks between plates and within them, in units of the sites' distance; strain, 0..1: how hot they are.
+  // Widths of cracks between plates and within them, in units of the sites' distance; strain, 0..1: how hot
+  // they are.
   struct Cracks {
     double strain, wide, fine;
   };
@@ -165,9 +166,9 @@ std::vector<std::uint8_t> makeLava(const Lava& options) {
 
 CoolingLava makeCoolingLava(const Lava& options) {
   const Crust crust(options);
-  CoolingLava lava{rendered(options.size, options.samples,
-                            [&](double x, double y) { return crust.colorAtStage(x, y); }),
-                   {}};
+  CoolingLava lava{
+      rendered(options.size, options.samples, [&](double x, double y) { return crust.colorAtStage(x, y); }),
+      {}};
   for (int j = 0; j < options.size; ++j)
     for (int i = 0; i < options.size; ++i)
       lava.guidance.push_back(static_cast<std::uint8_t>(

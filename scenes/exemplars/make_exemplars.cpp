@@ -30,10 +30,11 @@ int main(int argc, char** argv) {
   const fluidtex::exemplars::Lava lava;
   const fluidtex::exemplars::CoolingLava cooling = fluidtex::exemplars::makeCoolingLava();
   const int coolingSize = fluidtex::exemplars::kCooling.size;
-  const bool written = write((folder / "green_scales.png").string(), scales.size,
-                             fluidtex::exemplars::makeGreenScales(scales)) &&
-                       write((folder / "lava.png").string(), lava.size, fluidtex::exemplars::makeLava(lava)) &&
-                       write((folder / "lava_cooling.png").string(), coolingSize, cooling.pixels) &&
-                       write((folder / "lava_cooling_guidance.png").string(), coolingSize, cooling.guidance);
+  const bool written =
+      write((folder / "green_scales.png").string(), scales.size,
+            fluidtex::exemplars::makeGreenScales(scales)) &&
+      write((folder / "lava.png").string(), lava.size, fluidtex::exemplars::makeLava(lava)) &&
+      write((folder / "lava_cooling.png").string(), coolingSize, cooling.pixels) &&
+      write((folder / "lava_cooling_guidance.png").string(), coolingSize, cooling.guidance);
   return written ? 0 : 2;
 }

@@ -122,7 +122,8 @@ TEST_CASE("lava: toroidal, mostly dark crust, and what glows is red before it is
   CHECK(bright > 0.02 * options.size * options.size);
 }
 
-TEST_CASE("cooling lava: the images that ship are the generator's; the higher the level, the more glows", "[scenes]") {
+TEST_CASE("cooling lava: the images that ship are the generator's; the higher the level, the more glows",
+          "[scenes]") {
   const int size = kCooling.size;
   const CoolingLava lava = makeCoolingLava();
   CHECK((shipped("lava_cooling.png", size) == lava.pixels));

@@ -20,11 +20,12 @@ namespace {
 
 // One channel of texture and one of guidance, a ramp from 0 at the left edge to 1 at the right one.
 TexelImage rampImage(float weight) {
-  TexelImage image = makeTexelImage(imageOf(64, 48, 2,
-                                            [&](int x, int y, int c) {
-                                              return c == 0 ? float((x + y) % 7) : std::sqrt(weight) * float(x) / 63.0f;
-                                            }),
-                                    false, 4);
+  TexelImage image =
+      makeTexelImage(imageOf(64, 48, 2,
+                             [&](int x, int y, int c) {
+                               return c == 0 ? float((x + y) % 7) : std::sqrt(weight) * float(x) / 63.0f;
+                             }),
+                     false, 4);
   image.guide = 1;
   image.guidanceWeight = weight;
   return image;
@@ -153,7 +154,8 @@ TEST_CASE("guidance: what the surface asks for is asked of the parts that have i
 }
 
 TEST_CASE("guidance: a level that the exemplar has not is asked of the nearest that it has") {
-  TexelImage image = makeTexelImage(imageOf(32, 32, 1, [](int x, int, int) { return x < 16 ? 0.2f : 0.4f; }), false, 4);
+  TexelImage image =
+      makeTexelImage(imageOf(32, 32, 1, [](int x, int, int) { return x < 16 ? 0.2f : 0.4f; }), false, 4);
   image.guide = 0;
   OrientedMesh surface = flatBox(4);
   surface.mesh.guidance.assign(surface.mesh.positions.size(), 1.0f);
@@ -165,7 +167,8 @@ TEST_CASE("guidance: a level that the exemplar has not is asked of the nearest t
 TEST_CASE("guidance: energy never rises while the window stays") {
   const Image match = [] {
     const Image color = twoKinds(), map = twoKindsMap();
-    return imageOf(kWidth, kHeight, 4, [&](int x, int y, int c) { return c < 3 ? color.at(x, y)[c] : map.at(x, y)[0]; });
+    return imageOf(kWidth, kHeight, 4,
+                   [&](int x, int y, int c) { return c < 3 ? color.at(x, y)[c] : map.at(x, y)[0]; });
   }();
   TexelImage image = makeTexelImage(match, false, 16);
   image.guide = 3;
@@ -192,8 +195,7 @@ TEST_CASE("guidance: each part of a first frame shows what is wanted there, by e
   options.method = GENERATE(Method::coordinates, Method::kwatra07);
   Synthesizer synthesizer = twoKindsSynthesizer(options);
   SynthesisStats stats;
-  const TexturedSurface result =
-      synthesize(synthesizer, guidedSphere(24, 2, byHeight), {}, 1, 0.0, stats);
+  const TexturedSurface result = synthesize(synthesizer, guidedSphere(24, 2, byHeight), {}, 1, 0.0, stats);
   CHECK(fitting(result, byHeight) > 0.95);
   REQUIRE(result.maps.contains(kGuidance));
   CHECK(result.maps.at(kGuidance)[0] == byHeight(result.positions[0]));
@@ -234,8 +236,7 @@ TEST_CASE("guidance: the same on one thread and on many") {
     tbb::global_control control(tbb::global_control::max_allowed_parallelism, i == 0 ? 1 : 4);
     Synthesizer synthesizer = twoKindsSynthesizer(options);
     SynthesisStats stats;
-    const TexturedSurface first =
-        synthesize(synthesizer, guidedSphere(12, 2, byHeight), {}, 1, 0.0, stats);
+    const TexturedSurface first = synthesize(synthesizer, guidedSphere(12, 2, byHeight), {}, 1, 0.0, stats);
     Start start = resting(first, [](const Vec3f& x) { return 1.0f - byHeight(x); });
     results[i] = synthesize(synthesizer, std::move(start.surface), start.carried, 2, 0.1, stats).coordinate;
   }

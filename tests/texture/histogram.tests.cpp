@@ -59,6 +59,7 @@ TEST_CASE("histogram: what the surface has too much of weighs less, in proportio
 TEST_CASE("histogram: a plain image is no trouble") {
   const TexelImage image = makeTexelImage(imageOf(20, 20, 3, [](int, int, int) { return 0.4f; }), false, 3);
   const HistogramTarget target = makeHistogramTarget(image);
-  for (const float w : histogramWeights(target, target.exemplar, histogramOf(target, texels(image), 3), image, 3.0))
+  for (const float w :
+       histogramWeights(target, target.exemplar, histogramOf(target, texels(image), 3), image, 3.0))
     CHECK(w == 1.0f);
 }

@@ -41,7 +41,8 @@ TEST_CASE("fluidtex apply: later gives what the run itself would have written, i
   writeImage(scratch.path / "shade.png", 256, 1);
   writeImage(scratch.path / "fine.png", 1024, 3);
   const auto run = [&](const fs::path& out, const std::vector<std::string>& more) {
-    std::vector<std::string> args{"run", kSmallScene, "--out", out.string(), "--frames", "1:3", "--no-render"};
+    std::vector<std::string> args{"run",      kSmallScene, "--out",      out.string(),
+                                  "--frames", "1:3",       "--no-render"};
     args.insert(args.end(), more.begin(), more.end());
     const Finished done = runProgram(args);
     INFO(done.err);
@@ -51,9 +52,8 @@ TEST_CASE("fluidtex apply: later gives what the run itself would have written, i
                           "' }, { name = 'fine', file = '" + (scratch.path / "fine.png").string() + "' }]"});
   run(after, {});
   const std::string exemplar = FLUIDTEX_SOURCE "/scenes/exemplars/green_scales.png";
-  const Finished done =
-      runProgram({"apply", after.string(), "shade=" + (scratch.path / "shade.png").string(),
-                  "fine=" + (scratch.path / "fine.png").string(), "color=" + exemplar});
+  const Finished done = runProgram({"apply", after.string(), "shade=" + (scratch.path / "shade.png").string(),
+                                    "fine=" + (scratch.path / "fine.png").string(), "color=" + exemplar});
   INFO(done.err);
   REQUIRE(done.exitCode == 0);
   for (int frame = 1; frame <= 3; ++frame) {
@@ -95,7 +95,8 @@ TEST_CASE("fluidtex apply: what is no map is refused in one sentence", "[tools]"
   refused("height=a.png", "run.json: cannot be read");
 }
 
-TEST_CASE("fluidtex render: shows what the run has shown, and other colours once they are applied", "[tools][slow]") {
+TEST_CASE("fluidtex render: shows what the run has shown, and other colours once they are applied",
+          "[tools][slow]") {
   const Scratch scratch;
   const fs::path out = scratch.path / "out", again = scratch.path / "again";
   const auto well = [](const std::vector<std::string>& args) {

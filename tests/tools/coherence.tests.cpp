@@ -13,15 +13,16 @@ TEST_CASE("coherence: the more of it, the less is renewed and the less pops, on 
   std::vector<double> renewed, pop;
   for (const char* coherence : {"0", "0.25", "0.5", "0.75", "1"}) {
     const fs::path out = scratch.path / coherence;
-    const Finished done = runProgram(
-        {"run", FLUIDTEX_SOURCE "/scenes/flows/stretch.toml", "--quality", "preview", "--out", out.string(),
-         "--frames", "1:16", "--no-render", "--set", "texture.points=4000", "--set", "motion.rate=1.5", "--set",
-         std::string("texture.coherence=") + coherence});
+    const Finished done =
+        runProgram({"run", FLUIDTEX_SOURCE "/scenes/flows/stretch.toml", "--quality", "preview", "--out",
+                    out.string(), "--frames", "1:16", "--no-render", "--set", "texture.points=4000", "--set",
+                    "motion.rate=1.5", "--set", std::string("texture.coherence=") + coherence});
     INFO(done.err);
     REQUIRE(done.exitCode == 0);
     const fs::path json = scratch.path / "m.json";
-    REQUIRE(runProgram({"measure", out.string(), "--json", json.string(), "--quiet", "--every", "99"}).exitCode ==
-            0);
+    REQUIRE(
+        runProgram({"measure", out.string(), "--json", json.string(), "--quiet", "--every", "99"}).exitCode ==
+        0);
     const Json report = Json::parse(readBytes(out / "run.json")), mean = Json::parse(readBytes(json))["mean"];
     double sum = 0.0;
     for (std::size_t n = 1; n < 16; ++n) sum += report["frames"][n]["renewed"].get<double>() / 15.0;

@@ -43,9 +43,9 @@ TEST_CASE("PLY: has the properties of docs/formats.md in their order, and the by
     names.push_back(name);
     stride += type == "uchar" ? 1 : 4;
   }
-  CHECK(names == std::vector<std::string>{"x",     "y",    "z",       "nx",    "ny", "nz", "red",
-                                          "green", "blue", "alpha",   "s",     "t",  "dx", "dy",
-                                          "dz",    "bx",   "by",      "bz",    "vx", "vy", "vz",
+  CHECK(names == std::vector<std::string>{"x",     "y",    "z",       "nx",     "ny",     "nz",   "red",
+                                          "green", "blue", "alpha",   "s",      "t",      "dx",   "dy",
+                                          "dz",    "bx",   "by",      "bz",     "vx",     "vy",   "vz",
                                           "trust", "age",  "contact", "fade_s", "fade_t", "fade", "height"});
   REQUIRE(bytes.size() == body + 4 * stride + 4 * 13);
 
@@ -57,7 +57,8 @@ TEST_CASE("PLY: has the properties of docs/formats.md in their order, and the by
   CHECK(valueAt<float>(bytes, vertex + 28) == Approx(3.5 / 8));
   CHECK(valueAt<float>(bytes, vertex + 32) == Approx(1.5 / 4));
   CHECK(int(valueAt<std::uint8_t>(bytes, vertex + stride - 17)) == 1);  // contact
-  CHECK(valueAt<float>(bytes, vertex + stride - 16) == Approx(1.5 / 8));  // the place that fades: texel (1, 2)
+  CHECK(valueAt<float>(bytes, vertex + stride - 16) ==
+        Approx(1.5 / 8));  // the place that fades: texel (1, 2)
   CHECK(valueAt<float>(bytes, vertex + stride - 12) == Approx(2.5 / 4));
   CHECK(valueAt<float>(bytes, vertex + stride - 8) == 0.3f);
   CHECK(valueAt<float>(bytes, vertex + stride - 4) == 11.0f);          // height

@@ -21,7 +21,7 @@ scenes::Scene sceneBy(GuidanceBy by, double low, double high) {
 
 // What is wanted on a ball of radius 1 around the origin.
 texture::SurfaceMesh guided(GuidanceBy by, double low, double high, const sim::Frame& frame = {},
-              const texture::Carried& carried = {}) {
+                            const texture::Carried& carried = {}) {
   texture::Surface surface;
   surface.levels.push_back(testing::sphereMesh(8));
   guide(textureGuidance(sceneBy(by, low, high)), frame, carried, surface);
@@ -47,8 +47,7 @@ sim::Frame turningFrame() {
     shift[axis] = -0.5 * h;
     transform->postTranslate(shift);
     grid->setTransform(transform);
-    for (auto c = box.begin(); c; ++c)
-      grid->tree().setValue(*c, float(value(transform->indexToWorld(*c))));
+    for (auto c = box.begin(); c; ++c) grid->tree().setValue(*c, float(value(transform->indexToWorld(*c))));
     return grid;
   };
   substep.u = component(0, [](const openvdb::Vec3d& x) { return -3.0 * x.y(); });
@@ -68,7 +67,8 @@ TEST_CASE("texture guidance: by height and by curvature") {
   const texture::SurfaceMesh height = guided(GuidanceBy::height, -1.0, 1.0);
   for (std::size_t v = 0; v < height.guidance.size(); ++v)
     CHECK(height.guidance[v] == Approx(0.5f * (1.0f + height.positions[v].z())).margin(1e-6));
-  for (const float level : levelsOf(guided(GuidanceBy::curvature, 0.0, 2.0))) CHECK(level == Approx(0.5f).epsilon(0.01));
+  for (const float level : levelsOf(guided(GuidanceBy::curvature, 0.0, 2.0)))
+    CHECK(level == Approx(0.5f).epsilon(0.01));
 }
 
 TEST_CASE("texture guidance: by speed and by vorticity, both 0 where nothing has moved yet") {
@@ -78,7 +78,8 @@ TEST_CASE("texture guidance: by speed and by vorticity, both 0 where nothing has
     const Vec3f& x = speed.positions[v];
     CHECK(speed.guidance[v] == Approx(std::hypot(x.x(), x.y())).margin(1e-3));
   }
-  for (const float level : levelsOf(guided(GuidanceBy::vorticity, 0.0, 12.0, turning))) CHECK(level == Approx(0.5f).margin(1e-3));
+  for (const float level : levelsOf(guided(GuidanceBy::vorticity, 0.0, 12.0, turning)))
+    CHECK(level == Approx(0.5f).margin(1e-3));
   for (const GuidanceBy by : {GuidanceBy::speed, GuidanceBy::vorticity})
     for (const float level : levelsOf(guided(by, 0.0, 1.0))) CHECK(level == 0.0f);
 }

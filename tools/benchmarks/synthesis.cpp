@@ -1,6 +1,6 @@
-// Synthesis: what an exemplar costs before its first window is matched, without and with what an earlier run has kept; a first
-// frame; and later frames of a texture that is drawn out evenly, neighbourhoods included. Processor time of one thread, but for
-// the preparation, which is wall time on all.
+// Synthesis: what an exemplar costs before its first window is matched, without and with what an earlier run
+// has kept; a first frame; and later frames of a texture that is drawn out evenly, neighbourhoods included.
+// Processor time of one thread, but for the preparation, which is wall time on all.
 #include "scenes/exemplars/scales.h"
 #include "sim/motion.h"
 #include "texture/orient.h"
@@ -115,8 +115,8 @@ class StretchedSheet {
     const sim::Frame frame = sim::nextFrame(m_motion);
     const texture::Seeds seeds{transport::moved(m_last.positions, frame), m_last.positions, m_last.triangles,
                                m_last.scale};
-    texture::Surface surface = texture::prepareSurface(*frame.surfacePhi, m_spacing, seeds,
-                                                       m_last.empty() ? kLevels : 1, {});
+    texture::Surface surface =
+        texture::prepareSurface(*frame.surfacePhi, m_spacing, seeds, m_last.empty() ? kLevels : 1, {});
     const texture::Carried carried = transport::carry(m_last, frame, surface.levels[0]);
     texture::orient(surface, carried);
     const double from = processorSeconds();
