@@ -4,8 +4,10 @@
 #include "scenes/schema.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace fluidtex::scenes {
@@ -25,6 +27,23 @@ std::vector<int> fitted(std::vector<int> iterations, std::size_t windows) {
   const int last = iterations.back();
   iterations.resize(windows, last);
   return iterations;
+}
+
+// What coherence says of keys that are not given. Half of it leaves their defaults; towards 1 what is kept
+// may be stretched more and more (log), less is renewed in a second, and it fades slower; towards 0 all of
+// that less. None of it: each frame alone.
+void followCoherence(texture::Options& texture, const Reader& reader) {
+  constexpr double kMostStretch = 8.0, kLongestFade = 1.6;  // torn; s
+  texture::SynthesisOptions& synthesis = texture.synthesis;
+  const double coherence = texture.coherence;
+  if (coherence == 0.5) return;
+  if (coherence == 0.0 && !reader.given("texture.later_frames"))
+    texture.laterFrames = texture::LaterFrames::alone;
+  const double more = std::max(coherence, 1e-3) / std::max(1.0 - coherence, 1e-3);
+  if (!reader.given("texture.keep_stretch"))
+    synthesis.keepStretch = std::min(std::pow(synthesis.keepStretch, more), kMostStretch);
+  if (!reader.given("texture.renewal_rate")) synthesis.renewalRate /= more;
+  if (!reader.given("texture.fade")) synthesis.fade = std::min(synthesis.fade * more, kLongestFade);
 }
 
 // To two digits, as a length that can be recommended.
@@ -262,18 +281,21 @@ void checkOrientation(const Scene& scene, Reader& reader) {
     checkShape(scene.keepClear[i], path + ".keep_clear." + std::to_string(i), reader);
 }
 
+void checkCurve(const std::vector<texture::CurvePoint>& points, const std::string& path, Reader& reader) {
+  for (std::size_t i = 1; reader.clean(path) && i < points.size(); ++i) {
+    if (points[i - 1].value < points[i].value) continue;
+    reader.fault(path + "." + std::to_string(i) + ".value",
+                 written(points[i].value) + " is not above the one before, " + written(points[i - 1].value),
+                 "give them by rising value");
+  }
+}
+
 void checkScale(const Scene& scene, Reader& reader) {
   const texture::ScaleOptions& scale = scene.texture.scale;
   const std::string path = "texture.scale", by = path + ".by";
   for (std::size_t i = 0; i < scene.scaleFrom.size(); ++i)
     checkShape(scene.scaleFrom[i], path + ".from." + std::to_string(i), reader);
-  for (std::size_t i = 1; reader.clean(path + ".point") && i < scale.points.size(); ++i) {
-    if (scale.points[i - 1].value < scale.points[i].value) continue;
-    reader.fault(path + ".point." + std::to_string(i) + ".value",
-                 written(scale.points[i].value) + " is not above the one before, " +
-                     written(scale.points[i - 1].value),
-                 "give them by rising value");
-  }
+  checkCurve(scale.points, path + ".point", reader);
   if (!reader.clean(by) || scale.by == texture::ScaleBy::none) return;
   if (scale.points.empty())
     reader.fault(by, "is of no use without a factor",
@@ -284,8 +306,49 @@ void checkScale(const Scene& scene, Reader& reader) {
     reader.fault(by, "\"temperature\" is not computed", "give simulate = true in [heat] too");
 }
 
+void checkGuidance(const Scene& scene, Reader& reader) {
+  const texture::GuidanceOptions& guidance = scene.texture.guidance;
+  const std::string path = "texture.guidance", by = path + ".by";
+  checkCurve(guidance.points, path + ".point", reader);
+  if (!reader.clean(by) || guidance.by == texture::GuidanceBy::none) return;
+  if (guidance.points.empty())
+    reader.fault(by, "is of no use without a level",
+                 "give two [[texture.guidance.point]] or more, each with a value and a level");
+  if (guidance.by == texture::GuidanceBy::temperature && !scene.sim.heat.simulated)
+    reader.fault(by, "\"temperature\" is not computed", "give simulate = true in [heat] too");
+}
+
+// Names that the vertices of a PLY have anyway.
+const std::set<std::string> kVertexNames = {
+    "x",  "y",     "z",   "nx",      "ny",       "nz",     "red",    "green", "blue", "alpha",
+    "s",  "t",     "dx",  "dy",      "dz",       "bx",     "by",     "bz",    "vx",   "vy",
+    "vz", "trust", "age", "contact", "guidance", "fade_s", "fade_t", "fade"};
+
+void checkMaps(const Scene& scene, Reader& reader) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < scene.texture.exemplar.maps.size(); ++i) {
+    const std::string& name = scene.texture.exemplar.maps[i].name;
+    const std::string path = "texture.map." + std::to_string(i), key = path + ".name";
+    if (!reader.clean(key)) continue;
+    const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    if (!reader.given(key))
+      reader.fault(path, "has no name", "give name = \"height\" or whatever it holds");
+    else if (!std::all_of(name.begin(), name.end(), fits) ||
+             std::isdigit(static_cast<unsigned char>(name.front())))
+      reader.fault(key, "\"" + name + "\" cannot be the name of a vertex's property",
+                   "give letters, digits and _, a letter first");
+    else if (kVertexNames.contains(name))
+      reader.fault(key, "\"" + name + "\" is what every vertex has anyway", "give another name");
+    else if (!names.insert(name).second)
+      reader.fault(key, "\"" + name + "\" is the name of an earlier map too",
+                   "give each map a name of its own");
+  }
+}
+
 void checkTexture(const Scene& scene, Reader& reader) {
   checkScale(scene, reader);
+  checkGuidance(scene, reader);
+  checkMaps(scene, reader);
   checkOrientation(scene, reader);
   if (!scene.onto.files.empty() && reader.clean("frames")) checkSequence(scene.onto, "texture.onto", reader);
   const texture::SynthesisOptions& synthesis = scene.texture.synthesis;
@@ -365,6 +428,7 @@ void complete(Scene& scene, const Reader& reader) {
   }
 
   texture::SynthesisOptions& synthesis = scene.texture.synthesis;
+  followCoherence(scene.texture, reader);
   if (!reader.given("texture.first_iterations"))
     synthesis.firstIterations = fitted(synthesis.firstIterations, synthesis.windows.size());
   if (!reader.given("texture.later_iterations"))

@@ -66,8 +66,11 @@ std::vector<Node> readOverrides(const Overrides& overrides, Faults& faults) {
       return Node{Table{{"texture", Node{Table{{key, Node{value, origin}}}, origin}}}, origin};
     };
     layers.push_back(layer("exemplar", name));
-    // Whether it wraps was said of the scene's own picture; --set may say it of this one.
-    layers.insert(layers.begin(), layer("toroidal", false));
+    // Whether it wraps, and the maps over it, were said of the scene's own picture; --set may say it of this
+    // one.
+    const Node unguided{Table{{"by", Node{std::string("none"), origin}}}, origin};
+    layers.insert(layers.begin(),
+                  {layer("toroidal", false), layer("guidance", unguided.value), layer("map", List{})});
   }
   return layers;
 }

@@ -132,9 +132,9 @@ void describeOrientation(Visitor& visitor, Scene& scene) {
 void describeScale(Visitor& visitor, Scene& scene) {
   texture::ScaleOptions& scale = scene.texture.scale;
   choice(visitor, "by", scale.by, {"none", "distance", "temperature", "height", "field"});
-  visitor.list("point", scale.points, [&](texture::ScalePoint& point) {
+  visitor.list("point", scale.points, [&](texture::CurvePoint& point) {
     visitor.number("value", point.value, kAny, Need::required);
-    visitor.number("factor", point.factor, {.low = texture::kLeastScale, .high = texture::kLargestScale},
+    visitor.number("factor", point.result, {.low = texture::kLeastScale, .high = texture::kLargestScale},
                    Need::required);
   });
   if (scale.by == texture::ScaleBy::field)
@@ -142,6 +142,25 @@ void describeScale(Visitor& visitor, Scene& scene) {
   else
     visitor.absent("field");
   visitor.list("from", scene.scaleFrom, [&](sim::Shape& shape) { describeShape(visitor, shape); });
+}
+
+void describeGuidance(Visitor& visitor, texture::Options& texture) {
+  texture::GuidanceOptions& guidance = texture.guidance;
+  choice(visitor, "by", guidance.by,
+         {"none", "height", "temperature", "speed", "vorticity", "curvature", "age", "field"});
+  if (guidance.by != texture::GuidanceBy::none)
+    visitor.file("map", texture.exemplar.guidance, {});
+  else
+    visitor.absent("map");
+  visitor.number("weight", texture.synthesis.guidanceWeight, kPositive);
+  visitor.list("point", guidance.points, [&](texture::CurvePoint& point) {
+    visitor.number("value", point.value, kAny, Need::required);
+    visitor.number("level", point.result, kShare, Need::required);
+  });
+  if (guidance.by == texture::GuidanceBy::field)
+    visitor.file("field", guidance.field, {".vdb"});
+  else
+    visitor.absent("field");
 }
 
 void describeTexture(Visitor& visitor, Scene& scene) {
@@ -174,6 +193,7 @@ void describeTexture(Visitor& visitor, Scene& scene) {
         visitor.number("core", synthesis.core, kShare);
         visitor.number("feature", synthesis.featureWeight, kNotNegative);
         visitor.number("gradient", synthesis.gradientWeight, kNotNegative);
+        visitor.number("coherence", texture.coherence, kShare);
         visitor.number("keep_stretch", synthesis.keepStretch, {.low = 1.0});
         visitor.number("renewal_radius", synthesis.renewalRadius, {.low = 4.0, .high = 1000.0});
         visitor.number("renewal_rate", synthesis.renewalRate, kNotNegative);
@@ -185,6 +205,11 @@ void describeTexture(Visitor& visitor, Scene& scene) {
           visitor.integer("repulsion_sweeps", texture.surface.repulsionSweeps, {.low = 0, .high = 1000});
         });
         visitor.table("scale", [&] { describeScale(visitor, scene); });
+        visitor.table("guidance", [&] { describeGuidance(visitor, texture); });
+        visitor.list("map", texture.exemplar.maps, [&](texture::MapOptions& map) {
+          visitor.text("name", map.name);
+          visitor.file("file", map.file, {});
+        });
         visitor.table("orientation", [&] { describeOrientation(visitor, scene); });
         visitor.table("transport", [&] {
           choice(visitor, "method", scene.transport.method, {"trace", "grid"});

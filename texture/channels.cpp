@@ -69,31 +69,32 @@ void dropSmallParts(std::vector<std::uint8_t>& mask, int width, int height, bool
 // first along rows, then the smallest sum of squares along columns.
 std::vector<float> distanceTo(const std::vector<std::uint8_t>& mask, std::uint8_t value, int width,
                               int height, bool toroidal) {
-  std::vector<int> along(mask.size());
+  std::vector<int> along(mask.size());  // squared
   std::vector<float> distance(mask.size());
+  const auto rowOf = [&](int y) { return std::size_t(continued(y, height, toroidal)) * std::size_t(width); };
   tbb::parallel_for(0, height, [&](int y) {
-    const std::uint8_t* row = mask.data() + std::size_t(y) * std::size_t(width);
-    for (int x = 0; x < width; ++x) {
-      int nearest = kReach;
-      for (int d = 0; d < kReach; ++d)
-        if (row[continued(x - d, width, toroidal)] == value ||
-            row[continued(x + d, width, toroidal)] == value) {
-          nearest = d;
-          break;
-        }
-      along[std::size_t(y) * std::size_t(width) + std::size_t(x)] = nearest;
-    }
+    const std::uint8_t* row = mask.data() + rowOf(y);
+    int* nearest = along.data() + rowOf(y);
+    const auto step = [&](int x, int since) {
+      return row[continued(x, width, toroidal)] == value ? 0 : std::min(since + 1, kReach);
+    };
+    int since = kReach;  // the last such pixel, from the left, then from the right
+    for (int x = -kReach; x < 0; ++x) since = step(x, since);
+    for (int x = 0; x < width; ++x) nearest[x] = since = step(x, since);
+    since = kReach;
+    for (int x = width + kReach - 1; x >= width; --x) since = step(x, since);
+    for (int x = width - 1; x >= 0; --x) nearest[x] = std::min(nearest[x], since = step(x, since));
+    for (int x = 0; x < width; ++x) nearest[x] *= nearest[x];
   });
   tbb::parallel_for(0, height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      int squared = kReach * kReach;
-      for (int d = -kReach; d <= kReach; ++d) {
-        const int other =
-            along[std::size_t(continued(y + d, height, toroidal)) * std::size_t(width) + std::size_t(x)];
-        squared = std::min(squared, d * d + other * other);
-      }
-      distance[std::size_t(y) * std::size_t(width) + std::size_t(x)] = std::sqrt(float(squared));
+    std::vector<int> squared(std::size_t(width), kReach * kReach);
+    for (int d = -kReach; d <= kReach; ++d) {
+      const int* row = along.data() + rowOf(y + d);
+      for (int x = 0; x < width; ++x)
+        squared[std::size_t(x)] = std::min(squared[std::size_t(x)], d * d + row[x]);
     }
+    for (int x = 0; x < width; ++x)
+      distance[rowOf(y) + std::size_t(x)] = std::sqrt(float(squared[std::size_t(x)]));
   });
   return distance;
 }

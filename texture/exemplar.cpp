@@ -1,6 +1,7 @@
 #include "texture/exemplar.h"
 
 #include "texture/channels.h"
+#include "texture/maps.h"
 #include "texture/read_image.h"
 #include "texture/search.h"
 #include "texture/srgb.h"
@@ -32,13 +33,18 @@ Image encodedColors(const Image& premultiplied, int channels) {
 // `image` with one more channel, scaled.
 Image withChannel(const Image& image, const Image& channel, float scale) {
   Image result{image.width, image.height, image.channels + 1, {}};
-  result.data.reserve(image.data.size() + channel.data.size());
-  for (std::size_t i = 0; i < channel.data.size(); ++i) {
-    const auto pixel = image.data.begin() + std::ptrdiff_t(i) * image.channels;
-    result.data.insert(result.data.end(), pixel, pixel + image.channels);
-    result.data.push_back(channel.data[i] * scale);
-  }
+  result.data.resize(image.data.size() + channel.data.size());
+  tbb::parallel_for(0, image.height, [&](int y) {
+    for (int x = 0; x < image.width; ++x) {
+      float* end = std::copy_n(image.at(x, y), image.channels, result.at(x, y));
+      *end = *channel.at(x, y) * scale;
+    }
+  });
   return result;
+}
+
+std::string sizeOf(const Image& image) {
+  return std::to_string(image.width) + " x " + std::to_string(image.height);
 }
 
 void check(const Image& color, bool toroidal, const SynthesisOptions& synthesis, const std::string& name) {
@@ -48,13 +54,12 @@ void check(const Image& color, bool toroidal, const SynthesisOptions& synthesis,
   int window = 1;
   for (const int w : synthesis.windows) window = std::max(window, w);
   if (std::min(color.width, color.height) < window)
-    throw ExemplarError(name + " is too small: it has " + std::to_string(color.width) + " x " +
-                        std::to_string(color.height) + " pixels, and the largest window needs " +
-                        std::to_string(window) + " x " + std::to_string(window) + ".");
+    throw ExemplarError(name + " is too small: it has " + sizeOf(color) +
+                        " pixels, and the largest window needs " + std::to_string(window) + " x " +
+                        std::to_string(window) + ".");
   if (fittingWindow(color, toroidal, kSmallestWindow) < kSmallestWindow)
-    throw ExemplarError(name + " is too small: it has " + std::to_string(color.width) + " x " +
-                        std::to_string(color.height) + " pixels, and an image whose edges do not meet " +
-                        "needs at least 5 x 5.");
+    throw ExemplarError(name + " is too small: it has " + sizeOf(color) +
+                        " pixels, and an image whose edges do not meet needs at least 5 x 5.");
   bool visible = false;
   for (std::size_t i = 0; i < color.data.size(); ++i) {
     if (!std::isfinite(color.data[i]))
@@ -64,7 +69,7 @@ void check(const Image& color, bool toroidal, const SynthesisOptions& synthesis,
   if (!visible) throw ExemplarError(name + " is fully transparent, so there is no texture to take from it.");
 }
 
-Exemplar prepare(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
+Exemplar prepare(Image color, Image guidance, bool toroidal, const SynthesisOptions& synthesis, int levels,
                  const std::string& name) {
   check(color, toroidal, synthesis, name);
   Exemplar exemplar;
@@ -84,6 +89,9 @@ Exemplar prepare(Image color, bool toroidal, const SynthesisOptions& synthesis, 
   std::vector<std::pair<Image, float>> channels;
   Image encoded = encodedColors(premultiplied, exemplar.colorChannels);
   const Image luminance = featureLuminance(encoded);
+  exemplar.guided = !guidance.data.empty();
+  exemplar.guidanceWeight = float(synthesis.guidanceWeight);
+  if (exemplar.guided) channels.emplace_back(std::move(guidance), float(std::sqrt(synthesis.guidanceWeight)));
   if (synthesis.featureWeight > 0.0)
     channels.emplace_back(featureDistance(luminance, toroidal), float(std::sqrt(synthesis.featureWeight)));
   if (synthesis.gradientWeight > 0.0)
@@ -163,12 +171,25 @@ void sampleCubic(const Image& image, bool toroidal, const Vec2f& texel, float* o
   }
 }
 
-Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels) {
-  return prepare(std::move(color), toroidal, synthesis, levels, "the image");
+Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
+                      Image guidance) {
+  return prepare(std::move(color), std::move(guidance), toroidal, synthesis, levels, "the image");
 }
 
 Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels) {
-  return prepare(readImage(options.file), options.toroidal, synthesis, levels, options.file.string());
+  Image color = readImage(options.file), guidance;
+  if (!options.guidance.empty()) {
+    guidance = readMap(options.guidance, 1);
+    if (guidance.width != color.width || guidance.height != color.height)
+      throw ExemplarError(options.guidance.string() + " has " + sizeOf(guidance) +
+                          " pixels, and its exemplar " + options.file.string() + " " + sizeOf(color) +
+                          "; a guidance map must be of the same size.");
+  }
+  Exemplar exemplar = prepare(std::move(color), std::move(guidance), options.toroidal, synthesis, levels,
+                              options.file.string());
+  for (const MapOptions& map : options.maps)
+    exemplar.maps[map.name] = vertexMap(readMap(map.file), exemplar.color.width, options.toroidal);
+  return exemplar;
 }
 
 }  // namespace fluidtex::texture

@@ -4,7 +4,9 @@
 #include "texture/options.h"
 #include "texture/surface.h"
 
+#include <map>
 #include <stdexcept>
+#include <string>
 
 namespace fluidtex::texture {
 
@@ -26,11 +28,17 @@ struct Exemplar {
   bool toroidal = false;
   // Linear RGBA at full size, straight alpha; what the colour of a vertex is looked up in.
   Image color;
-  // match[L]: what windows are compared and averaged by, reduced by 2^L: sRGB-encoded premultiplied R, G, B, (A where the
-  // image has alpha that varies,) then the feature-distance and gradient channels, each multiplied by the square root of its weight.
-  // A channel of weight 0 is left out. Texel x of level L lies at 2^L x + (2^L - 1) / 2 of level 0.
+  // match[L]: what windows are compared and averaged by, reduced by 2^L: sRGB-encoded premultiplied R, G, B,
+  // (A where the image has alpha that varies,) the guidance map, then the feature-distance and gradient
+  // channels, each multiplied by the square root of its weight. A channel of weight 0 is left out. Texel x of
+  // level L lies at 2^L x + (2^L - 1) / 2 of level 0.
   std::vector<Image> match;
   int colorChannels = 3;  // of match: 3 or 4, the first ones
+  // The guidance map is the channel right after the colours, multiplied by the root of its weight.
+  bool guided = false;
+  float guidanceWeight = 1.0f;
+  // Further maps over the same picture, ready to be looked up at vertices (texture/maps.h).
+  std::map<std::string, Image> maps;
 };
 
 // The input is wrong; the message is one sentence that names the file.
@@ -39,12 +47,13 @@ struct ExemplarError : std::runtime_error {
 };
 
 // Reads an image (8- or 16-bit, float; grey, RGB, RGBA, CMYK turned into RGB) and prepares `levels` levels.
-// Throws ExemplarError: missing, not an image, smaller than the largest window (which is shortened at any level whose
-// image leaves it no choice of places, see fittingWindow), too small for any window, fully transparent, values that are
-// not finite.
+// Throws ExemplarError: missing, not an image, smaller than the largest window (which is shortened at any
+// level whose image leaves it no choice of places, see fittingWindow), too small for any window, fully
+// transparent, values that are not finite; a guidance map of another size.
 Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels);
 
-// The same from pixels in memory (linear RGBA).
-Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels);
+// The same from pixels in memory (linear RGBA); guidance: one channel, 0..1, of the same size, or empty.
+Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
+                      Image guidance = {});
 
 }  // namespace fluidtex::texture

@@ -1,5 +1,6 @@
 #include "texture/fresh_start.h"
 
+#include "texture/guidance.h"
 #include "texture/random.h"
 #include "texture/usage.h"
 
@@ -35,8 +36,13 @@ void startAfresh(const MeshView& view, const TexelImage& image, const std::vecto
                  const Values& value, std::uint64_t seed, Labels& labels) {
   std::vector<std::uint32_t> centers;
   float reach = 0.0f;
+  const auto fits = [&](const Disc& disc) {
+    float cost = 0.0f;
+    for (const std::uint32_t v : disc.members) cost += guidanceCost(image, view.mesh, labels[v].texel, v);
+    return cost <= kFreshGuidance * float(disc.members.size());
+  };
   for (const Disc& disc : discs) {
-    if (disc.growth <= kFreshGrowth) continue;
+    if (disc.growth <= kFreshGrowth && fits(disc)) continue;
     centers.push_back(disc.center);
     for (const std::uint32_t v : disc.members)
       reach = std::max(reach, (view.mesh.positions[v] - view.mesh.positions[disc.center]).length() /
@@ -44,7 +50,8 @@ void startAfresh(const MeshView& view, const TexelImage& image, const std::vecto
   }
   if (centers.empty()) return;
 
-  Usage usage(image, std::max(8, std::min(image.width, image.height) / kUsageCells), labels.size());
+  Usage usage(image, std::max(8, std::min(image.width, image.height) / kUsageCells), labels.size(),
+              demandOn(image, view.mesh));
   for (const Label& label : labels) usage.add(label.texel, 1.0f);
   const Neighborhoods blocks = buildNeighborhoods(view, 2 * std::max(1, int(std::ceil(reach))) + 1, centers);
 

@@ -9,11 +9,12 @@
 
 namespace fluidtex::texture {
 
-// Lays one block of the exemplar over each of the discs that need it (growth above kFreshGrowth, or hardly
-// anything to believe): of many random places those are looked at that the surface uses least, and of these
-// the one is taken whose texels differ least from `value`, the picture that is there.
+// Lays one block of the exemplar over each of the discs that need it (growth above kFreshGrowth, hardly
+// anything to believe, or a guidanceCost() above kFreshGuidance on average): of many random places those are
+// looked at that the surface uses least, and of these the one is taken whose texels differ least from
+// `value`, the picture that is there.
 void startAfresh(const MeshView& view, const TexelImage& image, const std::vector<Disc>& discs,
                  const Values& value, std::uint64_t seed, Labels& labels);
-inline constexpr float kFreshGrowth = 1.44f;
+inline constexpr float kFreshGrowth = 1.44f, kFreshGuidance = 0.1f;
 
 }  // namespace fluidtex::texture

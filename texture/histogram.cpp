@@ -71,13 +71,37 @@ Histogram histogramOf(const HistogramTarget& target, const Values& values, int c
   return shares(values.size(), channels, [&](std::size_t i) { return binsOf(target, values[i]); });
 }
 
-std::vector<float> histogramWeights(const HistogramTarget& target, const Histogram& surface,
-                                    const TexelImage& image, double strength) {
+Histogram expectedHistogram(const HistogramTarget& target, const TexelImage& image, const Demand& demand) {
+  if (demand.empty()) return target.exemplar;
+  // Rows are summed each on its own, then in order: the same on any number of threads.
+  std::vector<Histogram> rows(std::size_t(image.height));
+  tbb::parallel_for(0, image.height, [&](int y) {
+    for (int x = 0; x < image.width; ++x) {
+      const float weight = demand.at(float(x), float(y));
+      const Bins& bins = target.bins[image.nearest(float(x), float(y))];
+      for (int c = 0; c < image.channels; ++c) rows[std::size_t(y)].share[c][bins[c]] += weight;
+    }
+  });
+  Histogram result;
+  for (int c = 0; c < image.channels; ++c) {
+    float whole = 0.0f;
+    for (int b = 0; b < kHistogramBins; ++b) {
+      for (const Histogram& row : rows) result.share[c][b] += row.share[c][b];
+      whole += result.share[c][b];
+    }
+    for (float& share : result.share[c]) share /= whole;
+  }
+  return result;
+}
+
+std::vector<float> histogramWeights(const HistogramTarget& target, const Histogram& expected,
+                                    const Histogram& surface, const TexelImage& image, double strength) {
   std::array<std::array<float, kHistogramBins>, kMaxChannels> excess{};
   for (int c = 0; c < image.channels; ++c)
     for (int b = 0; b < kHistogramBins; ++b)
-      excess[c][b] = float(strength * kHistogramBins) *
-                     std::max(0.0f, surface.share[c][b] - target.exemplar.share[c][b]);
+      if (c != image.guide)
+        excess[c][b] =
+            float(strength * kHistogramBins) * std::max(0.0f, surface.share[c][b] - expected.share[c][b]);
   std::vector<float> weights(image.data.size());
   forEachIndex(weights.size(), [&](std::uint32_t i) {
     const Bins& bins = target.bins[i];

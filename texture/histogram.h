@@ -2,6 +2,7 @@
 // average, so that all of the exemplar's values keep their share.
 #pragma once
 
+#include "texture/guidance.h"
 #include "texture/texel_image.h"
 
 #include <array>
@@ -30,9 +31,14 @@ struct HistogramTarget {
 HistogramTarget makeHistogramTarget(const TexelImage& image);
 Histogram histogramOf(const HistogramTarget& target, const Values& values, int channels);
 
+// The exemplar's own, each texel counted as often as it is asked for; target.exemplar where nothing is
+// guided.
+Histogram expectedHistogram(const HistogramTarget& target, const TexelImage& image, const Demand& demand);
+
 // For every texel of image.data: 1 / (1 + strength * excess), where excess sums over the channels by how much
-// the surface's share of the texel's bin exceeds the exemplar's, in mean shares (1 / kHistogramBins).
-std::vector<float> histogramWeights(const HistogramTarget& target, const Histogram& surface,
-                                    const TexelImage& image, double strength);
+// the surface's share of the texel's bin exceeds the expected one, in mean shares (1 / kHistogramBins). The
+// guidance map is left out.
+std::vector<float> histogramWeights(const HistogramTarget& target, const Histogram& expected,
+                                    const Histogram& surface, const TexelImage& image, double strength);
 
 }  // namespace fluidtex::texture

@@ -3,6 +3,7 @@
 #include "texture/label_expansion.h"
 
 #include "texture/complex.h"
+#include "texture/guidance.h"
 #include "texture/min_cut.h"
 #include "texture/parallel.h"
 #include "texture/random.h"
@@ -85,8 +86,8 @@ class Expansion {
         m_free(free),
         m_seed(seed),
         m_labels(labels),
-        m_usage(model.image, std::max(8, std::min(model.image.width, model.image.height) / 12),
-                labels.size()),
+        m_usage(model.image, std::max(8, std::min(model.image.width, model.image.height) / 12), labels.size(),
+                demandOn(model.image, model.view.mesh)),
         m_workspaces([count = labels.size()] { return Workspace(count); }) {
     for (const Label& label : labels) m_usage.add(label.texel, 1.0f);
   }

@@ -1,6 +1,7 @@
 #include "texture/labels.h"
 
 #include "texture/complex.h"
+#include "texture/guidance.h"
 #include "texture/parallel.h"
 #include "texture/point_grid.h"
 #include "texture/random.h"
@@ -13,6 +14,8 @@ namespace fluidtex::texture {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint64_t kGuidedPlaces =
+    32;  // tried for a block, until its middle is of the level that is wanted
 
 }  // namespace
 
@@ -64,9 +67,20 @@ Labels blockLabels(const MeshView& view, const TexelImage& image, float size, st
   Labels labels(count);
   std::vector<std::uint32_t> part(count, kNone), ring(count, kNone), queue;
   for (std::uint32_t i = 0; i < seeds.size(); ++i) {
-    const Vec2f random(float(randomUnit(seed, 2 * i)) * float(image.width - 1),
-                       float(randomUnit(seed, 2 * i + 1)) * float(image.height - 1));
-    labels[seeds[i]] = unstretched(image.centerFor(random, reach), Complexf(1.0f));
+    const auto place = [&](std::uint64_t key) {
+      const Vec2f random(float(randomUnit(key, 2 * i)) * float(image.width - 1),
+                         float(randomUnit(key, 2 * i + 1)) * float(image.height - 1));
+      return image.centerFor(random, reach);
+    };
+    Vec2f chosen = place(seed);
+    if (isGuided(image, view.mesh)) {
+      const auto cost = [&](const Vec2f& texel) { return guidanceCost(image, view.mesh, texel, seeds[i]); };
+      for (std::uint64_t k = 1; k < kGuidedPlaces && cost(chosen) > 0.0f; ++k) {
+        const Vec2f other = place(randomBits(seed, k));
+        if (cost(other) < cost(chosen)) chosen = other;
+      }
+    }
+    labels[seeds[i]] = unstretched(chosen, Complexf(1.0f));
     part[seeds[i]] = i;
     ring[seeds[i]] = 0;
     queue.push_back(seeds[i]);

@@ -40,7 +40,7 @@ TexelGradient gradientOf(const Label& label, const Vec3f& orientation, const Vec
 Values lookUp(const TexelImage& image, const Labels& labels);
 
 // Random blocks: the surface is divided among seeds about `size` pixels apart, and each part gets one
-// contiguous block of the exemplar, from a random place.
+// contiguous block of the exemplar, from a random place, where guided one of the level that is wanted.
 Labels blockLabels(const MeshView& view, const TexelImage& image, float size, std::uint64_t seed);
 
 // Labels for a finer level, whose exemplar is twice as large, from the nearest vertex of the coarser one that

@@ -4,6 +4,7 @@
 #include "texture/first_frame.h"
 #include "texture/fresh.h"
 #include "texture/fresh_start.h"
+#include "texture/guidance.h"
 #include "texture/look_ahead.h"
 #include "texture/parallel.h"
 #include "texture/renewal.h"
@@ -145,6 +146,7 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   State state;
   state.labels = before;
   state.average = lookUp(image, before);
+  holdGuidance(image, view.mesh, state.average);
   startAfresh(view, image, discs, state.average, keyOf(synthesizer, frame, 0, 2), state.labels);
   startFromNothing(synthesizer, surface, view, carried.trust, frame, state.labels, stats);
   if (tables.image.size() > 1) layOut(synthesizer, view, level.wanted, frame, state.labels, stats, progress);

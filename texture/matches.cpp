@@ -105,6 +105,7 @@ Windows makeWindows(const Level& level, const Pass& pass) {
   windows.mass.resize(n.size());
   windows.match.resize(n.size());
   windows.distance.assign(n.size(), 0.0f);
+  windows.demand = demandOn(level.image, level.view.mesh);
   tbb::parallel_for(std::size_t(0), n.size(), [&](std::size_t p) {
     float mass = 0.0f;
     for (std::uint32_t i = n.first[p]; i < n.first[p + 1]; ++i)
@@ -152,7 +153,7 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
   std::vector<std::vector<std::uint32_t>> batches(kBatches);
   for (std::uint32_t p = 0; p < n.size(); ++p) batches[randomBits(key, p) % kBatches].push_back(p);
 
-  Usage used(image, std::max(8, n.window), n.size());
+  Usage used(image, std::max(8, n.window), n.size(), windows.demand);
   if (usage > 0.0)
     for (const Vec2f& match : windows.match) used.add(match, 1.0f);
 

@@ -1,6 +1,7 @@
 // The E-step: the exemplar window that each neighbourhood is matched with.
 #pragma once
 
+#include "texture/guidance.h"
 #include "texture/optimize.h"
 
 #include <vector>
@@ -16,6 +17,7 @@ struct Windows {
   std::vector<float> mass;      // #P: sum of g
   std::vector<Vec2f> match;     // #P: texel at the centre
   std::vector<float> distance;  // #P: D_p / m_p
+  Demand demand;
 };
 
 Windows makeWindows(const Level& level, const Pass& pass);

@@ -1,6 +1,7 @@
 #include "texture/optimize.h"
 
 #include "texture/complex.h"
+#include "texture/guidance.h"
 #include "texture/matches.h"
 #include "texture/parallel.h"
 
@@ -35,6 +36,7 @@ struct Run {
   Overlaps byVertex;
   RobustNorm norm;
   std::vector<float> held;  // f_k, in the energy's units; empty without constraint
+  Histogram expected;
 
   bool free(std::uint32_t v) const { return level.wanted.empty() || level.wanted[v]; }
   Float8 texel(std::uint32_t i) const {  // what overlap i says about its vertex
@@ -71,7 +73,8 @@ void average(Run& run, double room) {
   std::vector<float> texelWeight;
   if (reweigh) {
     const Histogram now = histogramOf(run.level.histogram, run.state.value, run.level.image.channels);
-    texelWeight = histogramWeights(run.level.histogram, now, run.level.image, run.options.histogram);
+    texelWeight =
+        histogramWeights(run.level.histogram, run.expected, now, run.level.image, run.options.histogram);
   }
 
   Values plain = run.state.value, reweighed = reweigh ? run.state.value : Values{};
@@ -105,6 +108,9 @@ void average(Run& run, double room) {
     plain[v] = sum / weight;
     if (reweigh && weightedWeight > 0.0f) reweighed[v] = weightedSum / weightedWeight;
   });
+  // What guidance wants is given; only the other channels are looked for.
+  holdGuidance(run.level.image, run.level.view.mesh, plain);
+  if (reweigh) holdGuidance(run.level.image, run.level.view.mesh, reweighed);
   if (!reweigh) {
     run.state.value.swap(plain);
     return;
@@ -157,10 +163,12 @@ void copyCores(Run& run) {
 
 EnergyTrace optimize(const Level& level, const Pass& pass, const SynthesisOptions& options, State& state) {
   const std::size_t count = level.view.mesh.positions.size();
-  Run run{level, pass, options, state, makeWindows(level, pass), {}, {}, {}};
+  Run run{level, pass, options, state, makeWindows(level, pass), {}, {}, {}, {}};
   Windows& windows = run.windows;
   if (windows.match.empty()) return {};
   run.byVertex = overlaps(windows.neighborhoods, count);
+  run.expected = expectedHistogram(level.histogram, level.image, windows.demand);
+  holdGuidance(level.image, level.view.mesh, state.value);
   state.labels.resize(count);
 
   if (pass.startFromLabels) {
@@ -199,6 +207,7 @@ EnergyTrace optimize(const Level& level, const Pass& pass, const SynthesisOption
   }
   state.average = state.value;
   copyCores(run);
+  holdGuidance(level.image, level.view.mesh, state.value);
   return trace;
 }
 

@@ -67,14 +67,32 @@ enum class ScaleBy {
 // What factors are brought into.
 inline constexpr double kLeastScale = 0.25, kLargestScale = 4.0;
 
-// At this value of it an exemplar's pixel is `factor` times as large.
-struct ScalePoint {
-  double value = 0.0, factor = 1.0;
+// A curve is given by points by rising value; it is linear between them and constant beyond.
+struct CurvePoint {
+  double value = 0.0, result = 1.0;
 };
 
 struct ScaleOptions {
   ScaleBy by = ScaleBy::none;
-  std::vector<ScalePoint> points;  // by rising value; linear between, constant beyond
+  std::vector<CurvePoint> points;  // from there to how many times as large an exemplar's pixel is
+  std::filesystem::path field;     // OpenVDB; its first grid of floats
+};
+
+// What steers which parts of the exemplar appear where.
+enum class GuidanceBy {
+  none,
+  height,       // z, metres
+  temperature,  // K
+  speed,        // m/s
+  vorticity,    // length of the velocity's curl, 1/s
+  curvature,    // mean curvature, 1/m, above 0 on crests
+  age,          // s since the surface there came to light
+  field,        // a grid of numbers from a file
+};
+
+struct GuidanceOptions {
+  GuidanceBy by = GuidanceBy::none;
+  std::vector<CurvePoint> points;  // from there to a level of the guidance map, 0 black to 1 white
   std::filesystem::path field;     // OpenVDB; its first grid of floats
 };
 
@@ -90,6 +108,7 @@ struct SynthesisOptions {
   double core = 0.2;              // weight of a window's centre when its texels are copied
   double featureWeight = 0.3;     // of the signed feature distance channel, squared distance, colour = 1
   double gradientWeight = 0.3;    // of the gradient energy channel
+  double guidanceWeight = 1.0;    // of the guidance map, where the exemplar has one
   double keepStretch = 1.35;      // carried texture that is coherent and stretched less than this is kept
   double renewalRadius = 36.0;    // exemplar pixels: texture is renewed in discs of this size, larger than its features
   double renewalRate = 2.4;       // of the whole surface, a second: no more is renewed, the worst places first
@@ -98,9 +117,17 @@ struct SynthesisOptions {
   std::uint64_t seed = 1;
 };
 
+// A further map that lies over the exemplar, in any resolution: looked up wherever a colour is.
+struct MapOptions {
+  std::string name;               // of a vertex's property in the PLY
+  std::filesystem::path file;
+};
+
 struct ExemplarOptions {
   std::filesystem::path file;
   bool toroidal = false;          // its left edge continues at its right, its top at its bottom
+  std::filesystem::path guidance;  // an image of its size, read as numbers 0..1; empty: none
+  std::vector<MapOptions> maps;
 };
 
 struct Options {
@@ -109,9 +136,13 @@ struct Options {
   // gets `points` points.
   double spacing = 0.0;
   int points = 40000;
+  // 0 fresh on each frame to 1 kept until it breaks: what laterFrames, keepStretch, renewalRate and fade follow where
+  // a scene does not give them.
+  double coherence = 0.5;
   LaterFrames laterFrames = LaterFrames::synthesize;
   SurfaceOptions surface;
   ScaleOptions scale;
+  GuidanceOptions guidance;
   OrientationOptions orientation;
   SynthesisOptions synthesis;
 };

@@ -3,6 +3,9 @@
 #include "texture/fresh.h"
 #include "texture/label_expansion.h"
 #include "texture/random.h"
+#include "texture/table_cache.h"
+
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 
@@ -15,17 +18,18 @@ constexpr int kSeamSweeps = 8;
 constexpr float kStretchCost = 1.0f;
 constexpr float kUsageCost = 0.17f;
 
+SearchTable madeTable(const Synthesizer& synthesizer, int level, int window) {
+  const bool labels = synthesizer.options.method == Method::coordinates;
+  return cachedSearchTable(synthesizer.exemplar.match[std::size_t(level)], synthesizer.exemplar.toroidal,
+                           window, synthesizer.options.seed, level == 0 && labels ? kSimilar : 0,
+                           synthesizer.cache);
+}
+
 const SearchTable& tableFor(Synthesizer& synthesizer, int level, int window) {
   const auto key = std::make_pair(level, window);
   auto it = synthesizer.tables->table.find(key);
-  if (it == synthesizer.tables->table.end()) {
-    const bool labels = synthesizer.options.method == Method::coordinates;
-    SearchTable table =
-        buildSearchTable(synthesizer.exemplar.match[std::size_t(level)], synthesizer.exemplar.toroidal,
-                         window, synthesizer.options.seed, level == 0 && labels ? kSimilar : 0);
-    table.padded = {};  // distances are taken from the level's TexelImage
-    it = synthesizer.tables->table.emplace(key, std::move(table)).first;
-  }
+  if (it == synthesizer.tables->table.end())
+    it = synthesizer.tables->table.emplace(key, madeTable(synthesizer, level, window)).first;
   return it->second;
 }
 
@@ -42,6 +46,18 @@ void record(SynthesisStats& stats, const EnergyTrace& trace) {
 
 }  // namespace
 
+void prepareTables(Synthesizer& synthesizer) {
+  std::vector<std::pair<int, int>> keys;
+  for (int level = 0; level < int(synthesizer.exemplar.match.size()); ++level)
+    for (const auto& [window, place] : windowsOf(synthesizer, level)) keys.emplace_back(level, window);
+  std::vector<SearchTable> tables(keys.size());
+  tbb::parallel_for(std::size_t(0), keys.size(), [&](std::size_t i) {
+    tables[i] = madeTable(synthesizer, keys[i].first, keys[i].second);
+  });
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    synthesizer.tables->table.emplace(keys[i], std::move(tables[i]));
+}
+
 PreparedMesh::PreparedMesh(const SurfaceMesh& surface)
     : mesh(surface),
       graph(buildVertexGraph(surface)),
@@ -50,9 +66,10 @@ PreparedMesh::PreparedMesh(const SurfaceMesh& surface)
 Float8 seamChannels(const Synthesizer& synthesizer) {
   Float8 weight{};
   const int channels = synthesizer.exemplar.match.front().channels;
-  const bool gradient =
-      synthesizer.options.gradientWeight > 0.0 && channels > synthesizer.exemplar.colorChannels;
+  const bool gradient = synthesizer.options.gradientWeight > 0.0 &&
+                        channels > synthesizer.exemplar.colorChannels + synthesizer.exemplar.guided;
   for (int c = 0; c < channels - (gradient ? 1 : 0); ++c) weight[c] = 1.0f;
+  if (synthesizer.exemplar.guided) weight[synthesizer.exemplar.colorChannels] = 0.0f;
   return weight;
 }
 

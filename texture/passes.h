@@ -31,7 +31,7 @@ struct PreparedMesh {
   Connection connection;
 };
 
-// Channels whose jumps are seen: all but the gradient's, which is the last.
+// Channels whose jumps are seen: all but the guidance map and the gradient's, which is the last.
 Float8 seamChannels(const Synthesizer& synthesizer);
 
 SeamModel seamModel(const Synthesizer& synthesizer, const MeshView& view, std::size_t level);

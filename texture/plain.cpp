@@ -26,6 +26,7 @@ void takeMesh(SurfaceMesh& mesh, TexturedSurface& result) {
   result.orientation = std::move(mesh.orientation);
   result.triangles = std::move(mesh.triangles);
   result.scale = std::move(mesh.scale);
+  if (!mesh.guidance.empty()) result.maps[kGuidance] = std::move(mesh.guidance);
 }
 
 TexturedSurface untextured(Surface surface, const Carried& carried) {

@@ -92,9 +92,23 @@ std::size_t storedAt(int orientation, int x, int y, int width, int height) {
   return std::size_t(row) * std::size_t(columns) + std::size_t(column);
 }
 
-}  // namespace
+// An image as it is stored.
+struct Stored {
+  OIIO::ImageSpec spec;
+  std::vector<float> data;
+  bool straight = false;  // colours are not multiplied by alpha
 
-Image readImage(const std::filesystem::path& file) {
+  int orientation() const { return spec.get_int_attribute("Orientation", 1); }
+  bool turned() const { return orientation() >= 5 && orientation() <= 8; }
+  int width() const { return turned() ? spec.height : spec.width; }
+  int height() const { return turned() ? spec.width : spec.height; }
+  // The channels of a pixel of the upright picture.
+  const float* at(int x, int y) const {
+    return data.data() + storedAt(orientation(), x, y, width(), height()) * std::size_t(spec.nchannels);
+  }
+};
+
+Stored readStored(const std::filesystem::path& file) {
   const std::string name = file.string();
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
@@ -117,24 +131,34 @@ Image readImage(const std::filesystem::path& file) {
     throw ExemplarError(name + " is too large: it has " + std::to_string(spec.width) + " x " +
                         std::to_string(spec.height) + " pixels, and at most " + std::to_string(kLargestSide) +
                         " a side and " + std::to_string(kLargestArea >> 20) + " million in all can be used.");
-  std::vector<float> stored(std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(spec.nchannels));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, stored.data())) {
+  Stored stored{spec, {}, false};
+  stored.data.resize(std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(spec.nchannels));
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, stored.data.data())) {
     input->geterror();
     throw ExemplarError(name + " is damaged or cut short.");
   }
   // Asked for after reading: that is when a reader knows whether the hint could be followed.
-  const bool straight = input->spec().get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
+  stored.straight = input->spec().get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
+  return stored;
+}
 
-  const ChannelOrder order = channelOrder(spec);
-  const Transfer toLinear = transferOf(spec);
-  const int orientation = spec.get_int_attribute("Orientation", 1);
-  const bool turned = orientation >= 5 && orientation <= 8;
-  Image image{turned ? spec.height : spec.width, turned ? spec.width : spec.height, 4, {}};
+void checkFinite(const Image& image, const std::string& name) {
+  if (!std::all_of(image.data.begin(), image.data.end(), [](float value) { return std::isfinite(value); }))
+    throw ExemplarError(name + " holds values that are not finite numbers.");
+}
+
+}  // namespace
+
+Image readImage(const std::filesystem::path& file) {
+  const Stored stored = readStored(file);
+  const bool straight = stored.straight;
+  const ChannelOrder order = channelOrder(stored.spec);
+  const Transfer toLinear = transferOf(stored.spec);
+  Image image{stored.width(), stored.height(), 4, {}};
   image.data.resize(std::size_t(image.width) * std::size_t(image.height) * 4);
   tbb::parallel_for(0, image.height, [&](int y) {
     for (int x = 0; x < image.width; ++x) {
-      const float* in = stored.data() +
-                        storedAt(orientation, x, y, image.width, image.height) * std::size_t(spec.nchannels);
+      const float* in = stored.at(x, y);
       float* out = image.at(x, y);
       const float alpha = order.alpha < 0 ? 1.0f : in[order.alpha];
       out[3] = std::clamp(alpha, 0.0f, 1.0f);  // passes on what is not a number, to be refused below
@@ -145,8 +169,21 @@ Image readImage(const std::filesystem::path& file) {
       }
     }
   });
-  if (!std::all_of(image.data.begin(), image.data.end(), [](float value) { return std::isfinite(value); }))
-    throw ExemplarError(name + " holds values that are not finite numbers.");
+  checkFinite(image, file.string());
+  return image;
+}
+
+Image readMap(const std::filesystem::path& file, int channels) {
+  const Stored stored = readStored(file);
+  const ChannelOrder order = channelOrder(stored.spec);
+  const bool grey = order.red == order.green && order.green == order.blue;
+  Image image{stored.width(), stored.height(), channels > 0 ? channels : grey ? 1 : 3, {}};
+  image.data.reserve(std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels));
+  const int index[3] = {order.red, order.green, order.blue};
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < image.channels; ++c) image.data.push_back(stored.at(x, y)[index[c]]);
+  checkFinite(image, file.string());
   return image;
 }
 

@@ -2,6 +2,7 @@
 
 #include "texture/complex.h"
 #include "texture/fresh.h"
+#include "texture/guidance.h"
 #include "texture/parallel.h"
 #include "texture/random.h"
 
@@ -53,7 +54,8 @@ float noiseAt(const Vec2f& texel, std::uint64_t seed) {
 std::vector<float> badness(const SeamModel& model, const Labels& labels, const std::vector<float>& trust) {
   std::vector<float> result = seamCosts(model, labels);
   forEachIndex(result.size(), [&](std::uint32_t v) {
-    result[v] = kSeamWeight * result[v] + stretchBadness(model.image, labels[v], trust[v]);
+    result[v] = kSeamWeight * result[v] + stretchBadness(model.image, labels[v], trust[v]) +
+                guidanceCost(model.image, model.view.mesh, labels[v].texel, v);
   });
   return result;
 }

@@ -10,8 +10,9 @@
 
 namespace fluidtex::texture {
 
-// How bad each vertex's label is: log stretch() + kSeamWeight * seamCosts(). A label beyond the edge of an
-// exemplar that does not wrap, or whose `trust` is low, counts as stretched kLostStretch times.
+// How bad each vertex's label is: log stretch() + kSeamWeight * seamCosts() + guidanceCost(). A label beyond
+// the edge of an exemplar that does not wrap, or whose `trust` is low, counts as stretched kLostStretch
+// times.
 std::vector<float> badness(const SeamModel& model, const Labels& labels, const std::vector<float>& trust);
 
 // Whether a carried label means anything: where trust is low, nothing was there before.

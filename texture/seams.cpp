@@ -3,6 +3,7 @@
 #include "texture/seams.h"
 
 #include "texture/complex.h"
+#include "texture/guidance.h"
 #include "texture/parallel.h"
 
 #include <algorithm>
@@ -58,7 +59,8 @@ std::vector<std::vector<std::uint32_t>> colored(const VertexGraph& graph,
 }  // namespace
 
 float labelCost(const SeamModel& model, const LabelTerms& terms, const Label& label, std::uint32_t v) {
-  float cost = terms.stretch * std::log(stretch(label));
+  float cost =
+      terms.stretch * std::log(stretch(label)) + guidanceCost(model.image, model.view.mesh, label.texel, v);
   if (terms.wanted)
     cost += terms.data * length(model.image.sample(label.texel) - (*terms.wanted)[v], model.channelWeight) /
             model.unit;

@@ -40,7 +40,7 @@ struct LabelTerms {
       0.0f;  // times how much more than the mean its part of the exemplar is used; label expansion only
 };
 
-// A label's own cost at v, without usage.
+// A label's own cost at v, without usage, with that of guidance.
 float labelCost(const SeamModel& model, const LabelTerms& terms, const Label& label, std::uint32_t v);
 
 // Straightens seams and moves them to where they show least: each free vertex (free empty: all) takes, of its

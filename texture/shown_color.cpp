@@ -20,34 +20,35 @@ struct Reading {
   Vec4f color, mean;
 };
 
-Reading readAt(const Exemplar& exemplar, const Image& around, const Vec2f& texel) {
+Reading readAt(const Image& colors, const Image& around, bool toroidal, const Vec2f& texel) {
   constexpr float kScale = 1.0f / float(1 << kHalvings), kShift = 0.5f * float((1 << kHalvings) - 1);
   Vec4f color;
-  sampleCubic(exemplar.color, exemplar.toroidal, texel, color.asPointer());
+  sampleCubic(colors, toroidal, texel, color.asPointer());
   Reading result{premultiplied(color), Vec4f(0.0f)};
-  sampleBilinear(around, exemplar.toroidal, (texel - Vec2f(kShift, kShift)) * kScale,
+  sampleBilinear(around, toroidal, (texel - Vec2f(kShift, kShift)) * kScale,
                  result.mean.asPointer());
   return result;
 }
 
 }  // namespace
 
-Image meansAround(const Exemplar& exemplar) {
-  Image result = exemplar.color;
+Image meansAround(const Image& color, bool toroidal) {
+  Image result = color;
   for (std::size_t i = 0; i < result.data.size(); i += 4)
     for (std::size_t k = 0; k < 3; ++k) result.data[i + k] *= result.data[i + 3];
-  for (int i = 0; i < kHalvings; ++i) result = halve(result, exemplar.toroidal);
+  for (int i = 0; i < kHalvings; ++i) result = halve(result, toroidal);
   return result;
 }
 
-Vec4f shownColor(const Exemplar& exemplar, const Image& around, const Vec2f& present, const Vec2f& former,
-                 float weight) {
+Vec4f shownColor(const Image& colors, const Image& around, bool toroidal, const Vec2f& present,
+                 const Vec2f& former, float weight) {
   if (weight == 0.0f) {
     Vec4f color;
-    sampleCubic(exemplar.color, exemplar.toroidal, present, color.asPointer());
+    sampleCubic(colors, toroidal, present, color.asPointer());
     return color;
   }
-  const Reading now = readAt(exemplar, around, present), old = readAt(exemplar, around, former);
+  const Reading now = readAt(colors, around, toroidal, present),
+                old = readAt(colors, around, toroidal, former);
   const float angle = 0.5f * std::numbers::pi_v<float> * weight, a = std::cos(angle), b = std::sin(angle);
   Vec4f mixed;
   for (int k = 0; k < 4; ++k) {

@@ -5,15 +5,15 @@
 
 namespace fluidtex::texture {
 
-// The mean colour around each texel: the exemplar's colour, premultiplied, reduced by 2^3. Texel x of the exemplar lies at
-// (x - 3.5) / 8 of it.
-Image meansAround(const Exemplar& exemplar);
+// The mean colour around each texel of linear RGBA with straight alpha: premultiplied, reduced by 2^3. Texel x of the colours lies
+// at (x - 3.5) / 8 of it.
+Image meansAround(const Image& color, bool toroidal);
 
-// Linear RGBA, straight alpha. `weight`, 0..1, is what is left of the former place. The means around both places
+// Linear RGBA, straight alpha; around: meansAround(color). `weight`, 0..1, is what is left of the former place. The means around both places
 // are mixed by it; what differs from the mean is mixed with equal power, cos and sin of a quarter turn, and held
 // between the two: the sum of two pictures that have nothing to do with each other has the contrast of each
 // instead of 0.7 of it half-way.
-Vec4f shownColor(const Exemplar& exemplar, const Image& around, const Vec2f& present, const Vec2f& former,
-                 float weight);
+Vec4f shownColor(const Image& color, const Image& around, bool toroidal, const Vec2f& present,
+                 const Vec2f& former, float weight);
 
 }  // namespace fluidtex::texture

@@ -31,6 +31,7 @@ struct SurfaceMesh {
   std::vector<Vec3I> triangles;      // #T, counter-clockwise seen from outside
   std::vector<Vec3f> orientation;    // #V, unit, tangent; empty before orient()
   std::vector<float> scale;          // #V: an exemplar pixel's side is spacing * scale there; empty: 1 everywhere
+  std::vector<float> guidance{};     // #V, 0..1: the level of the guidance map that is wanted there; empty: none
   double spacingAt(std::uint32_t v) const { return scale.empty() ? spacing : spacing * double(scale[v]); }
 };
 
@@ -81,6 +82,9 @@ struct SynthesisStats {
   double renewed = 1.0;                       // share of vertices whose exemplar coordinate is not the carried one
 };
 
+// Under this name TexturedSurface::maps holds SurfaceMesh::guidance.
+inline constexpr const char* kGuidance = "guidance";
+
 // The end product of a frame: rendered, written, measured, and carried to the next.
 struct TexturedSurface {
   double spacing = 0.0;
@@ -94,7 +98,7 @@ struct TexturedSurface {
   std::vector<Vec3f> previousPosition;
   std::vector<Vec3f> velocity;          // m/s
   std::vector<std::uint8_t> contact;    // 1 where the vertex touches a solid
-  std::map<std::string, std::vector<float>> maps;  // every further synthesized map by name
+  std::map<std::string, std::vector<float>> maps;  // every further map by name, and kGuidance
   int exemplarWidth = 0, exemplarHeight = 0;       // texels
   std::vector<float> scale;             // of the spacing, as in SurfaceMesh; may be empty
   bool empty() const { return positions.empty(); }

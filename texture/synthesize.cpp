@@ -3,6 +3,7 @@
 
 #include "texture/first_frame.h"
 #include "texture/later_frame.h"
+#include "texture/maps.h"
 #include "texture/parallel.h"
 #include "texture/plain.h"
 #include "texture/renewal.h"
@@ -52,6 +53,8 @@ void checkSizes(const SurfaceMesh& mesh, const Carried& carried) {
   const auto right = [&](std::size_t size) { return size == count; };
   if (!right(mesh.normals.size()) || !right(mesh.orientation.size()))
     throw std::invalid_argument("synthesize: the surface must be oriented");
+  if (!mesh.guidance.empty() && !right(mesh.guidance.size()))
+    throw std::invalid_argument("synthesize: guidance must have one value per vertex");
   if (carried.empty()) return;
   if (!right(carried.color.size()) || !right(carried.coordinate.size()) || !right(carried.gradient.size()) ||
       !right(carried.fading.coordinate.size()) || !right(carried.fading.gradient.size()) ||
@@ -82,13 +85,14 @@ Fading fadingAfter(const Carried& carried, const LaterFrame& later, double secon
 
 }  // namespace
 
-Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options) {
-  Synthesizer synthesizer{std::move(exemplar), options, std::make_shared<SearchTables>(), {}};
-  synthesizer.around = meansAround(synthesizer.exemplar);
-  // Carried colours have no feature channels: the paper's method matches by colour alone.
+Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options, std::filesystem::path cache) {
+  Synthesizer synthesizer{std::move(exemplar), options, std::make_shared<SearchTables>(), std::move(cache), {}};
+  synthesizer.around = meansAround(synthesizer.exemplar.color, synthesizer.exemplar.toroidal);
+  const int colors = synthesizer.exemplar.colorChannels;
+  // Carried colours have no feature channels: the paper's method matches by colour alone, and guidance.
   if (options.method == Method::kwatra07) {
     for (Image& image : synthesizer.exemplar.match) {
-      const int channels = synthesizer.exemplar.colorChannels;
+      const int channels = colors + (synthesizer.exemplar.guided ? 1 : 0);
       Image reduced{image.width, image.height, channels, {}};
       for (std::size_t i = 0; i < image.data.size(); ++i)
         if (int(i % std::size_t(image.channels)) < channels) reduced.data.push_back(image.data[i]);
@@ -100,6 +104,8 @@ Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options) 
   for (const Image& image : synthesizer.exemplar.match) {
     synthesizer.tables->image.push_back(
         makeTexelImage(image, synthesizer.exemplar.toroidal, largest / 2 + 3));
+    synthesizer.tables->image.back().guide = synthesizer.exemplar.guided ? colors : -1;
+    synthesizer.tables->image.back().guidanceWeight = synthesizer.exemplar.guidanceWeight;
     synthesizer.tables->histogram.push_back(makeHistogramTarget(synthesizer.tables->image.back()));
     synthesizer.tables->seamUnit.push_back(
         seamUnit(synthesizer.tables->image.back(), seamChannels(synthesizer)));
@@ -154,8 +160,9 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
                               : gradientOf(label, mesh.orientation[v], mesh.normals[v], mesh.spacingAt(v));
     if (kept) result.age[v] = carried.age[v] + float(secondsSinceLast);
     if (labels)
-      result.color[v] = shownColor(synthesizer.exemplar, synthesizer.around, result.coordinate[v], result.fading.coordinate[v],
-                                   result.fading.weight[v]);
+      result.color[v] =
+          shownColor(synthesizer.exemplar.color, synthesizer.around, synthesizer.exemplar.toroidal,
+                     result.coordinate[v], result.fading.coordinate[v], result.fading.weight[v]);
     else
       result.color[v] = decoded(state.value[v], synthesizer.exemplar.colorChannels);
   });
@@ -163,6 +170,8 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
   result.trust = carried.empty() ? std::vector<float>(count, 0.0f) : carried.trust;
   result.previousPosition = carried.empty() ? mesh.positions : carried.previousPosition;
   takeMesh(mesh, result);
+  for (const auto& [name, map] : synthesizer.exemplar.maps)
+    lookUpMap(name, map, synthesizer.exemplar.toroidal, result);
   return result;
 }
 

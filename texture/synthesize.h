@@ -5,6 +5,7 @@
 #include "texture/options.h"
 #include "texture/surface.h"
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 
@@ -17,11 +18,18 @@ struct Synthesizer {
   Exemplar exemplar;
   SynthesisOptions options;
   std::shared_ptr<SearchTables> tables;
+  std::filesystem::path
+      cache;  // folder in which search tables are kept from run to run (texture/table_cache.h)
   Image around;  // meansAround(exemplar)
 };
 
-// Throws std::invalid_argument if no window fits the exemplar, or options.windows is empty.
-Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options);
+// Throws std::invalid_argument if no window fits the exemplar, or options.windows is empty. cache: empty for
+// none.
+Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options,
+                            std::filesystem::path cache = {});
+
+// Makes the tables of all levels and windows now, not when they are first asked for.
+void prepareTables(Synthesizer& synthesizer);
 
 // Textures an oriented surface. First frame (carried empty): coarse to fine over all levels of the surface.
 // Later frames: level 0 only, started from and softly held to what was carried. `frame` keys the random

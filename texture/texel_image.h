@@ -18,6 +18,8 @@ struct TexelImage {
   int width = 0, height = 0, channels = 0;
   int margin = 0, stride = 0;  // stride = width + 2 margin, texels
   bool toroidal = false;
+  int guide = -1;               // the channel of the guidance map, where there is one
+  float guidanceWeight = 1.0f;  // by whose root it is multiplied
   Values data;  // rows from the top, margins included
 
   // Bilinear. The position must not lie farther outside than margin - 1 texels.

@@ -19,8 +19,10 @@ struct CommonOptions {
 };
 
 void addRun(CLI::App& app, int& exitCode);
+void addApply(CLI::App& app, int& exitCode);
 void addCompare(CLI::App& app, int& exitCode);
 void addCheck(CLI::App& app, int& exitCode);
+void addRender(CLI::App& app, int& exitCode);
 void addMeasure(CLI::App& app, int& exitCode);
 void addValidate(CLI::App& app, int& exitCode);
 

@@ -3,12 +3,11 @@
 #include "render/frame_name.h"
 #include "render/render.h"
 #include "sim/motion.h"
-#include "sim/pose.h"
-#include "sim/shapes.h"
 #include "texture/fresh.h"
 #include "texture/prepare.h"
 #include "texture/synthesize.h"
 #include "tools/atomic_file.h"
+#include "tools/cache_folder.h"
 #include "tools/earlier_run.h"
 #include "tools/errors.h"
 #include "tools/onto_mesh.h"
@@ -17,8 +16,10 @@
 #include "tools/progress.h"
 #include "tools/report.h"
 #include "tools/state.h"
+#include "tools/texture_guidance.h"
 #include "tools/texture_scale.h"
 #include "tools/textured.h"
+#include "tools/visible_solids.h"
 #include "transport/carry.h"
 
 #include <fmt/core.h>
@@ -73,9 +74,11 @@ class FrameLoop {
         m_synthesizer(
             texture::makeSynthesizer(texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis,
                                                            scene.texture.surface.levels),
-                                     scene.texture.synthesis)),
+                                     scene.texture.synthesis, cacheFolder())),
         m_guide(orientationGuide(scene)),
-        m_scale(textureScale(scene)) {
+        m_scale(textureScale(scene)),
+        m_guidance(textureGuidance(scene)),
+        m_solids(scene.sim) {
     m_surface.spacing = scene.texture.spacing;
     m_report.scene = Json::parse(scene.resolved);
     m_report.seed = scene.seed;
@@ -180,6 +183,7 @@ class FrameLoop {
       texture::calmDroplets(surface.levels[0],
                             texture::droplets(graph, *std::min_element(windows.begin(), windows.end())),
                             carried);
+      guide(m_guidance, motion, carried, surface);
     }
     {
       Stopwatch watch(seconds.synthesize);
@@ -201,7 +205,7 @@ class FrameLoop {
       {
         Stopwatch watch(seconds.render);
         const double progress = m_scene.frames > 1 ? double(motion.index - 1) / (m_scene.frames - 1) : 0.0;
-        picture = render::render(m_surface, visibleSolids(motion.time), m_scene.render,
+        picture = render::render(m_surface, m_solids.at(motion.time), m_scene.render,
                                  {m_scene.sim.size, progress, motion.index}, reporter("render"));
       }
       Stopwatch watch(seconds.write);
@@ -215,25 +219,6 @@ class FrameLoop {
     const texture::TexturedSurface other = ontoMesh(m_surface, m_scene.onto, motion.index);
     writeAtomically(m_options.out / "onto" / (name + ".ply"),
                     [&](const fs::path& file) { writePly(other, file); });
-  }
-
-  // Made anew only where a solid has come, gone or moved.
-  const std::vector<render::Solid>& visibleSolids(double time) {
-    std::vector<std::pair<std::size_t, sim::Pose>> visible;
-    for (std::size_t i = 0; i < m_scene.sim.solids.size(); ++i) {
-      const sim::Solid& solid = m_scene.sim.solids[i];
-      if (solid.visible && solid.from <= time && time < solid.until)
-        visible.emplace_back(i, sim::poseAt(solid, time));
-    }
-    if (visible == m_visible) return m_solids;
-    m_solids.clear();
-    for (const auto& [i, pose] : visible) {
-      const sim::Solid& solid = m_scene.sim.solids[i];
-      sim::TriangleMesh mesh = sim::triangulate(solid, time, m_scene.sim.size, m_scene.sim.voxelSize());
-      m_solids.push_back({std::move(mesh.positions), std::move(mesh.triangles), solid.color});
-    }
-    m_visible = std::move(visible);
-    return m_solids;
   }
 
   void finish() {
@@ -294,10 +279,10 @@ class FrameLoop {
   texture::Synthesizer m_synthesizer;
   OrientationGuide m_guide;
   TextureScale m_scale;
+  TextureGuidance m_guidance;
   std::optional<sim::Motion> m_motion;
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
-  std::vector<std::pair<std::size_t, sim::Pose>> m_visible;  // numbers and places of the solids in m_solids
-  std::vector<render::Solid> m_solids;
+  VisibleSolids m_solids;
   Report m_report;
   Progress* m_progress = nullptr;
 };

@@ -26,7 +26,9 @@ int main(int argc, char** argv) {
   int exitCode = kDone;
   addRun(app, exitCode);
   addCompare(app, exitCode);
+  addApply(app, exitCode);
   addCheck(app, exitCode);
+  addRender(app, exitCode);
   addMeasure(app, exitCode);
   addValidate(app, exitCode);
   if (argc > 1 && argv[1][0] != '-') {

@@ -1,21 +1,16 @@
 // fluidtex measure OUT: how good the texture of a finished run is, in figures.
 #include "tools/measure.h"
 
-#include "render/frame_name.h"
 #include "texture/measure.h"
-#include "texture/read_image.h"
 #include "tools/atomic_file.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
+#include "tools/finished_run.h"
 #include "tools/ply.h"
-#include "tools/report.h"
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 namespace fluidtex::tools {
@@ -30,29 +25,6 @@ constexpr std::pair<const char*, const char*> kColumns[] = {
     {"change", "change"},      {"renewed", "renewed"}, {"change_along_flow", "along flow"},
     {"coherence", "coherence"}};
 
-Json readReport(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw UsageError(file.string() + ": cannot be read; give the folder of a run of fluidtex run");
-  Json report = Json::parse(std::string{std::istreambuf_iterator<char>(in), {}}, nullptr, false);
-  if (report.is_discarded() || !report.contains("/scene/texture"_json_pointer) ||
-      !report.contains("frames") || !report["frames"].is_array())
-    throw UsageError(file.string() + ": is no report of a run; give the folder of a run of fluidtex run");
-  return report;
-}
-
-// The frames whose surface is there.
-std::vector<int> framesIn(const fs::path& folder) {
-  std::vector<int> frames;
-  std::error_code missing;
-  for (const auto& entry : fs::directory_iterator(folder, missing))
-    if (entry.path().extension() == ".ply")
-      if (const auto frame = render::frameNumber(entry.path().stem().string())) frames.push_back(*frame);
-  std::sort(frames.begin(), frames.end());
-  if (frames.empty())
-    throw UsageError(folder.string() + ": holds no surface; give the folder of a run of fluidtex run");
-  return frames;
-}
-
 // What a frame's record says of the key; null where there is no such frame or key.
 Json* recordOf(Json& report, int frame) {
   for (Json& record : report["frames"])
@@ -63,19 +35,11 @@ Json* recordOf(Json& report, int frame) {
 class Measurer {
  public:
   explicit Measurer(const MeasureWishes& wishes)
-      : m_wishes(wishes), m_report(readReport(wishes.out / "run.json")) {
-    const Json& texture = m_report["scene"]["texture"];
-    m_exemplar = !wishes.exemplar.empty() ? wishes.exemplar : fs::path(texture.value("exemplar", ""));
-    if (!fs::exists(m_exemplar))
-      throw UsageError(fmt::format("{}: the exemplar of the run is not there; give --exemplar IMAGE",
-                                   m_exemplar.string()));
-    m_toroidal = texture.value("toroidal", false);
-    m_color = texture::readImage(m_exemplar);
-  }
+      : m_wishes(wishes), m_run(openRun(wishes.out, wishes.exemplar)) {}
 
   void run() {
-    const std::vector<int> frames = framesIn(m_wishes.out / "surface");
-    texture::LikenessJudge judge(m_color);
+    const std::vector<int>& frames = m_run.frames;
+    texture::LikenessJudge judge(m_run.color);
     if (!m_wishes.quiet) printHead();
     Json rows = Json::array();
     texture::TexturedSurface before;
@@ -87,10 +51,10 @@ class Measurer {
       row["vertices"] = surface.positions.size();
       if (n % std::size_t(m_wishes.every) == 0 || n + 1 == frames.size()) {
         addLikeness(row, judge(surface, n == 0 || n + 1 == frames.size()));
-        addPieces(row, texture::measurePieces(surface, m_color, m_toroidal));
+        addPieces(row, texture::measurePieces(surface, m_run.color, m_run.toroidal));
       }
       if (n > 0 && frames[n - 1] == frame - 1)
-        addChange(row, texture::measureChange(before, surface, m_color, m_toroidal));
+        addChange(row, texture::measureChange(before, surface, m_run.color, m_run.toroidal));
       if (!m_wishes.quiet && row.size() > 2) printRow(fmt::format("{}", frame), row);
       rows.push_back(std::move(row));
       before = std::move(surface);
@@ -99,7 +63,7 @@ class Measurer {
     if (!m_wishes.quiet) printRow("mean", mean);
     fillReport(rows);
     if (m_wishes.json.empty()) return;
-    const Json all = {{"exemplar", m_exemplar.generic_string()},
+    const Json all = {{"exemplar", m_run.exemplar.generic_string()},
                       {"spacing", m_spacing},
                       {"every", m_wishes.every},
                       {"frames", rows},
@@ -110,15 +74,14 @@ class Measurer {
  private:
   // One vertex shows a texel: on the first frame the points are as many as squares of the spacing cover it.
   texture::TexturedSurface readSurface(int frame) {
-    texture::TexturedSurface surface = readPly(m_wishes.out / "surface" / (render::frameName(frame) + ".ply"),
-                                               m_color.width, m_color.height);
+    texture::TexturedSurface surface = readPly(m_run.surfaceOf(frame), m_run.color.width, m_run.color.height);
     if (m_spacing == 0.0 && !surface.empty()) m_spacing = spacingOf(surface, frame);
     surface.spacing = m_spacing;
     return surface;
   }
 
   double spacingOf(const texture::TexturedSurface& surface, int frame) {
-    const Json* record = recordOf(m_report, frame);
+    const Json* record = recordOf(m_run.report, frame);
     if (record != nullptr && record->contains("spacing") && (*record)["spacing"].is_number())
       return (*record)["spacing"].get<double>();
     double area = 0.0;
@@ -186,19 +149,16 @@ class Measurer {
 
   void fillReport(const Json& rows) {
     for (const Json& row : rows) {
-      Json* record = recordOf(m_report, row["frame"].get<int>());
+      Json* record = recordOf(m_run.report, row["frame"].get<int>());
       if (record == nullptr) continue;
       for (const char* key : {"likeness", "sharpness", "change_along_flow"})
         if (row.contains(key)) (*record)[key] = row[key];
     }
-    writeTextAtomically(m_wishes.out / "run.json", m_report.dump(2) + "\n");
+    writeTextAtomically(m_wishes.out / "run.json", m_run.report.dump(2) + "\n");
   }
 
   const MeasureWishes& m_wishes;
-  Json m_report;
-  fs::path m_exemplar;
-  bool m_toroidal = false;
-  texture::Image m_color;
+  FinishedRun m_run;
   double m_spacing = 0.0;
 };
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <set>
 #include <system_error>
 
 namespace fluidtex::tools {
@@ -29,6 +30,7 @@ std::string header(const texture::TexturedSurface& surface) {
   for (const char* name : {"s", "t", "dx", "dy", "dz", "bx", "by", "bz", "vx", "vy", "vz", "trust", "age"})
     text += std::string("property float ") + name + "\n";
   text += "property uchar contact\n";
+  for (const char* name : {"fade_s", "fade_t", "fade"}) text += std::string("property float ") + name + "\n";
   for (const auto& [name, values] : surface.maps) text += "property float " + name + "\n";
   text += "element face " + std::to_string(surface.triangles.size()) + "\n";
   text += "property list uchar int vertex_indices\nend_header\n";
@@ -56,9 +58,9 @@ class Bytes {
   std::size_t m_used = 0;
 };
 
-// Of one vertex without further maps: 19 floats, 4 bytes of colour, 1 of contact. Of a face: its count, 3
+// Of one vertex without further maps: 22 floats, 4 bytes of colour, 1 of contact. Of a face: its count, 3
 // indices.
-constexpr std::size_t kVertexBytes = 19 * 4 + 4 + 1, kFaceBytes = 1 + 3 * 4;
+constexpr std::size_t kVertexBytes = 22 * 4 + 4 + 1, kFaceBytes = 1 + 3 * 4;
 
 // Coordinate x in texels as a share of the exemplar's size. On a toroidal exemplar, x reaches up to the size:
 // the half texel then leads over the edge, and it goes on at 0.
@@ -68,6 +70,13 @@ float share(float x, float size) {
 }
 
 }  // namespace
+
+bool isPlyProperty(const std::string& name) {
+  static const std::set<std::string> kNames = {
+      "x",  "y",  "z",  "nx", "ny", "nz", "red", "green", "blue", "alpha",   "s",      "t",      "dx",  "dy",
+      "dz", "bx", "by", "bz", "vx", "vy", "vz",  "trust", "age",  "contact", "fade_s", "fade_t", "fade"};
+  return kNames.contains(name);
+}
 
 void writePly(const texture::TexturedSurface& surface, const std::filesystem::path& file) {
   Bytes bytes(surface.positions.size() * (kVertexBytes + 4 * surface.maps.size()) +
@@ -88,6 +97,11 @@ void writePly(const texture::TexturedSurface& surface, const std::filesystem::pa
     bytes.put(surface.trust[v]);
     bytes.put(surface.age[v]);
     bytes.put(surface.contact[v]);
+    const float fade = surface.fading.weight.empty() ? 0.0f : surface.fading.weight[v];
+    const texture::Vec2f former = fade > 0.0f ? surface.fading.coordinate[v] : surface.coordinate[v];
+    bytes.put(share(former.x(), width));
+    bytes.put(share(former.y(), height));
+    bytes.put(fade);
     for (const auto& [name, values] : surface.maps) bytes.put(values[v]);
   }
   for (const auto& triangle : surface.triangles) {

@@ -5,6 +5,7 @@
 #include "texture/surface.h"
 
 #include <filesystem>
+#include <string>
 
 namespace fluidtex::tools {
 
@@ -12,8 +13,11 @@ namespace fluidtex::tools {
 // corner. Throws std::system_error when the file cannot be written.
 void writePly(const texture::TexturedSurface& surface, const std::filesystem::path& file);
 
-// Reads back what writePly() wrote of a texture from an exemplar of that size (texels); further maps are left
-// out, and so is the gradient, which the file does not hold: zero. Throws UsageError that names the file
+// Whether a vertex has a property of that name whatever maps there are.
+bool isPlyProperty(const std::string& name);
+
+// Reads back what writePly() wrote of a texture from an exemplar of that size (texels), with its maps and the
+// place that fades; gradients, which the file does not hold, are zero. Throws UsageError that names the file
 // where it is something else.
 texture::TexturedSurface readPly(const std::filesystem::path& file, int exemplarWidth, int exemplarHeight);
 

@@ -47,7 +47,8 @@ Header headerOf(const std::string& bytes, const std::filesystem::path& file) {
     header.stride += second == "float" ? 4 : 1;
   }
   if (!binary) refuse(file, "is not in the format binary_little_endian");
-  for (const char* name : {"x", "nx", "red", "alpha", "s", "t", "dx", "bx", "vx", "trust", "age", "contact"})
+  for (const char* name :
+       {"x", "nx", "red", "alpha", "s", "t", "dx", "bx", "vx", "trust", "age", "contact", "fade_s", "fade"})
     if (!header.offset.contains(name)) refuse(file, std::string("has no property ") + name);
   constexpr std::size_t kFace = 1 + 3 * 4;
   const std::size_t body = bytes.size() - header.body;
@@ -95,9 +96,15 @@ texture::TexturedSurface readPly(const std::filesystem::path& file, int exemplar
     return texture::Vec4f(texture::decodeSrgb(share(0)), texture::decodeSrgb(share(1)),
                           texture::decodeSrgb(share(2)), share(3));
   });
-  each("s", surface.coordinate, [&](const char* at) {
+  const auto texel = [&](const char* at) {
     return Vec2f(number(at) * float(exemplarWidth) - 0.5f, number(at + 4) * float(exemplarHeight) - 0.5f);
-  });
+  };
+  each("s", surface.coordinate, texel);
+  surface.fading = texture::noFading(header.vertices);
+  each("fade_s", surface.fading.coordinate, texel);
+  each("fade", surface.fading.weight, number);
+  for (const auto& [name, offset] : header.offset)
+    if (!isPlyProperty(name)) each(name.c_str(), surface.maps[name], number);
   surface.gradient.resize(header.vertices);
   const char* at = bytes.data() + header.body + header.vertices * header.stride;
   for (std::size_t f = 0; f < header.faces; ++f, at += 13) {

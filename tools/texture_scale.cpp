@@ -1,55 +1,24 @@
 #include "tools/texture_scale.h"
 
-#include "texture/parallel.h"
 #include "texture/read_grid.h"
-
-#include <openvdb/tools/Interpolation.h>
-#include <tbb/parallel_for.h>
+#include "tools/scalars.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fluidtex::tools {
 namespace {
 
 using texture::ScaleBy;
-using texture::Vec3f;
 
-// map(value(x)) for each position x, where value is made once for each piece of the work.
+// The curve through the points of what makeValue() reads.
 template <typename MakeValue>
-texture::PointScale mapped(const std::vector<texture::ScalePoint>& points, const MakeValue& makeValue) {
-  return [&points, makeValue](const std::vector<Vec3f>& positions) {
-    std::vector<float> factors(positions.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), texture::kGrain),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        const auto value = makeValue();
-                        for (std::size_t i = range.begin(); i != range.end(); ++i)
-                          factors[i] = float(factorAt(points, value(sim::Vec3d(positions[i]))));
-                      });
-    return factors;
-  };
-}
-
-template <typename Grid>
-auto sampler(const Grid& grid) {
-  return [&grid] {
-    return [&grid, accessor = grid.getConstAccessor()](const sim::Vec3d& x) {
-      return double(openvdb::tools::BoxSampler::sample(accessor, grid.worldToIndex(x)));
-    };
+texture::PointScale mapped(const std::vector<texture::CurvePoint>& points, const MakeValue& makeValue) {
+  return [&points, makeValue](const std::vector<texture::Vec3f>& positions) {
+    return alongCurve(points, positions, makeValue);
   };
 }
 
 }  // namespace
-
-double factorAt(const std::vector<texture::ScalePoint>& points, double value) {
-  const auto after =
-      std::upper_bound(points.begin(), points.end(), value,
-                       [](double v, const texture::ScalePoint& point) { return v < point.value; });
-  if (after == points.begin()) return points.front().factor;
-  if (after == points.end()) return points.back().factor;
-  const texture::ScalePoint &low = *(after - 1), &high = *after;
-  return std::lerp(low.factor, high.factor, (value - low.value) / (high.value - low.value));
-}
 
 TextureScale textureScale(const scenes::Scene& scene) {
   TextureScale scale{scene.texture.scale, nullptr, {}};
@@ -63,7 +32,7 @@ TextureScale textureScale(const scenes::Scene& scene) {
 }
 
 texture::PointScale scaleIn(const TextureScale& scale, const sim::Frame& frame) {
-  const std::vector<texture::ScalePoint>& points = scale.options.points;
+  const std::vector<texture::CurvePoint>& points = scale.options.points;
   switch (scale.options.by) {
     case ScaleBy::none:
       break;

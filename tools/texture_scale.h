@@ -25,7 +25,4 @@ TextureScale textureScale(const scenes::Scene& scene);
 // The factors for the surface of this frame; both must outlive them. Empty: 1 everywhere.
 texture::PointScale scaleIn(const TextureScale& scale, const sim::Frame& frame);
 
-// The piecewise-linear map through the points, constant beyond the first and the last.
-double factorAt(const std::vector<texture::ScalePoint>& points, double value);
-
 }  // namespace fluidtex::tools

@@ -1,11 +1,22 @@
 #include "tools/textured.h"
 
 #include "texture/plain.h"
+#include "texture/renewal.h"
 
 namespace fluidtex::tools {
 
 using texture::LaterFrames;
 using texture::Method;
+
+namespace {
+
+// Guidance by age means the surface's: texture that it has renewed does not make the surface younger.
+void keepAge(const texture::Carried& carried, double seconds, texture::TexturedSurface& surface) {
+  for (std::size_t v = 0; v < carried.age.size(); ++v)
+    surface.age[v] = texture::believed(carried.trust[v]) ? carried.age[v] + float(seconds) : 0.0f;
+}
+
+}  // namespace
 
 texture::TexturedSurface textured(const scenes::Scene& scene, texture::Synthesizer& synthesizer,
                                   texture::Surface surface, const texture::Carried& carried, int frame,
@@ -33,7 +44,10 @@ texture::TexturedSurface textured(const scenes::Scene& scene, texture::Synthesiz
     result.previousPosition = carried.previousPosition;
     return result;
   }
-  return texture::synthesize(synthesizer, std::move(surface), carried, frame, seconds, stats, progress);
+  texture::TexturedSurface result =
+      texture::synthesize(synthesizer, std::move(surface), carried, frame, seconds, stats, progress);
+  if (scene.texture.guidance.by == texture::GuidanceBy::age) keepAge(carried, seconds, result);
+  return result;
 }
 
 bool needsAllLevels(const scenes::Scene& scene, const texture::TexturedSurface& last) {

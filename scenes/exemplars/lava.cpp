@@ -77,19 +77,48 @@ class Crust {
  public:
   explicit Crust(const Lava& options) : m_options(options) {}
 
+  // Plates of crust, with cracks wide and narrow.
   Color colorAt(double x, double y) const {
+    // How wide cracks are here: broad between plates, hair-fine within, closed in places.
+    const std::uint64_t seed = m_options.seed;
+    const double strain = noise(seed, 40, x, y, 4) * 0.6 + noise(seed, 41, x, y, 9) * 0.4;
+    const double wide = 0.030 + 0.150 * smooth(0.35, 0.75, strain);
+    const double fine = 0.13 * smooth(0.55, 0.95, noise(seed, 42, x, y, 6));
+    return colorAt(x, y, {strain, wide, fine});
+  }
+
+  // How molten it is at a place where all stages lie side by side, 0..1.
+  double stageAt(double x, double y) const {
+    const std::uint64_t seed = m_options.seed;
+    const double rough = 0.75 * noise(seed, 90, x, y, 3) + 0.25 * noise(seed, 91, x, y, 7);
+    return smooth(0.12, 0.88, rough);
+  }
+
+  // Crust whose cracks open the farther the more molten it is.
+  Color colorAtStage(double x, double y) const {
+    const double stage = stageAt(x, y);
+    const double wide = 0.55 * stage * stage - 0.03;
+    const double fine = 0.20 * smooth(0.3, 0.8, stage) * noise(m_options.seed, 42, x, y, 9);
+    return colorAt(x, y, {0.2 + 0.6 * stage, wide, fine});
+  }
+
+ private:
+  // Widths of cracks between plates and within them, in units of the sites' distance; strain, 0..1: how hot
+  // they are.
+  struct Cracks {
+    double strain, wide, fine;
+  };
+
+  Color colorAt(double x, double y, const Cracks& cracks) const {
     const std::uint64_t seed = m_options.seed;
     const int n = m_options.plates;
     const double wx = x + 0.34 / n * fractal(seed, 20, x, y, n, 4, 0.55);
     const double wy = y + 0.34 / n * fractal(seed, 30, x, y, n, 4, 0.55);
     const Cell plate = cellAt(seed, 1, wx, wy, n), piece = cellAt(seed, 5, wx, wy, 3 * n);
 
-    // How wide cracks are here: broad between plates, hair-fine within, closed in places.
-    const double strain = noise(seed, 40, x, y, 4) * 0.6 + noise(seed, 41, x, y, 9) * 0.4;
-    const double wide = 0.030 + 0.150 * smooth(0.35, 0.75, strain);
-    const double fine = 0.13 * smooth(0.55, 0.95, noise(seed, 42, x, y, 6));
+    const auto& [strain, wide, fine] = cracks;
     const double seam = fine > 0.0 ? 1.0 - piece.border / fine : 0.0;
-    const double crack = std::max(1.0 - plate.border / wide, 0.5 * seam);
+    const double crack = std::max(wide > 0.0 ? 1.0 - plate.border / wide : 0.0, 0.5 * seam);
 
     // Crust: near black, browner where it is young, with wrinkles that the light picks out.
     const double e = 0.6 / m_options.size;
@@ -115,7 +144,6 @@ class Crust {
     return mixed(color, glow(std::min(1.0, heat * flicker)), melt);
   }
 
- private:
   // Of the crust: swollen plates with ropes along them and a rough skin; in the units of the slopes' factor.
   double height(double x, double y, double border) const {
     const std::uint64_t seed = m_options.seed;
@@ -134,6 +162,18 @@ class Crust {
 std::vector<std::uint8_t> makeLava(const Lava& options) {
   const Crust crust(options);
   return rendered(options.size, options.samples, [&](double x, double y) { return crust.colorAt(x, y); });
+}
+
+CoolingLava makeCoolingLava(const Lava& options) {
+  const Crust crust(options);
+  CoolingLava lava{
+      rendered(options.size, options.samples, [&](double x, double y) { return crust.colorAtStage(x, y); }),
+      {}};
+  for (int j = 0; j < options.size; ++j)
+    for (int i = 0; i < options.size; ++i)
+      lava.guidance.push_back(static_cast<std::uint8_t>(
+          std::lround(255.0 * crust.stageAt((i + 0.5) / options.size, (j + 0.5) / options.size))));
+  return lava;
 }
 
 }  // namespace fluidtex::exemplars

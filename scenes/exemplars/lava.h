@@ -17,4 +17,14 @@ struct Lava {
 // yellow in their middle, wide and narrow. Toroidal. size x size x 3, sRGB, rows from the top.
 std::vector<std::uint8_t> makeLava(const Lava& options = {});
 
+// Lava at all stages of cooling side by side, from melt with a few rafts of skin on it, over cracks that
+// close, to dark crust; and a map that tells them apart, by which a scene can let temperature choose.
+struct CoolingLava {
+  std::vector<std::uint8_t> pixels;  // as of makeLava()
+  std::vector<std::uint8_t>
+      guidance;  // size x size: 0 cold, 255 molten, each level about as often as the others
+};
+inline constexpr Lava kCooling{.size = 384, .plates = 20};
+CoolingLava makeCoolingLava(const Lava& options = kCooling);
+
 }  // namespace fluidtex::exemplars

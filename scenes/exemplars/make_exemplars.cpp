@@ -8,9 +8,11 @@
 
 namespace {
 
+// Three bytes a pixel are sRGB; one is a number.
 bool write(const std::string& file, int size, const std::vector<std::uint8_t>& pixels) {
-  OIIO::ImageSpec spec(size, size, 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
+  const int channels = int(pixels.size()) / (size * size);
+  OIIO::ImageSpec spec(size, size, channels, OIIO::TypeDesc::UINT8);
+  if (channels == 3) spec.attribute("oiio:ColorSpace", "sRGB");
   if (!fluidtex::scenes::writePng(file, spec, pixels.data())) return false;
   std::cout << file << "\n";
   return true;
@@ -26,8 +28,13 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder = argv[1];
   const fluidtex::exemplars::Scales scales;
   const fluidtex::exemplars::Lava lava;
-  const bool written = write((folder / "green_scales.png").string(), scales.size,
-                             fluidtex::exemplars::makeGreenScales(scales)) &&
-                       write((folder / "lava.png").string(), lava.size, fluidtex::exemplars::makeLava(lava));
+  const fluidtex::exemplars::CoolingLava cooling = fluidtex::exemplars::makeCoolingLava();
+  const int coolingSize = fluidtex::exemplars::kCooling.size;
+  const bool written =
+      write((folder / "green_scales.png").string(), scales.size,
+            fluidtex::exemplars::makeGreenScales(scales)) &&
+      write((folder / "lava.png").string(), lava.size, fluidtex::exemplars::makeLava(lava)) &&
+      write((folder / "lava_cooling.png").string(), coolingSize, cooling.pixels) &&
+      write((folder / "lava_cooling_guidance.png").string(), coolingSize, cooling.guidance);
   return written ? 0 : 2;
 }

@@ -40,14 +40,14 @@ double step(const Pixels& pixels, int size, int a, int b, bool columns) {
 }
 
 // The pixels of a square image that ships.
-Pixels shipped(const std::string& name, int size) {
+Pixels shipped(const std::string& name, int size, int channels = 3) {
   const auto input = OIIO::ImageInput::open(FLUIDTEX_SOURCE_DIR "/scenes/exemplars/" + name);
   REQUIRE(input);
   REQUIRE(input->spec().width == size);
   REQUIRE(input->spec().height == size);
-  REQUIRE(input->spec().nchannels == 3);
-  Pixels pixels(std::size_t(size) * size * 3);
-  REQUIRE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, pixels.data()));
+  REQUIRE(input->spec().nchannels == channels);
+  Pixels pixels(std::size_t(size) * size * channels);
+  REQUIRE(input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, pixels.data()));
   return pixels;
 }
 
@@ -120,6 +120,25 @@ TEST_CASE("lava: toroidal, mostly dark crust, and what glows is red before it is
   }
   CHECK(dark > 0.5 * options.size * options.size);
   CHECK(bright > 0.02 * options.size * options.size);
+}
+
+TEST_CASE("cooling lava: the images that ship are the generator's; the higher the level, the more glows",
+          "[scenes]") {
+  const int size = kCooling.size;
+  const CoolingLava lava = makeCoolingLava();
+  CHECK((shipped("lava_cooling.png", size) == lava.pixels));
+  CHECK((shipped("lava_cooling_guidance.png", size, 1) == lava.guidance));
+  double glowing[4] = {}, count[4] = {};
+  for (std::size_t i = 0; i < lava.guidance.size(); ++i) {
+    const std::size_t stage = lava.guidance[i] / 64;
+    count[stage] += 1.0;
+    glowing[stage] += lava.pixels[3 * i] > 150;
+  }
+  for (int stage = 0; stage < 4; ++stage) CHECK(count[stage] > 0.1 * size * size);
+  CHECK(glowing[0] == 0.0);
+  for (int stage = 1; stage < 4; ++stage)
+    CHECK(glowing[stage] / count[stage] > glowing[stage - 1] / count[stage - 1] + 0.05);
+  CHECK(glowing[3] > 0.7 * count[3]);
 }
 
 }  // namespace fluidtex::exemplars

@@ -142,6 +142,7 @@ usage = 2
 core = 0.9
 feature = 0.4
 gradient = 0.6
+coherence = 0.75
 keep_stretch = 2
 renewal_radius = 20
 renewal_rate = 5
@@ -162,6 +163,20 @@ value = 2
 factor = 3
 [[texture.scale.from]]
 sphere = { center = [1, 1, 1], radius = 0.25 }
+[texture.guidance]
+by = "field"
+map = "e.png"
+weight = 2
+field = "f.vdb"
+[[texture.guidance.point]]
+value = 1
+level = 0.5
+[[texture.guidance.point]]
+value = 2
+level = 0.75
+[[texture.map]]
+name = "height"
+file = "e.png"
 [texture.orientation]
 symmetry = 2
 align = "field"

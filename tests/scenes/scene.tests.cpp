@@ -219,7 +219,9 @@ TEST_CASE("scene: the resolved scene has every key, given or not", "[scenes]") {
       "= "
       "'m_%d.obj', last = 2 }\n[[source]]\n" +
       ball + "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + ball +
-      "[[wall]]\n[texture.scale]\npoint = [ { value = 0, factor = 1 } ]\n";
+      "[[wall]]\n[texture.scale]\npoint = [ { value = 0, factor = 1 } ]\n"
+      "[texture.guidance]\npoint = [ { value = 0, level = 1 } ]\n"
+      "[[texture.map]]\nname = 'height'\nfile = 'e.png'\n";
   std::set<std::string> whole, defaults;
   collectKeys(Json::parse(sceneOf(kFullScene).resolved), "", whole);
   collectKeys(Json::parse(sceneOf(kGoodScene + oneEach).resolved), "", defaults);
@@ -301,7 +303,9 @@ TEST_CASE("scene: the resolved scene is the same wherever the file is named from
   std::filesystem::current_path(folder.path() / "pictures");
   Overrides exemplar;
   exemplar.exemplar = "../e.png";
-  exemplar.set = {"texture.toroidal=true"};
+  // Guidance and maps are of the scene's own exemplar, and left out with another.
+  exemplar.set = {"texture.toroidal=true", "texture.guidance.by=field",
+                  "texture.map=[{ name = 'height', file = '../e.png' }]"};
   const std::string relative = loadScene("../s.toml").resolved,
                     chosen = loadScene("../s.toml", exemplar).resolved;
   std::filesystem::current_path(before);

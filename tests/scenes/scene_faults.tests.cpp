@@ -97,6 +97,29 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
        "s.toml:7:39: error: texture.scale.point.1.value: 1 is not above the one before, 2; give them by "
        "rising "
        "value"},
+      {"[texture.guidance]\nby = 'height'\npoint = [{ value = 0, level = 1 }]",
+       "s.toml:6:10: error: texture.guidance.map: missing key; write for example map = "
+       "\"exemplars/green_scales.png\""},
+      {"[texture.guidance]\nby = 'height'\nmap = 'e.png'",
+       "s.toml:7:1: error: texture.guidance.by: is of no use without a level; give two "
+       "[[texture.guidance.point]] or more, each with a value and a level"},
+      {"[texture.guidance]\nby = 'temperature'\nmap = 'e.png'\npoint = [{ value = 0, level = 1 }]",
+       "s.toml:7:1: error: texture.guidance.by: \"temperature\" is not computed; give simulate = true in "
+       "[heat] too"},
+      {"[texture.guidance]\nby = 'age'\nmap = 'e.png'\npoint = [{ value = 2, level = 1 }, { value = 2, level "
+       "= 0 }]",
+       "s.toml:9:38: error: texture.guidance.point.1.value: 2 is not above the one before, 2; give them by "
+       "rising value"},
+      {"[[texture.map]]\nfile = 'e.png'",
+       "s.toml:6:1: error: texture.map.0: has no name; give name = \"height\" or whatever it holds"},
+      {"[[texture.map]]\nname = 'a b'\nfile = 'e.png'",
+       "s.toml:7:1: error: texture.map.0.name: \"a b\" cannot be the name of a vertex's property; give "
+       "letters, digits and _, a letter first"},
+      {"[[texture.map]]\nname = 'age'\nfile = 'e.png'",
+       "s.toml:7:1: error: texture.map.0.name: \"age\" is what every vertex has anyway; give another name"},
+      {"[[texture.map]]\nname = 'a'\nfile = 'e.png'\n[[texture.map]]\nname = 'a'\nfile = 'e.png'",
+       "s.toml:10:1: error: texture.map.1.name: \"a\" is the name of an earlier map too; give each map a "
+       "name of its own"},
       {"[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 }, { time = 1 } ]",
        "s.toml:8:30: error: solid.0.keyframe.1.time: 1 s is not after the one before, at 1 s; give them in "
        "the order of time"},

@@ -83,7 +83,7 @@ void writeBytes(const std::filesystem::path& file, const std::vector<unsigned ch
 std::string refusal(const std::filesystem::path& file, const SynthesisOptions& options = {}) {
   std::string message;
   try {
-    loadExemplar({file, false}, options, 3);
+    loadExemplar({file, false, {}, {}}, options, 3);
   } catch (const ExemplarError& error) {
     message = error.what();
   }
@@ -246,7 +246,7 @@ TEST_CASE("image: what can be read but not used is refused likewise", "[texture]
 TEST_CASE("exemplar: a file gives what its pixels give", "[texture]") {
   const Folder folder;
   const auto file = write(folder, "rgba.png", 4, TypeDesc::UINT8);
-  const Exemplar loaded = loadExemplar({file, true}, {}, 3),
+  const Exemplar loaded = loadExemplar({file, true, {}, {}}, {}, 3),
                  made = makeExemplar(readImage(file), true, {}, 3);
   CHECK(loaded.toroidal);
   CHECK(loaded.colorChannels == 4);
@@ -254,4 +254,49 @@ TEST_CASE("exemplar: a file gives what its pixels give", "[texture]") {
   REQUIRE(loaded.match.size() == made.match.size());
   for (std::size_t level = 0; level < loaded.match.size(); ++level)
     CHECK(loaded.match[level].data == made.match[level].data);
+}
+
+TEST_CASE("read image: a map's numbers are those that are stored, of one channel or three", "[texture]") {
+  const Folder folder;
+  const auto check = [](const Image& map, int channels) {
+    REQUIRE(map.width == kWidth);
+    REQUIRE(map.height == kHeight);
+    REQUIRE(map.channels == channels);
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x)
+        for (int c = 0; c < channels; ++c) CHECK(map.at(x, y)[c] == Approx(stored(x, y, c)).margin(1e-6));
+  };
+  check(readMap(write(folder, "grey.png", 1, TypeDesc::UINT8)), 1);
+  check(readMap(write(folder, "rgb.png", 3, TypeDesc::UINT8)), 3);
+  check(readMap(write(folder, "first.png", 3, TypeDesc::UINT8), 1), 1);
+  check(readMap(write(folder, "float.exr", 1, TypeDesc::FLOAT)), 1);
+  CHECK_THROWS_WITH(readMap(folder.path / "none.png"), Contains("none.png does not exist"));
+}
+
+TEST_CASE("exemplar: its maps are read with it, a guidance map of another size is refused", "[texture]") {
+  const Folder folder;
+  ExemplarOptions options;
+  options.file = write(folder, "rgb.png", 3, TypeDesc::UINT8);
+  options.guidance = write(folder, "map.png", 1, TypeDesc::UINT8);
+  options.maps = {{"height", options.guidance}};
+  SynthesisOptions synthesis;
+  synthesis.windows = {9};
+  synthesis.guidanceWeight = 4.0;
+  const Exemplar exemplar = loadExemplar(options, synthesis, 2);
+  CHECK(exemplar.guided);
+  REQUIRE(exemplar.match[0].channels == 3 + 1 + 2);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x)
+      CHECK(exemplar.match[0].at(x, y)[3] == Approx(2.0f * stored(x, y, 0)).margin(1e-5));
+  REQUIRE(exemplar.maps.contains("height"));
+  CHECK(exemplar.maps.at("height").channels == 1);
+
+  const std::filesystem::path other = folder.path / "other.png";
+  const auto output = OIIO::ImageOutput::create(other.string());
+  REQUIRE(output->open(other.string(), OIIO::ImageSpec(20, 30, 1, TypeDesc::UINT8)));
+  REQUIRE(output->write_image(TypeDesc::FLOAT, std::vector<float>(600, 0.5f).data()));
+  REQUIRE(output->close());
+  options.guidance = other;
+  CHECK_THROWS_WITH(loadExemplar(options, synthesis, 2),
+                    Contains("other.png has 20 x 30 pixels, and its exemplar") && Contains("43 x 37"));
 }

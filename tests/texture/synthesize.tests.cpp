@@ -52,7 +52,8 @@ Carried carriedFrom(const TexturedSurface& last) {
 
 Surface surfaceOf(const TexturedSurface& last) {
   Surface surface;
-  surface.levels.push_back({last.spacing, last.positions, last.normals, last.triangles, last.orientation, {}});
+  surface.levels.push_back(
+      {last.spacing, last.positions, last.normals, last.triangles, last.orientation, {}, {}});
   return surface;
 }
 

@@ -43,10 +43,10 @@ TEST_CASE("PLY: has the properties of docs/formats.md in their order, and the by
     names.push_back(name);
     stride += type == "uchar" ? 1 : 4;
   }
-  CHECK(names == std::vector<std::string>{"x",     "y",    "z",       "nx",    "ny", "nz", "red",
-                                          "green", "blue", "alpha",   "s",     "t",  "dx", "dy",
-                                          "dz",    "bx",   "by",      "bz",    "vx", "vy", "vz",
-                                          "trust", "age",  "contact", "height"});
+  CHECK(names == std::vector<std::string>{"x",     "y",    "z",       "nx",     "ny",     "nz",   "red",
+                                          "green", "blue", "alpha",   "s",      "t",      "dx",   "dy",
+                                          "dz",    "bx",   "by",      "bz",     "vx",     "vy",   "vz",
+                                          "trust", "age",  "contact", "fade_s", "fade_t", "fade", "height"});
   REQUIRE(bytes.size() == body + 4 * stride + 4 * 13);
 
   // Vertex 1 of the sample: at (1, 0, 0), linear grey 0.5 with alpha 0.25, texel (3, 1) of 8 x 4.
@@ -56,7 +56,11 @@ TEST_CASE("PLY: has the properties of docs/formats.md in their order, and the by
   CHECK(int(valueAt<std::uint8_t>(bytes, vertex + 27)) == 64);
   CHECK(valueAt<float>(bytes, vertex + 28) == Approx(3.5 / 8));
   CHECK(valueAt<float>(bytes, vertex + 32) == Approx(1.5 / 4));
-  CHECK(int(valueAt<std::uint8_t>(bytes, vertex + stride - 5)) == 1);  // contact
+  CHECK(int(valueAt<std::uint8_t>(bytes, vertex + stride - 17)) == 1);  // contact
+  CHECK(valueAt<float>(bytes, vertex + stride - 16) ==
+        Approx(1.5 / 8));  // the place that fades: texel (1, 2)
+  CHECK(valueAt<float>(bytes, vertex + stride - 12) == Approx(2.5 / 4));
+  CHECK(valueAt<float>(bytes, vertex + stride - 8) == 0.3f);
   CHECK(valueAt<float>(bytes, vertex + stride - 4) == 11.0f);          // height
   const std::size_t face = body + 4 * stride;
   CHECK(int(valueAt<std::uint8_t>(bytes, face)) == 3);
@@ -105,6 +109,11 @@ TEST_CASE("PLY: what was written is read back, to the file's own steps", "[tools
   CHECK(back.age == surface.age);
   CHECK(back.contact == surface.contact);
   CHECK((back.exemplarWidth == 8 && back.exemplarHeight == 4));
+  CHECK(back.maps == surface.maps);
+  CHECK(back.fading.weight == surface.fading.weight);
+  for (std::size_t v = 0; v < 4; ++v)
+    if (surface.fading.weight[v] > 0.0f)
+      CHECK((back.fading.coordinate[v] - surface.fading.coordinate[v]).length() < 1e-5f);
   for (std::size_t v = 0; v < 4; ++v) {
     CHECK(back.coordinate[v].x() == Approx(surface.coordinate[v].x()).margin(1e-5));
     CHECK(back.coordinate[v].y() == Approx(surface.coordinate[v].y()).margin(1e-5));

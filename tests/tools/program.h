@@ -26,12 +26,14 @@ class Program {
   explicit Program(const std::vector<std::string>& args, const std::filesystem::path& from = {},
                    const std::filesystem::path& path = {}) {
     const std::string searched = path.empty() ? "" : path.string() + ":" + std::getenv("PATH");
+    const std::string cache = (m_scratch.path / "cache").string();
     m_child = fork();
     if (m_child != 0) return;
     redirect(STDOUT_FILENO, m_scratch.path / "out");
     redirect(STDERR_FILENO, m_scratch.path / "err");
     if (!from.empty() && chdir(from.c_str()) != 0) _exit(126);
     if (!path.empty()) setenv("PATH", searched.c_str(), 1);
+    setenv("XDG_CACHE_HOME", cache.c_str(), 1);
     std::vector<char*> argv{const_cast<char*>(FLUIDTEX_PROGRAM)};
     for (const std::string& arg : args) argv.push_back(const_cast<char*>(arg.c_str()));
     argv.push_back(nullptr);

@@ -1,6 +1,7 @@
 #include "tools/texture_scale.h"
 
 #include "tests/scratch.h"
+#include "tools/scalars.h"
 
 #include <catch2/catch.hpp>
 
@@ -11,7 +12,7 @@ using texture::Vec3f;
 
 namespace {
 
-scenes::Scene sceneWith(ScaleBy by, const std::vector<texture::ScalePoint>& points) {
+scenes::Scene sceneWith(ScaleBy by, const std::vector<texture::CurvePoint>& points) {
   scenes::Scene scene;
   scene.texture.scale.by = by;
   scene.texture.scale.points = points;
@@ -21,14 +22,14 @@ scenes::Scene sceneWith(ScaleBy by, const std::vector<texture::ScalePoint>& poin
 }  // namespace
 
 TEST_CASE("texture scale: a map is linear between its points and constant beyond") {
-  const std::vector<texture::ScalePoint> points{{1.0, 0.5}, {2.0, 1.5}, {4.0, 1.0}};
-  CHECK(factorAt(points, -3.0) == 0.5);
-  CHECK(factorAt(points, 1.0) == 0.5);
-  CHECK(factorAt(points, 1.5) == Approx(1.0));
-  CHECK(factorAt(points, 2.0) == Approx(1.5));
-  CHECK(factorAt(points, 3.0) == Approx(1.25));
-  CHECK(factorAt(points, 9.0) == 1.0);
-  CHECK(factorAt({{7.0, 2.0}}, 0.0) == 2.0);
+  const std::vector<texture::CurvePoint> points{{1.0, 0.5}, {2.0, 1.5}, {4.0, 1.0}};
+  CHECK(curveAt(points, -3.0) == 0.5);
+  CHECK(curveAt(points, 1.0) == 0.5);
+  CHECK(curveAt(points, 1.5) == Approx(1.0));
+  CHECK(curveAt(points, 2.0) == Approx(1.5));
+  CHECK(curveAt(points, 3.0) == Approx(1.25));
+  CHECK(curveAt(points, 9.0) == 1.0);
+  CHECK(curveAt({{7.0, 2.0}}, 0.0) == 2.0);
 }
 
 TEST_CASE("texture scale: by nothing, by height, by the distance from the nearest shape, by temperature") {

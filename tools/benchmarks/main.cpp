@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
   registerMemory();
   registerScaling();
   registerSurface();
+  registerSynthesis();
   registerTransport();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

@@ -41,6 +41,7 @@ void registerPressure();
 void registerMemory();
 void registerScaling();
 void registerSurface();
+void registerSynthesis();
 void registerTransport();
 
 }  // namespace fluidtex::benchmarks

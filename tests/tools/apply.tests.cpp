@@ -1,0 +1,134 @@
+// fluidtex apply: further maps on a finished run.
+#include "tests/tools/program.h"
+#include "tools/errors.h"
+#include "tools/ply.h"
+
+#include <OpenImageIO/imageio.h>
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+namespace fs = std::filesystem;
+using namespace fluidtex;
+
+namespace {
+
+// Bright in the middle, dark at the edges, where a toroidal exemplar leads over: `channels` of 8 bits each.
+void writeImage(const fs::path& file, int size, int channels) {
+  std::vector<std::uint8_t> pixels;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x)
+      for (int c = 0; c < channels; ++c)
+        pixels.push_back(std::uint8_t(std::lround(255.0 * std::sin(M_PI * (x + 0.5) / size) *
+                                                  std::sin(M_PI * (y + 0.5) / size) / (c + 1))));
+  const auto out = OIIO::ImageOutput::create(file.string());
+  REQUIRE(out);
+  REQUIRE(out->open(file.string(), OIIO::ImageSpec(size, size, channels, OIIO::TypeDesc::UINT8)));
+  REQUIRE(out->write_image(OIIO::TypeDesc::UINT8, pixels.data()));
+  out->close();
+}
+
+texture::TexturedSurface surfaceOf(const fs::path& out, int frame) {
+  return tools::readPly(out / "surface" / ("000" + std::to_string(frame) + ".ply"), 256, 256);
+}
+
+}  // namespace
+
+TEST_CASE("fluidtex apply: later gives what the run itself would have written, in any resolution",
+          "[tools][slow]") {
+  const Scratch scratch;
+  const fs::path with = scratch.path / "with", after = scratch.path / "after";
+  writeImage(scratch.path / "shade.png", 256, 1);
+  writeImage(scratch.path / "fine.png", 1024, 3);
+  const auto run = [&](const fs::path& out, const std::vector<std::string>& more) {
+    std::vector<std::string> args{"run",      kSmallScene, "--out",      out.string(),
+                                  "--frames", "1:3",       "--no-render"};
+    args.insert(args.end(), more.begin(), more.end());
+    const Finished done = runProgram(args);
+    INFO(done.err);
+    REQUIRE(done.exitCode == 0);
+  };
+  run(with, {"--set", "texture.map=[{ name = 'shade', file = '" + (scratch.path / "shade.png").string() +
+                          "' }, { name = 'fine', file = '" + (scratch.path / "fine.png").string() + "' }]"});
+  run(after, {});
+  const std::string exemplar = FLUIDTEX_SOURCE "/scenes/exemplars/green_scales.png";
+  const Finished done = runProgram({"apply", after.string(), "shade=" + (scratch.path / "shade.png").string(),
+                                    "fine=" + (scratch.path / "fine.png").string(), "color=" + exemplar});
+  INFO(done.err);
+  REQUIRE(done.exitCode == 0);
+  for (int frame = 1; frame <= 3; ++frame) {
+    const texture::TexturedSurface a = surfaceOf(with, frame), b = surfaceOf(after, frame);
+    CHECK(a.positions == b.positions);
+    CHECK(a.triangles == b.triangles);
+    REQUIRE(a.maps.size() == 4);
+    REQUIRE(b.maps.size() == 4);
+    for (const char* name : {"shade", "fine_red", "fine_green", "fine_blue"}) {
+      const std::vector<float>&here = a.maps.at(name), &there = b.maps.at(name);
+      REQUIRE(here.size() == there.size());
+      double difference = 0.0, mean = 0.0, most = 0.0;
+      for (std::size_t v = 0; v < here.size(); ++v) {
+        difference = std::max(difference, double(std::abs(here[v] - there[v])));
+        mean += double(here[v]) / double(here.size());
+        most = std::max(most, double(here[v]));
+      }
+      CHECK(difference < 1e-3);
+      CHECK(most > mean + 0.1);
+    }
+    // The colours were looked up in the same image.
+    for (std::size_t v = 0; v < a.color.size(); ++v)
+      for (int c = 0; c < 3; ++c) CHECK(std::abs(a.color[v][c] - b.color[v][c]) < 0.02f);
+  }
+}
+
+TEST_CASE("fluidtex apply: what is no map is refused in one sentence", "[tools]") {
+  const Scratch scratch;
+  const auto refused = [&](const std::string& map, const std::string& why) {
+    const Finished done = runProgram({"apply", scratch.path.string(), map});
+    CHECK(done.exitCode == 1);
+    CHECK_THAT(done.err, Catch::StartsWith("error: ") && Catch::Contains(why));
+    CHECK(std::count(done.err.begin(), done.err.end(), '\n') == 1);
+  };
+  refused("height", "is no map; write NAME=FILE");
+  refused("=a.png", "is no map; write NAME=FILE");
+  refused("a b=a.png", "a b: cannot be the name of a vertex's property");
+  refused("trust=a.png", "trust: is what every vertex has anyway");
+  refused("height=a.png", "run.json: cannot be read");
+}
+
+TEST_CASE("fluidtex render: shows what the run has shown, and other colours once they are applied",
+          "[tools][slow]") {
+  const Scratch scratch;
+  const fs::path out = scratch.path / "out", again = scratch.path / "again";
+  const auto well = [](const std::vector<std::string>& args) {
+    const Finished done = runProgram(args);
+    INFO(done.err);
+    REQUIRE(done.exitCode == 0);
+  };
+  const auto picture = [](const fs::path& folder) {
+    const auto in = OIIO::ImageInput::open((folder / "frames" / "0002.png").string());
+    REQUIRE(in);
+    std::vector<std::uint8_t> pixels(std::size_t(in->spec().width) * std::size_t(in->spec().height) * 3);
+    REQUIRE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, pixels.data()));
+    return pixels;
+  };
+  const auto difference = [](const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+    REQUIRE(a.size() == b.size());
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(int(a[i]) - int(b[i])) / double(a.size());
+    return sum;
+  };
+  well({"run", kSmallScene, "--out", out.string(), "--frames", "1:2"});
+  well({"render", kSmallScene, "--from", out.string(), "--out", again.string(), "--frames", "1:2"});
+  CHECK(fs::exists(again / "small.mp4"));
+  const std::vector<std::uint8_t> before = picture(out), same = picture(again);
+  CHECK(difference(before, same) < 0.5);  // colours went through eight bits
+  writeImage(scratch.path / "grey.png", 64, 1);
+  well({"apply", out.string(), "color=" + (scratch.path / "grey.png").string()});
+  well({"render", kSmallScene, "--from", out.string(), "--out", again.string(), "--frames", "1:2"});
+  CHECK(difference(before, picture(again)) > 2.0);
+
+  const Finished missing =
+      runProgram({"render", kSmallScene, "--from", out.string(), "--out", again.string(), "--frames", "1:3"});
+  CHECK(missing.exitCode == 1);
+  CHECK_THAT(missing.err, Catch::Contains("0003.ply: is not there"));
+}

@@ -1,0 +1,29 @@
+// Further maps of an exemplar (height, roughness, its colours in another resolution): numbers that lie over
+// the same picture, looked up by the exemplar coordinates that synthesis has found. They can be applied to
+// any surface that has those, whenever.
+#pragma once
+
+#include "texture/exemplar.h"
+
+#include <string>
+#include <vector>
+
+namespace fluidtex::texture {
+
+// A map as it is looked up at vertices, which lie a pixel of the exemplar apart: reduced by halves until it
+// is less than twice as wide as the exemplar.
+Image vertexMap(Image map, int exemplarWidth, bool toroidal);
+
+// The names under which a map of so many channels is kept: its own, or name_red, name_green and name_blue for
+// three.
+std::vector<std::string> mapNames(const std::string& name, int channels);
+
+// Fills surface.maps under these names, whatever the map's size: where a vertex still shows its former place
+// too, with both, mixed by what is left of it. Throws std::invalid_argument if the map is empty or the surface
+// does not know the size of its exemplar.
+void lookUpMap(const std::string& name, const Image& map, bool toroidal, TexturedSurface& surface);
+
+// Looks surface.color up anew, in colours of any size. Throws as lookUpMap().
+void lookUpColor(const Image& color, bool toroidal, TexturedSurface& surface);
+
+}  // namespace fluidtex::texture

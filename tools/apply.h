@@ -1,0 +1,25 @@
+// Further maps on the surfaces of a finished run: what `fluidtex apply` does.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fluidtex::tools {
+
+struct ApplyWishes {
+  std::filesystem::path out;                                        // the run's folder
+  std::vector<std::pair<std::string, std::filesystem::path>> maps;  // by name; `color` stands for the colours
+  std::filesystem::path exemplar;                                   // empty: the run's own
+};
+
+// Looks the maps up at every vertex of every surface of the run, and writes the surfaces anew with them;
+// nothing is synthesized. Throws UsageError where the folder holds no run, or a name cannot be that of a map,
+// and ExemplarError where an image cannot be read; then nothing has changed.
+void applyMaps(const ApplyWishes& wishes);
+
+// "NAME=FILE". Throws UsageError where it is something else.
+std::pair<std::string, std::filesystem::path> parseMap(const std::string& text);
+
+}  // namespace fluidtex::tools

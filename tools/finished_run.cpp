@@ -1,0 +1,58 @@
+#include "tools/finished_run.h"
+
+#include "render/frame_name.h"
+#include "texture/read_image.h"
+#include "tools/errors.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace fluidtex::tools {
+namespace fs = std::filesystem;
+namespace {
+
+Json readReport(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw UsageError(file.string() + ": cannot be read; give the folder of a run of fluidtex run");
+  Json report = Json::parse(std::string{std::istreambuf_iterator<char>(in), {}}, nullptr, false);
+  if (report.is_discarded() || !report.contains("/scene/texture"_json_pointer) ||
+      !report.contains("frames") || !report["frames"].is_array())
+    throw UsageError(file.string() + ": is no report of a run; give the folder of a run of fluidtex run");
+  return report;
+}
+
+std::vector<int> framesIn(const fs::path& folder) {
+  std::vector<int> frames;
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(folder, missing))
+    if (entry.path().extension() == ".ply")
+      if (const auto frame = render::frameNumber(entry.path().stem().string())) frames.push_back(*frame);
+  std::sort(frames.begin(), frames.end());
+  if (frames.empty())
+    throw UsageError(folder.string() + ": holds no surface; give the folder of a run of fluidtex run");
+  return frames;
+}
+
+}  // namespace
+
+fs::path FinishedRun::surfaceOf(int frame) const {
+  return out / "surface" / (render::frameName(frame) + ".ply");
+}
+
+FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
+  FinishedRun run{out, readReport(out / "run.json"), exemplar, {}, false, {}};
+  const Json& texture = run.report["scene"]["texture"];
+  if (exemplar.empty()) run.exemplar = fs::path(texture.value("exemplar", ""));
+  if (!fs::exists(run.exemplar))
+    throw UsageError(fmt::format("{}: the exemplar of the run is not there; give --exemplar IMAGE",
+                                 run.exemplar.string()));
+  run.toroidal = texture.value("toroidal", false);
+  run.color = texture::readImage(run.exemplar);
+  run.frames = framesIn(out / "surface");
+  return run;
+}
+
+}  // namespace fluidtex::tools

@@ -1,0 +1,26 @@
+// What fluidtex run has left in a folder, for commands that work on it afterwards.
+#pragma once
+
+#include "texture/exemplar.h"
+#include "tools/report.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace fluidtex::tools {
+
+struct FinishedRun {
+  std::filesystem::path out;
+  Json report;                     // run.json
+  std::filesystem::path exemplar;  // the image's name
+  texture::Image color;            // and its pixels, linear RGBA
+  bool toroidal = false;
+  std::vector<int> frames;  // whose surface is there, ascending; never none
+  std::filesystem::path surfaceOf(int frame) const;
+};
+
+// `exemplar`: instead of the run's own, where that is no longer at its place; else empty. Throws UsageError
+// where the folder holds no run, or its exemplar is gone.
+FinishedRun openRun(const std::filesystem::path& out, const std::filesystem::path& exemplar);
+
+}  // namespace fluidtex::tools

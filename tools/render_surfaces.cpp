@@ -1,0 +1,67 @@
+// fluidtex render SCENE --from DIR: pictures and video of surfaces that are there already.
+#include "render/frame_name.h"
+#include "render/render.h"
+#include "tools/atomic_file.h"
+#include "tools/common_options.h"
+#include "tools/errors.h"
+#include "tools/ply.h"
+#include "tools/visible_solids.h"
+
+#include <fmt/core.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <memory>
+
+namespace fluidtex::tools {
+namespace fs = std::filesystem;
+namespace {
+
+void renderSurfaces(const CommonOptions& options, const fs::path& from) {
+  const scenes::Scene scene = loadScene(options);
+  int first = 1, last = 0;
+  parseFrames(options.frames, scene.frames, first, last);
+  if (last == 0) last = scene.frames;
+  const auto surfaceOf = [&](int frame) { return from / "surface" / (render::frameName(frame) + ".ply"); };
+  for (int frame = first; frame <= last; ++frame)
+    if (!fs::exists(surfaceOf(frame)))
+      throw UsageError(fmt::format("{}: is not there; give --frames of which there are surfaces",
+                                   surfaceOf(frame).string()));
+  const fs::path out = options.out.empty() ? fs::path("out") / scene.name : options.out;
+  const tbb::global_control threads(
+      tbb::global_control::max_allowed_parallelism,
+      std::size_t(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()));
+  VisibleSolids solids(scene.sim);
+  for (int frame = first; frame <= last; ++frame) {
+    // The size of the exemplar does not matter to colours.
+    const texture::TexturedSurface surface = readPly(surfaceOf(frame), 1, 1);
+    const double progress = scene.frames > 1 ? double(frame - 1) / (scene.frames - 1) : 0.0;
+    const render::Picture picture = render::render(surface, solids.at((frame - 1) / scene.sim.frameRate),
+                                                   scene.render, {scene.sim.size, progress, frame});
+    writeAtomically(out / "frames" / (render::frameName(frame) + ".png"),
+                    [&](const fs::path& file) { writePng(picture, file); });
+    if (!options.quiet) fmt::print(stderr, "frame {}\n", frame);
+  }
+  writeAtomically(out / (scene.name + ".mp4"), [&](const fs::path& file) {
+    render::writeVideo(out / "frames", first, last, scene.sim.frameRate, file);
+  });
+}
+
+}  // namespace
+
+void addRender(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand("render", "Render the surfaces of a finished run anew");
+  auto options = std::make_shared<CommonOptions>();
+  auto from = std::make_shared<fs::path>();
+  addSceneOptions(*command, *options);
+  command->add_option("--from", *from, "Folder of the run whose surfaces are rendered")
+      ->required()
+      ->type_name("DIR");
+  command->footer(
+      "Example:\n  fluidtex render scenes/dam_break.toml --from out/dam_break --out out/closer --set "
+      "camera.fov=15");
+  command->callback(
+      [options, from, &exitCode] { exitCode = guarded([&] { renderSurfaces(*options, *from); }); });
+}
+
+}  // namespace fluidtex::tools

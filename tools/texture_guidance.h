@@ -1,0 +1,27 @@
+// What a scene lets steer its texture, in terms of one frame's motion.
+#pragma once
+
+#include "scenes/scene.h"
+#include "sim/frame.h"
+#include "texture/surface.h"
+
+#include <openvdb/openvdb.h>
+
+namespace fluidtex::tools {
+
+struct TextureGuidance {
+  texture::GuidanceOptions options;
+  openvdb::FloatGrid::Ptr field;  // of GuidanceBy::field
+};
+
+// Reads the scene's painted volume, where it has one. Throws std::runtime_error that names the file and what
+// is wrong.
+TextureGuidance textureGuidance(const scenes::Scene& scene);
+
+// Gives every level of the surface the guidance that is wanted on it (SurfaceMesh::guidance); none where the
+// scene has none. What moves the surface is not known in the first frame: speed and vorticity are 0 there.
+// Ages are those of level 0; coarser levels stand for surface that has just come to light.
+void guide(const TextureGuidance& guidance, const sim::Frame& frame, const texture::Carried& carried,
+           texture::Surface& surface);
+
+}  // namespace fluidtex::tools
