@@ -197,6 +197,7 @@ void describeTexture(Visitor& visitor, Scene& scene) {
         visitor.number("keep_stretch", synthesis.keepStretch, {.low = 1.0});
         visitor.number("renewal_radius", synthesis.renewalRadius, {.low = 4.0, .high = 1000.0});
         visitor.number("renewal_rate", synthesis.renewalRate, kNotNegative);
+        visitor.number("look_ahead", synthesis.lookAhead, kNotNegative);
         visitor.number("fade", synthesis.fade, kNotNegative);
         visitor.table("surface", [&] {
           choice(visitor, "points", texture.surface.points, {"seeds", "random"});

@@ -20,6 +20,10 @@ struct Image {
 // Bilinear, texel centres at integers; outside it is clamped, or wrapped where `toroidal`. Writes image.channels values.
 void sampleBilinear(const Image& image, bool toroidal, const Vec2f& texel, float* out);
 
+// The same by Catmull and Rom's cubics over 4 x 4 texels, held between the values of the four nearest: half-way between
+// texels bilinear interpolation loses half of the finest detail, this a fifth, and it does not ring.
+void sampleCubic(const Image& image, bool toroidal, const Vec2f& texel, float* out);
+
 struct Exemplar {
   bool toroidal = false;
   // Linear RGBA at full size, straight alpha; what the colour of a vertex is looked up in.

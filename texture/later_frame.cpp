@@ -5,15 +5,17 @@
 #include "texture/fresh.h"
 #include "texture/fresh_start.h"
 #include "texture/guidance.h"
+#include "texture/look_ahead.h"
 #include "texture/parallel.h"
 #include "texture/renewal.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fluidtex::texture {
 namespace {
 
-// Around what is renewed, this many rings may change with it, so that seams find a place.
+// Around discs, this many rings may change with them, so that seams find a place.
 constexpr int kRim = 5;
 // How near joined labels stay to the last average.
 constexpr float kData = 0.4f;
@@ -98,32 +100,47 @@ void startFromNothing(Synthesizer& synthesizer, const Surface& surface, const Me
 
 }  // namespace
 
-LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, const MeshView& view,
+LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, const MeshView& now,
                            const Carried& carried, int frame, double secondsSinceLast, SynthesisStats& stats,
                            const Progress& progress) {
   const SynthesisOptions& options = synthesizer.options;
   const SearchTables& tables = *synthesizer.tables;
   const TexelImage& image = tables.image.front();
-  const SeamModel seams = seamModel(synthesizer, view, 0);
-  const Labels before = labelsOf(view.mesh, carried.coordinate, carried.gradient);
-  const Wear wear = wearAround(seams, before, carried.trust);
-  LaterFrame result{before, std::vector<std::uint8_t>(before.size(), 0), std::vector<float>(before.size())};
-  forEachIndex(before.size(), [&](std::uint32_t v) {
+  const Labels carriedLabels = labelsOf(now.mesh, carried.coordinate, carried.gradient);
+  const Wear wear = wearAround(seamModel(synthesizer, now, 0), carriedLabels, carried.trust);
+  const std::size_t count = carriedLabels.size();
+  LaterFrame result{carriedLabels, std::vector<std::uint8_t>(count, 0), std::vector<float>(count)};
+  forEachIndex(count, [&](std::uint32_t v) {
     result.fadingSpeed[v] = fadingSpeed(wear.stretch[v], carried.age[v], options.keepStretch, options.fade);
   });
 
+  // From here on the surface is that of a while ahead, and labels are what they will be there.
+  const std::vector<Strain> ahead =
+      strainAhead(now, carried.previousPosition, carried.trust, secondsSinceLast, options.lookAhead,
+                  std::log(options.keepStretch));
+  const Connection connection = strained(now, ahead);
+  const MeshView view{now.mesh, now.graph, connection, now.pixel, now.members};
+  const SeamModel seams = seamModel(synthesizer, view, 0);
+  const Labels before = strained(carriedLabels, ahead);
+
   const DiscOptions discOptions{options.keepStretch, options.renewalRadius,
                                 options.renewalRate * secondsSinceLast};
-  Level level{view, image, tables.histogram.front(), {}, lostLabels(seams, before, carried.trust)};
   const std::vector<Disc> discs =
-      worstDiscs(seams, before, wear, carried.trust, carried.fading.weight, discOptions, options.seed);
+      worstDiscs(seams, carriedLabels, wear, carried.trust, carried.fading.weight, discOptions, options.seed);
+  std::vector<std::uint8_t> inDiscs(count, 0);
   for (const Disc& disc : discs)
-    for (const std::uint32_t v : disc.members) level.wanted[v] = 1;
+    for (const std::uint32_t v : disc.members) inDiscs[v] = 1;
+  const std::vector<std::uint8_t> lost = lostLabels(seams, before, carried.trust);
   const std::vector<std::uint8_t> large = searched(synthesizer, view.graph);
-  const auto leaveDroplets = [&] {
-    for (std::size_t v = 0; v < large.size(); ++v) level.wanted[v] &= large[v];
+  // Droplets too small for texture stay as they are; so does what still fades, or it would jump.
+  const auto wantedAmong = [&](std::vector<std::uint8_t> wanted) {
+    for (std::size_t v = 0; v < count; ++v) {
+      const bool young = carried.fading.weight[v] > 0.0f && believed(carried.trust[v]);
+      wanted[v] = (wanted[v] || lost[v]) && (large.empty() || large[v]) && !young;
+    }
+    return wanted;
   };
-  leaveDroplets();
+  Level level{view, image, tables.histogram.front(), {}, wantedAmong(inDiscs)};
   if (!any(level.wanted)) return result;
 
   State state;
@@ -134,14 +151,14 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   startFromNothing(synthesizer, surface, view, carried.trust, frame, state.labels, stats);
   if (tables.image.size() > 1) layOut(synthesizer, view, level.wanted, frame, state.labels, stats, progress);
   state.value = lookUp(image, state.labels);
-  level.wanted = grown(view.graph, level.wanted, kRim);
-  leaveDroplets();
+  level.wanted = wantedAmong(grown(view.graph, inDiscs, kRim));
   const std::size_t windows = windowsOf(synthesizer, 0).size();
   runPasses(synthesizer, level,
             {0, frame, options.laterIterations, 1, false, windows > 1 ? std::size_t(1) : 0}, state, stats,
             progress);
   joinLabels(seams, state, kData, level.wanted, &before, keyOf(synthesizer, frame, 0, 1), state.labels);
-  result.labels = settle(seams, before, state.labels, carried.trust, result.renewed);
+  result.labels =
+      unstrained(settle(seams, before, state.labels, carried.trust, result.renewed), ahead);
   return result;
 }
 

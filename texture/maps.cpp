@@ -2,6 +2,7 @@
 
 #include "texture/channels.h"
 #include "texture/parallel.h"
+#include "texture/shown_color.h"
 
 namespace fluidtex::texture {
 namespace {
@@ -63,29 +64,18 @@ void lookUpMap(const std::string& name, const Image& map, bool toroidal, Texture
   });
 }
 
-Vec4f shownColor(const Image& color, bool toroidal, const Vec2f& present, const Vec2f& former, float weight) {
-  const auto at = [&](const Vec2f& texel) {
-    Vec4f result;
-    sampleBilinear(color, toroidal, texel, result.asPointer());
-    return result;
-  };
-  const Vec4f now = at(present);
-  if (weight == 0.0f) return now;
-  const Vec4f old = at(former);
-  const float a = (1.0f - weight) * now[3], b = weight * old[3], alpha = a + b;
-  if (!(alpha > 1e-6f)) return now;
-  return {(a * now[0] + b * old[0]) / alpha, (a * now[1] + b * old[1]) / alpha,
-          (a * now[2] + b * old[2]) / alpha, alpha};
-}
-
 void lookUpColor(const Image& color, bool toroidal, TexturedSurface& surface) {
   const ToImage toColor(surface, color);
   if (color.channels != 4) throw std::invalid_argument("lookUpColor: colours must be RGBA");
+  Exemplar shown;
+  shown.toroidal = toroidal;
+  shown.color = color;
+  const Image around = meansAround(shown);
   surface.color.resize(surface.positions.size());
   forEachIndex(surface.color.size(), [&](std::uint32_t v) {
     const float weight = leftOf(surface.fading, v);
     const Vec2f former = weight > 0.0f ? toColor(surface.fading.coordinate[v]) : Vec2f(0.0f);
-    surface.color[v] = shownColor(color, toroidal, toColor(surface.coordinate[v]), former, weight);
+    surface.color[v] = shownColor(shown, around, toColor(surface.coordinate[v]), former, weight);
   });
 }
 

@@ -19,15 +19,11 @@ Image vertexMap(Image map, int exemplarWidth, bool toroidal);
 std::vector<std::string> mapNames(const std::string& name, int channels);
 
 // Fills surface.maps under these names, whatever the map's size: where a vertex still shows its former place
-// too, with both, mixed as its colour is. Throws std::invalid_argument if the map is empty or the surface
+// too, with both, mixed in proportion. Throws std::invalid_argument if the map is empty or the surface
 // does not know the size of its exemplar.
 void lookUpMap(const std::string& name, const Image& map, bool toroidal, TexturedSurface& surface);
 
-// What a vertex shows of colours (linear RGBA): those at its place, mixed with those at the former one, of
-// which so much is left, premultiplied.
-Vec4f shownColor(const Image& color, bool toroidal, const Vec2f& present, const Vec2f& former, float weight);
-
-// Looks surface.color up anew, in colours of any size. Throws as lookUpMap().
+// Looks surface.color up anew (texture/shown_color.h), in colours of any size, linear RGBA. Throws as lookUpMap().
 void lookUpColor(const Image& color, bool toroidal, TexturedSurface& surface);
 
 }  // namespace fluidtex::texture

@@ -131,7 +131,7 @@ class Picture {
 
   Vec3f exemplar(const Vec2f& texel) const {
     float linear[4];
-    sampleBilinear(m_color, m_toroidal, texel, linear);
+    sampleCubic(m_color, m_toroidal, texel, linear);
     return {encodeSrgb(linear[0]), encodeSrgb(linear[1]), encodeSrgb(linear[2])};
   }
 

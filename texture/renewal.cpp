@@ -128,8 +128,8 @@ Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<
 }
 
 float fadingSpeed(float logStretch, float age, double keepStretch, double fade) {
-  const double most = double(kUrgent) * std::log(std::max(keepStretch, 1.01));
-  return float(std::max(1.0 / std::max(fade, 1e-3), double(logStretch) / std::max(double(age), 1e-3) / most));
+  const double most = double(kUrgent) * std::log(std::max(keepStretch, 1.01)), least = std::max(fade, 1e-3);
+  return float(std::max(1.0 / least, double(logStretch) / std::max(double(age), least) / most));
 }
 
 std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,
@@ -159,6 +159,7 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
         near[v] = 1;
       continue;
     }
+    std::erase_if(disc.members, young);
     disc.growth = growthOf(labels, trust, disc.members);
     covered += double(disc.members.size());
     for (const std::uint32_t v : surroundings.within(center, double(kDiscsApart) * options.radius))

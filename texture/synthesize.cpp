@@ -7,6 +7,7 @@
 #include "texture/parallel.h"
 #include "texture/plain.h"
 #include "texture/renewal.h"
+#include "texture/shown_color.h"
 #include "texture/srgb.h"
 
 #include <algorithm>
@@ -85,7 +86,8 @@ Fading fadingAfter(const Carried& carried, const LaterFrame& later, double secon
 }  // namespace
 
 Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options, std::filesystem::path cache) {
-  Synthesizer synthesizer{std::move(exemplar), options, std::make_shared<SearchTables>(), std::move(cache)};
+  Synthesizer synthesizer{std::move(exemplar), options, std::make_shared<SearchTables>(), {}, std::move(cache)};
+  synthesizer.around = meansAround(synthesizer.exemplar);
   const int colors = synthesizer.exemplar.colorChannels;
   // Carried colours have no feature channels: the paper's method matches by colour alone, and guidance.
   if (options.method == Method::kwatra07) {
@@ -158,9 +160,8 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
                               : gradientOf(label, mesh.orientation[v], mesh.normals[v], mesh.spacingAt(v));
     if (kept) result.age[v] = carried.age[v] + float(secondsSinceLast);
     if (labels)
-      result.color[v] =
-          shownColor(synthesizer.exemplar.color, synthesizer.exemplar.toroidal, result.coordinate[v],
-                     result.fading.coordinate[v], result.fading.weight[v]);
+      result.color[v] = shownColor(synthesizer.exemplar, synthesizer.around, result.coordinate[v], result.fading.coordinate[v],
+                                   result.fading.weight[v]);
     else
       result.color[v] = decoded(state.value[v], synthesizer.exemplar.colorChannels);
   });

@@ -18,8 +18,8 @@ struct Synthesizer {
   Exemplar exemplar;
   SynthesisOptions options;
   std::shared_ptr<SearchTables> tables;
-  std::filesystem::path
-      cache;  // folder in which search tables are kept from run to run (texture/table_cache.h)
+  Image around;                 // meansAround(exemplar)
+  std::filesystem::path cache;  // where search tables are kept from run to run (texture/table_cache.h)
 };
 
 // Throws std::invalid_argument if no window fits the exemplar, or options.windows is empty. cache: empty for

@@ -160,11 +160,13 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
     carried.coordinate[v] = texel.coordinate;
     carried.gradient[v] = texel.gradient;
     const texture::Fading& fading = previous.fading;
-    const Texel former = texelAt(previous, fading.coordinate, fading.gradient, landing, map, normal);
-    carried.fading.coordinate[v] = former.coordinate;
-    carried.fading.gradient[v] = former.gradient;
-    carried.fading.weight[v] = fading.weight[landing.corners[landing.nearest]];
-    carried.fading.speed[v] = fading.speed[landing.corners[landing.nearest]];
+    if (const std::uint32_t corner = landing.nearestVertex(); fading.weight[corner] > 0.0f) {
+      const Texel former = texelAt(previous, fading.coordinate, fading.gradient, landing, map, normal);
+      carried.fading.coordinate[v] = former.coordinate;
+      carried.fading.gradient[v] = former.gradient;
+      carried.fading.weight[v] = fading.weight[corner];
+      carried.fading.speed[v] = fading.speed[corner];
+    }
     carried.color[v] = colorAt(previous, landing);
     carried.age[v] = valueAt(previous.age, landing);
     const Vec3f direction = source.direction(landing);

@@ -10,6 +10,9 @@ namespace {
 
 using openvdb::Coord;
 
+// Of a triangle's size: what rounding may cost where triangles are ruled out, so that none is that would tie.
+constexpr float kSlack = 2e-3f;
+
 std::size_t hashOf(const Coord& c) {
   std::uint64_t h = std::uint32_t(c.x()) * 0x9e3779b97f4a7c15u;
   h = (h ^ std::uint32_t(c.y())) * 0xbf58476d1ce4e5b9u;
@@ -53,13 +56,13 @@ struct ClosestPoint::Search {
   Vec3d x;
   Vec3f normal;
   float penalty2;
-  float score = std::numeric_limits<float>::infinity();
+  float score = std::numeric_limits<float>::infinity(), reach = score;  // reach^2 = score
   std::uint32_t triangle = 0;
   Vec3f weight{1.0f, 0.0f, 0.0f};
 };
 
 ClosestPoint::ClosestPoint(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles)
-    : m_positions(positions), m_triangles(triangles), m_normals(triangles.size()), m_table(64) {
+    : m_positions(positions), m_triangles(triangles), m_bounds(triangles.size()), m_table(64) {
   double sum = 0.0, longest = 0.0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Vec3f a = positions[triangles[t][0]], ab = positions[triangles[t][1]] - a,
@@ -68,10 +71,14 @@ ClosestPoint::ClosestPoint(const std::vector<Vec3f>& positions, const std::vecto
     sum += edge;
     longest = std::max(longest, edge);
     Vec3f n = ab.cross(ac);
-    m_normals[t] = n.normalize(0.0f) ? n : Vec3f(0.0f);
+    if (!n.normalize(0.0f)) continue;
+    const Vec3f middle = (ab + ac) / 3.0f;
+    const float radius2 = std::max({middle.lengthSqr(), (ab - middle).lengthSqr(), (ac - middle).lengthSqr()});
+    m_bounds[t] = {a + middle, (1.0f + kSlack) * std::sqrt(radius2), n};
   }
   // The second bound keeps one huge triangle among small ones from filling millions of cells.
-  m_cellSize = std::max({1.6 * sum / double(triangles.size()), longest / 32.0, 1e-30});
+  m_cellSize = std::max({1.3 * sum / double(triangles.size()), longest / 32.0, 1e-30});
+  m_cellsPerMetre = 1.0 / m_cellSize;
 
   Block* block = nullptr;
   const auto at = [&](const Coord& cell) -> std::uint32_t& {
@@ -96,7 +103,7 @@ ClosestPoint::ClosestPoint(const std::vector<Vec3f>& positions, const std::vecto
 
 openvdb::Coord ClosestPoint::cellOf(const Vec3d& x) const {
   // Far outside all cells the number of the cell no longer matters, only that it exists.
-  const auto part = [&](double value) { return int(std::clamp(std::floor(value / m_cellSize), -1e9, 1e9)); };
+  const auto part = [&](double value) { return int(std::clamp(std::floor(value * m_cellsPerMetre), -1e9, 1e9)); };
   return {part(x.x()), part(x.y()), part(x.z())};
 }
 
@@ -130,7 +137,7 @@ ClosestPoint::Block& ClosestPoint::makeBlock(const Coord& origin) {
 template <typename Visit>
 void ClosestPoint::forEachCell(std::uint32_t triangle, const Visit& visit) const {
   // Without area: its points are on the edges of its neighbours.
-  if (m_normals[triangle] == Vec3f(0.0f)) return;
+  if (m_bounds[triangle].radius < 0.0f) return;
   const Vec3I& t = m_triangles[triangle];
   const Vec3f &a = m_positions[t[0]], &b = m_positions[t[1]], &c = m_positions[t[2]];
   const Coord lower = cellOf(Vec3d(openvdb::math::minComponent(openvdb::math::minComponent(a, b), c)));
@@ -154,21 +161,23 @@ double ClosestPoint::squaredDistance(const Vec3d& x, const Coord& lower, int cel
 }
 
 void ClosestPoint::visitTriangle(std::uint32_t triangle, Search& search) const {
-  const Vec3f& n = m_normals[triangle];
-  const float disagreement = std::clamp((0.5f - n.dot(search.normal)) / 1.5f, 0.0f, 1.0f);
+  const Bounds& bounds = m_bounds[triangle];
+  const Vec3f fromCenter(search.x - Vec3d(bounds.center));
+  const float reach = bounds.radius + search.reach;
+  if (fromCenter.lengthSqr() > reach * reach) return;
+  const float disagreement = std::clamp((0.5f - bounds.normal.dot(search.normal)) / 1.5f, 0.0f, 1.0f);
   const float penalty2 = search.penalty2 * disagreement * disagreement;
-  if (penalty2 > search.score) return;
+  const float height = std::max(0.0f, std::abs(bounds.normal.dot(fromCenter)) - kSlack * bounds.radius);
+  if (height * height + penalty2 > search.score) return;
   const Vec3I& t = m_triangles[triangle];
   const Vec3f& a = m_positions[t[0]];
   const Vec3f p(search.x - Vec3d(a));
-  const float height = n.dot(p);
-  // The slack lets a tie through that rounding would cut off.
-  if (0.999f * height * height + penalty2 > search.score) return;
   const Vec3f ab = m_positions[t[1]] - a, ac = m_positions[t[2]] - a;
   const Vec3f weight = closestWeights(p, ab, ac);
   const float score = (p - ab * weight[1] - ac * weight[2]).lengthSqr() + penalty2;
   if (!(score < search.score || (score == search.score && triangle < search.triangle))) return;
   search.score = score;
+  search.reach = std::sqrt(score);
   search.triangle = triangle;
   search.weight = weight;
 }

@@ -39,6 +39,12 @@ class ClosestPoint {
     openvdb::Coord origin;                                         // first cell
     std::array<std::uint32_t, kSide * kSide * kSide + 1> first{};  // into m_entries, by cell
   };
+  // What rules a triangle out before its corners are looked up.
+  struct Bounds {
+    Vec3f center{0.0f};
+    float radius = -1.0f;  // of a ball around its corners, metres; below 0 where it has no area
+    Vec3f normal{0.0f};    // unit
+  };
   struct Search;
 
   openvdb::Coord cellOf(const Vec3d& x) const;
@@ -53,8 +59,8 @@ class ClosestPoint {
 
   const std::vector<Vec3f>& m_positions;
   const std::vector<Vec3I>& m_triangles;
-  double m_cellSize = 0.0;
-  std::vector<Vec3f> m_normals;  // of the triangles, unit; zero where they have no area
+  double m_cellSize = 0.0, m_cellsPerMetre = 0.0;
+  std::vector<Bounds> m_bounds;  // of the triangles
   std::vector<Block> m_blocks;
   std::vector<std::uint32_t> m_table;    // open addressing by block origin: index + 1, 0 where free
   std::vector<std::uint32_t> m_entries;  // triangles by cell, rising within each

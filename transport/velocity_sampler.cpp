@@ -14,15 +14,16 @@ using openvdb::Coord;
 // (y+1, z+1).
 constexpr std::uint64_t kSquare = 0x303;
 
-// Of the trilinear interpolant f between eight values, at t in the cell: d f / d t[axis].
+// How far the corners [4 dx + 2 dy + dz] of a cell lie apart along the axis, and along the other two.
 template <int kAxis>
-double slopeWithin(const std::array<double, 8>& c, const Vec3d& t) {
-  constexpr unsigned kStep = 4u >> kAxis, kFirst = kAxis == 0 ? 2 : 4, kSecond = kAxis == 2 ? 2 : 1;
-  const double a = t[kAxis == 0 ? 1 : 0], b = t[kAxis == 2 ? 1 : 2];
-  const double s00 = c[kStep] - c[0], s01 = c[kStep + kSecond] - c[kSecond];
-  const double s10 = c[kStep + kFirst] - c[kFirst], s11 = c[kStep + kFirst + kSecond] - c[kFirst + kSecond];
-  const double s0 = s00 + b * (s01 - s00), s1 = s10 + b * (s11 - s10);
-  return s0 + a * (s1 - s0);
+struct Corners {
+  static constexpr unsigned kAlong = 4u >> kAxis, kFirst = kAxis == 0 ? 2 : 4, kSecond = kAxis == 2 ? 2 : 1;
+};
+
+// Between four values, [2 dFirst + dSecond].
+inline double bilinear(double v00, double v01, double v10, double v11, double first, double second) {
+  const double v0 = v00 + second * (v01 - v00), v1 = v10 + second * (v11 - v10);
+  return v0 + first * (v1 - v0);
 }
 
 }  // namespace
@@ -57,10 +58,26 @@ VelocitySampler::VelocitySampler(const sim::Substep& substep) {
 
 void VelocitySampler::fetch(Component& component, unsigned which) {
   Leaves& near = component.near;
-  const Coord corner = near.origin + Coord(which & 4 ? 8 : 0, which & 2 ? 8 : 0, which & 1 ? 8 : 0);
+  const Coord corner =
+      near.origin + Coord(8 * (int(which) / 9 - 1), 8 * (int(which) / 3 % 3 - 1), 8 * (int(which) % 3 - 1));
   near.leaf[which] = component.accessor->probeConstLeaf(corner);
   near.values[which] = near.leaf[which] ? near.leaf[which]->buffer().data() : nullptr;
   near.fetched |= 1u << which;
+}
+
+// Whether it is active.
+inline bool VelocitySampler::value(Component& component, unsigned which, unsigned offset, double& result) {
+  Leaves& near = component.near;
+  if (!(near.fetched >> which & 1u)) fetch(component, which);
+  if (const Leaf* leaf = near.leaf[which]) {
+    result = near.values[which][offset];
+    return leaf->valueMask().isOn(offset);
+  }
+  float tile = 0.0f;
+  const Coord middle(int(which) / 9 - 1, int(which) / 3 % 3 - 1, int(which) % 3 - 1);
+  const bool active = component.accessor->probeValue(near.origin + Coord(8 * middle.x(), 8 * middle.y(), 8 * middle.z()) + Leaf::offsetToLocalCoord(offset), tile);
+  result = tile;
+  return active;
 }
 
 unsigned VelocitySampler::valuesAround(Component& component, const Coord& lower,
@@ -73,57 +90,90 @@ unsigned VelocitySampler::valuesAround(Component& component, const Coord& lower,
   }
   const unsigned i = lower.x() & 7, j = lower.y() & 7, k = lower.z() & 7;
   if (i < 7 && j < 7 && k < 7) {
-    if (!(near.fetched & 1u)) fetch(component, 0);
-    if (const Leaf* leaf = near.leaf[0]) {
+    if (!(near.fetched & 1u << 13)) fetch(component, 13);
+    if (const Leaf* leaf = near.leaf[13]) {
       const std::uint64_t square = kSquare << (8 * j + k);
       const bool active = (leaf->valueMask().getWord<std::uint64_t>(i) & square) == square &&
                           (leaf->valueMask().getWord<std::uint64_t>(i + 1) & square) == square;
       if (active) {
-        const float* corner = near.values[0] + (64 * i + 8 * j + k);
+        const float* corner = near.values[13] + (64 * i + 8 * j + k);
         values = {corner[0], corner[1], corner[8], corner[9], corner[64], corner[65], corner[72], corner[73]};
         return 0xffu;
       }
     }
   }
   // Along each axis the upper values lie in the next leaf if the lower ones are the last of theirs.
-  const unsigned crossX = (i + 1) >> 3, crossY = (j + 1) >> 3, crossZ = (k + 1) >> 3;
   const std::array<unsigned, 2> x{64 * i, 64 * ((i + 1) & 7)}, y{8 * j, 8 * ((j + 1) & 7)}, z{k, (k + 1) & 7};
+  const std::array<unsigned, 2> leafX{13, 13 + 9 * ((i + 1) >> 3)}, leafY{0, 3 * ((j + 1) >> 3)},
+      leafZ{0, (k + 1) >> 3};
   unsigned active = 0;
 #pragma GCC unroll 8
   for (unsigned tap = 0; tap < 8; ++tap) {
-    const unsigned dx = tap >> 2, dy = (tap >> 1) & 1, dz = tap & 1;
-    const unsigned which = (dx & crossX) << 2 | (dy & crossY) << 1 | (dz & crossZ);
-    if (!(near.fetched & (1u << which))) fetch(component, which);
-    const unsigned offset = x[dx] + y[dy] + z[dz];
-    if (const Leaf* leaf = near.leaf[which]) {
-      values[tap] = near.values[which][offset];
-      active |= unsigned(leaf->valueMask().isOn(offset)) << tap;
-    } else {
-      float tile = 0.0f;
-      active |= unsigned(component.accessor->probeValue(lower.offsetBy(int(dx), int(dy), int(dz)), tile))
-                << tap;
-      values[tap] = tile;
+    const unsigned dx = tap >> 2, dy = tap >> 1 & 1, dz = tap & 1;
+    const unsigned which = leafX[dx] + leafY[dy] + leafZ[dz], offset = x[dx] + y[dy] + z[dz];
+    active |= unsigned(value(component, which, offset, values[tap])) << tap;
+  }
+  return active;
+}
+
+// The values around in the plane of voxels that lies `step` along the axis, -1 or 2; whether all are active.
+// After valuesAround() of the same voxel.
+template <int kAxis>
+bool VelocitySampler::valuesBeside(Component& component, const Coord& lower, int step,
+                                   std::array<double, 4>& values) {
+  constexpr int kFirst = kAxis == 0 ? 1 : 0, kSecond = kAxis == 2 ? 1 : 2;
+  constexpr std::array<unsigned, 3> kStep{64, 8, 1}, kLeafStep{9, 3, 1};
+  const int along = (lower[kAxis] & 7) + step, first = lower[kFirst] & 7, second = lower[kSecond] & 7;
+  // Into the leaf before, the same, or the one after; a step to either side of it is at most one leaf.
+  const unsigned leaf = 13 + kLeafStep[kAxis] * unsigned(along >> 3), corner = kStep[kAxis] * unsigned(along & 7);
+  bool active = true;
+  if (first < 7 && second < 7) {
+    Leaves& near = component.near;
+    if (!(near.fetched >> leaf & 1u)) fetch(component, leaf);
+    if (const Leaf* own = near.leaf[leaf]) {
+      const unsigned offset = corner + kStep[kFirst] * unsigned(first) + kStep[kSecond] * unsigned(second);
+      const std::array<unsigned, 4> at{offset, offset + kStep[kSecond], offset + kStep[kFirst],
+                                       offset + kStep[kFirst] + kStep[kSecond]};
+#pragma GCC unroll 4
+      for (std::size_t tap = 0; tap < 4; ++tap) {
+        values[tap] = near.values[leaf][at[tap]];
+        active &= own->valueMask().isOn(at[tap]);
+      }
+      return active;
     }
+  }
+#pragma GCC unroll 4
+  for (int tap = 0; tap < 4; ++tap) {
+    const int f = first + (tap >> 1), s = second + (tap & 1);
+    const unsigned which = leaf + kLeafStep[kFirst] * unsigned(f >> 3) + kLeafStep[kSecond] * unsigned(s >> 3);
+    const unsigned offset = corner + kStep[kFirst] * unsigned(f & 7) + kStep[kSecond] * unsigned(s & 7);
+    active &= value(component, which, offset, values[std::size_t(tap)]);
   }
   return active;
 }
 
 // f(t + 1/2) - f(t - 1/2) along each axis: the mean of the slopes of this cell and of the next one, weighted
 // by how far the voxel around t reaches into each. Where the next one is not all known, this cell's own.
-Vec3d VelocitySampler::slopes(Component& component, const Coord& lower, const std::array<double, 8>& values,
+Vec3d VelocitySampler::slopes(Component& component, const Coord& lower, const std::array<double, 8>& c,
                               const Vec3d& t) {
-  Vec3d result(slopeWithin<0>(values, t), slopeWithin<1>(values, t), slopeWithin<2>(values, t));
-  std::array<double, 8> next;
-  const auto blend = [&]<int kAxis>() {
-    const double weight = std::abs(t[kAxis] - 0.5);
-    Coord beside = lower;
-    beside[kAxis] += t[kAxis] < 0.5 ? -1 : 1;
-    if (valuesAround(component, beside, next) != 0xffu) return;
-    result[kAxis] += weight * (slopeWithin<kAxis>(next, t) - result[kAxis]);
+  Vec3d result;
+  const auto along = [&]<int kAxis>() {
+    using At = Corners<kAxis>;
+    const double first = t[kAxis == 0 ? 1 : 0], second = t[kAxis == 2 ? 1 : 2];
+    const double below = bilinear(c[0], c[At::kSecond], c[At::kFirst], c[At::kFirst + At::kSecond], first, second);
+    const double above = bilinear(c[At::kAlong], c[At::kAlong + At::kSecond], c[At::kAlong + At::kFirst],
+                                  c[At::kAlong + At::kFirst + At::kSecond], first, second);
+    result[kAxis] = above - below;
+    const bool down = t[kAxis] < 0.5;
+    std::array<double, 4> beside;
+    if (!valuesBeside<kAxis>(component, lower, down ? -1 : 2, beside)) return;
+    const double next = bilinear(beside[0], beside[1], beside[2], beside[3], first, second);
+    const double slope = down ? below - next : next - above;
+    result[kAxis] += std::abs(t[kAxis] - 0.5) * (slope - result[kAxis]);
   };
-  blend.template operator()<0>();
-  blend.template operator()<1>();
-  blend.template operator()<2>();
+  along.template operator()<0>();
+  along.template operator()<1>();
+  along.template operator()<2>();
   return result;
 }
 

@@ -36,13 +36,12 @@ class VelocitySampler {
 
  private:
   using Leaf = sim::FloatTree::LeafNodeType;
-  // The leaf that holds a position's lower corner, and its seven neighbours in the direction of the upper
-  // one.
+  // A leaf and its 26 neighbours, looked up as they are needed: [9 x + 3 y + z], the middle one is 13.
   struct Leaves {
-    openvdb::Coord origin = openvdb::Coord::max();
-    std::array<const Leaf*, 8> leaf{};
-    std::array<const float*, 8> values{};
-    unsigned fetched = 0;  // bit i: leaf[i] has been looked up
+    openvdb::Coord origin = openvdb::Coord::max();  // of the middle one
+    std::array<const Leaf*, 27> leaf{};
+    std::array<const float*, 27> values{};
+    std::uint32_t fetched = 0;  // bit i: leaf[i] has been looked up
   };
   struct Component {
     sim::FloatGrid::ConstPtr grid;
@@ -52,9 +51,13 @@ class VelocitySampler {
   };
 
   static void fetch(Component& component, unsigned which);
+  static bool value(Component& component, unsigned which, unsigned offset, double& result);
   // The eight values around, [4 dx + 2 dy + dz]; the same bit of the result is set where the value is active.
   static unsigned valuesAround(Component& component, const openvdb::Coord& lower,
                                std::array<double, 8>& values);
+  template <int kAxis>
+  static bool valuesBeside(Component& component, const openvdb::Coord& lower, int step,
+                           std::array<double, 4>& values);
   static Vec3d slopes(Component& component, const openvdb::Coord& lower, const std::array<double, 8>& values,
                       const Vec3d& t);
   template <bool kGradient>

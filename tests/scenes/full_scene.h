@@ -146,6 +146,7 @@ coherence = 0.75
 keep_stretch = 2
 renewal_radius = 20
 renewal_rate = 5
+look_ahead = 0.125
 fade = 0.25
 [texture.surface]
 points = "random"

@@ -171,6 +171,7 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(texture.synthesis.keepStretch == 2.0);
   CHECK(texture.synthesis.renewalRadius == 20.0);
   CHECK(texture.synthesis.renewalRate == 5.0);
+  CHECK(texture.synthesis.lookAhead == 0.125);
   CHECK(texture.synthesis.fade == 0.25);
   CHECK(texture.synthesis.seed == 99);
   CHECK(texture.surface.seed == 99);

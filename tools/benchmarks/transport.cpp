@@ -22,9 +22,8 @@ namespace {
 
 using texture::Vec3f;
 
-constexpr int kSubsteps = 3;
-constexpr double kFrame = 1.0 / 24.0;  // s
-constexpr int kRounds = 3;
+constexpr int kSubsteps = 4;
+constexpr double kFastest = 2.0;  // m/s, of the deformation
 constexpr float kOff = 0.3f;  // how far off the moved points the new ones lie, spacings
 
 struct Problem {
@@ -46,18 +45,20 @@ sim::FloatGrid::Ptr component(const sim::MaskTree& band, double h, int axis, dou
   return grid;
 }
 
-// The velocity of each substep in the cells around the surface, each in grids of its own.
+// The velocity of each substep in the cells around the surface, each in grids of its own. The fastest points
+// move by a cell a substep.
 sim::Frame frameAround(const std::vector<Vec3f>& positions, double h) {
-  constexpr int kBand = 4;  // cells
+  constexpr int kBand = kSubsteps + 4;  // cells
+  const double dt = h / kFastest;
   sim::MaskTree band;
   openvdb::tree::ValueAccessor<sim::MaskTree> mark(band);
   for (const Vec3f& x : positions) mark.setValueOn(openvdb::Coord::floor(openvdb::Vec3d(x) / h));
   openvdb::tools::dilateActiveValues(band, kBand, openvdb::tools::NN_FACE, openvdb::tools::IGNORE_TILES);
   sim::Frame frame;
   frame.index = 2;
-  frame.time = kFrame;
+  frame.time = kSubsteps * dt;
   for (int s = 0; s < kSubsteps; ++s) {
-    const double dt = kFrame / kSubsteps, t = (s + 0.5) * dt;
+    const double t = (s + 0.5) * dt;
     frame.substeps.push_back(
         {dt, component(band, h, 0, t), component(band, h, 1, t), component(band, h, 2, t)});
   }
@@ -100,11 +101,13 @@ std::shared_ptr<const Problem> problem(int points) {
   return last;
 }
 
+// Of more rounds where each is short.
 template <typename Work>
-double medianSeconds(const Work& work) {
+double medianSeconds(int points, const Work& work) {
   const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
+  const int rounds = std::clamp(400000 / points, 3, 15);
   std::vector<double> seconds;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     const double from = processorSeconds();
     work();
     seconds.push_back(processorSeconds() - from);
@@ -123,7 +126,7 @@ void trace(benchmark::State& state, int points) {
   const auto p = problem(points);
   for ([[maybe_unused]] auto _ : state) {
     const double seconds =
-        medianSeconds([&] { benchmark::DoNotOptimize(transport::traceBack(p->next.positions, p->frame)); });
+        medianSeconds(points, [&] { benchmark::DoNotOptimize(transport::traceBack(p->next.positions, p->frame)); });
     count(state, seconds, double(p->next.positions.size()), kSubsteps);
   }
 }
@@ -133,9 +136,9 @@ void pickUp(benchmark::State& state, int points) {
   const auto p = problem(points);
   for ([[maybe_unused]] auto _ : state) {
     const double tracing =
-        medianSeconds([&] { benchmark::DoNotOptimize(transport::traceBack(p->next.positions, p->frame)); });
+        medianSeconds(points, [&] { benchmark::DoNotOptimize(transport::traceBack(p->next.positions, p->frame)); });
     const double whole =
-        medianSeconds([&] { benchmark::DoNotOptimize(transport::carry(p->previous, p->frame, p->next)); });
+        medianSeconds(points, [&] { benchmark::DoNotOptimize(transport::carry(p->previous, p->frame, p->next)); });
     count(state, whole - tracing, double(p->next.positions.size()));
   }
 }
@@ -151,7 +154,7 @@ void closest(benchmark::State& state, const std::string& row, int points) {
   const std::vector<Vec3f> queries = landingPlaces(*p);
   for ([[maybe_unused]] auto _ : state) {
     double sum = 0.0, build = 0.0;
-    const double seconds = medianSeconds([&] {
+    const double seconds = medianSeconds(points, [&] {
       const double from = processorSeconds();
       const transport::ClosestPoint tree(p->previous.positions, p->previous.triangles);
       build = processorSeconds() - from;
