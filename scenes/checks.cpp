@@ -33,7 +33,7 @@ std::vector<int> fitted(std::vector<int> iterations, std::size_t windows) {
 // may be stretched more and more (log), less is renewed in a second, and it fades slower; towards 0 all of
 // that less. None of it: each frame alone.
 void followCoherence(texture::Options& texture, const Reader& reader) {
-  constexpr double kMostStretch = 8.0, kLongestFade = 1.6;  // torn; s
+  constexpr double kMostStretch = 8.0, kLongestFade = 2.0;  // torn; s
   texture::SynthesisOptions& synthesis = texture.synthesis;
   const double coherence = texture.coherence;
   if (coherence == 0.5) return;
