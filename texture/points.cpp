@@ -3,6 +3,7 @@
 #include "texture/points.h"
 
 #include "texture/parallel.h"
+#include "texture/patches.h"
 #include "texture/point_grid.h"
 #include "texture/point_scale.h"
 #include "texture/random.h"
@@ -101,7 +102,9 @@ class Placed {
     return false;
   }
   void place(const Vec3f& p, const Vec3f& n, float radius) {
-    if (near(p, n, radius)) return;
+    if (!near(p, n, radius)) add(p, n);
+  }
+  void add(const Vec3f& p, const Vec3f& n) {
     const float scale = m_phi.scale(p);
     if (m_phi.scaled()) m_scale.push_back(scale);
     m_grids[m_phi.scaled() ? octave(scale) : 0].insert(p, std::uint32_t(points.position.size()));
@@ -123,9 +126,46 @@ class Placed {
   std::vector<float> m_scale;  // #P where it varies
 };
 
-struct Dart {
-  Vec3f position, normal;
-};
+// Places those of `wanted` that no point stands in the way of which was there before or comes earlier. What
+// lies deep in a cube of space is placed together with others in theirs, and then what lies between the
+// cubes.
+void placeAll(const LevelSet& phi, const PointSet& wanted, float radius, Placed& placed) {
+  constexpr float kSide = 50.0f;  // of a cube, in radii
+  const float side = kSide * radius;
+  const Patches cubes = patchesOf(wanted.position, side);
+  struct Part {
+    PointSet points;
+    std::vector<std::uint32_t> between;
+  };
+  std::vector<Part> parts(cubes.count());
+  const bool first = placed.points.position.empty();
+  forEachPatch(cubes, [&](std::uint32_t cube) {
+    const std::uint32_t begin = cubes.first[cube], end = cubes.first[cube + 1];
+    Placed inside(phi, radius, std::size_t(end - begin) / 4);
+    for (std::uint32_t k = begin; k < end; ++k) {
+      const std::uint32_t i = cubes.vertex[k];
+      const Vec3f &p = wanted.position[i], &n = wanted.normal[i];
+      if (!first && placed.near(p, n, radius)) continue;
+      const float reach = radius * phi.scale(p);
+      bool deep = true;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float at = p[axis] - side * std::floor(p[axis] / side);
+        deep = deep && at > reach && at < side - reach;
+      }
+      if (deep) {
+        inside.place(p, n, radius);
+      } else {
+        parts[cube].between.push_back(i);
+      }
+    }
+    parts[cube].points = std::move(inside.points);
+  });
+  for (const Part& part : parts)
+    for (std::size_t k = 0; k < part.points.position.size(); ++k)
+      placed.add(part.points.position[k], part.points.normal[k]);
+  for (const Part& part : parts)
+    for (std::uint32_t i : part.between) placed.place(wanted.position[i], wanted.normal[i], radius);
+}
 
 // Calls offer(position, normal) for random points of triangle t, keyed by its cell and its number there.
 template <class Offer>
@@ -178,24 +218,33 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
     projected[i] = phi.project(seeds[i], kReach);
     if ((projected[i].position - seeds[i]).lengthSqr() < kStill * kStill) projected[i].position = seeds[i];
   });
+  PointSet kept;
   for (const LevelSet::Projection& p : projected) {
-    if (p.known && p.distance < kSnapped) placed.place(p.position, p.normal, kSeedDistance * spacing);
+    if (!p.known || p.distance >= kSnapped) continue;
+    kept.position.push_back(p.position);
+    kept.normal.push_back(p.normal);
   }
+  placeAll(phi, kept, kSeedDistance * spacing, placed);
 
-  // Darts that a seed keeps out are dropped in parallel: mostly that is all of them. The others are placed
-  // one after the other.
   constexpr std::size_t kChunk = 512;  // triangles
   const float perArea = dartsPerPoint / (spacing * spacing);
   const std::size_t count = surface.triangles.size();
-  std::vector<std::vector<Dart>> darts((count + kChunk - 1) / kChunk);
+  std::vector<PointSet> darts((count + kChunk - 1) / kChunk);
   tbb::parallel_for(std::size_t(0), darts.size(), [&](std::size_t chunk) {
+    PointSet& own = darts[chunk];
     for (std::size_t t = chunk * kChunk; t < std::min(count, (chunk + 1) * kChunk); ++t)
       throwDarts(phi, surface, t, key, perArea, [&](const Vec3f& p, const Vec3f& n) {
-        if (seeds.empty() || !placed.near(p, n, dartRadius)) darts[chunk].push_back({p, n});
+        own.position.push_back(p);
+        own.normal.push_back(n);
       });
   });
-  for (const std::vector<Dart>& thrown : darts)
-    for (const Dart& dart : thrown) placed.place(dart.position, dart.normal, dartRadius);
+  PointSet all;
+  for (PointSet& part : darts) {
+    all.position.insert(all.position.end(), part.position.begin(), part.position.end());
+    all.normal.insert(all.normal.end(), part.normal.begin(), part.normal.end());
+    part = {};
+  }
+  placeAll(phi, all, dartRadius, placed);
   return std::move(points);
 }
 
