@@ -233,7 +233,7 @@ void moveToPoints(EditableMesh& mesh, const LevelSet& phi, const Patches& patche
 EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const PointSet& points,
                            float spacing) {
   // Old vertices must be at least as dense as the points, so that most points find one of their own.
-  constexpr float kLongest = 1.4f;  // edges of the old mesh, in mean edge lengths
+  constexpr float kLongest = 1.6f;  // edges of the old mesh, in mean edge lengths
   constexpr float kTooNear = 0.4f;  // spacings: two points in one place
   constexpr float kPatch = 40.0f;   // a patch's side, in edges of the old mesh or somewhat less
   EditableMesh mesh = makeEditableMesh(surface.positions, surface.triangles);

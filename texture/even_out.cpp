@@ -3,20 +3,24 @@
 // mesh generator in MATLAB" (2004).
 #include "texture/adjust.h"
 #include "texture/mend.h"
+#include "texture/parallel.h"
 #include "texture/relax.h"
 #include "texture/remesh.h"
 #include "texture/repulsion.h"
 
 #include <algorithm>
+#include <atomic>
+#include <initializer_list>
 
 namespace fluidtex::texture {
 namespace {
 
 constexpr std::uint32_t kNone = EditableMesh::kNone;
 
-// Points at random: all of them have to move. The number is put right while they do.
+// Points at random: all of them have to move.
 void spreadOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options, float edge) {
-  constexpr int kAtOnce = 3;        // sweeps between two numberings
+  constexpr int kAtOnce = 3;        // sweeps in the same patches
+  constexpr int kNumbered = 3;      // rounds that begin with putting the number right
   constexpr float kPatch = 40.0f;   // its side in edges: what is worked on fits into the nearer cache
   constexpr float kShift = 0.382f;  // of the side, from round to round: what lay between patches comes inside
   constexpr double kSlack = 0.005;
@@ -24,12 +28,38 @@ void spreadOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& optio
   const int rounds = std::max(1, options.sweeps / (kAtOnce + 1));
   const float side = kPatch * edge;
   for (int round = 0; round < rounds; ++round) {
-    const std::vector<std::uint32_t> changed =
-        adjustNumber(mesh, phi, {edge, options.points, kSlack, options.settled});
-    if (!changed.empty()) flipToDelaunay(mesh, &changed);
+    if (round < kNumbered) {
+      const std::vector<std::uint32_t> changed =
+          adjustNumber(mesh, phi, {edge, options.points, kSlack, options.settled});
+      if (!changed.empty()) flipToDelaunay(mesh, &changed);
+    }
     relax(mesh, phi, patchesOf(mesh, side, Vec3f(kShift * side * float(round))), edge, kAtOnce);
   }
   flipToDelaunay(mesh);
+}
+
+// The vertices of the lists and those around them: only what has moved, and its neighbours, can be out of
+// balance.
+std::vector<std::uint32_t> withNeighbors(const EditableMesh& mesh,
+                                         std::initializer_list<const std::vector<std::uint32_t>*> lists) {
+  std::vector<std::uint8_t> listed(mesh.vertexCount(), 0);
+  const auto list = [&](std::uint32_t v) {
+    std::atomic_ref<std::uint8_t>(listed[v]).store(1, std::memory_order_relaxed);
+  };
+  for (const std::vector<std::uint32_t>* vertices : lists)
+    forEachIndex(vertices->size(), [&](std::uint32_t i) {
+      const std::uint32_t v = (*vertices)[i];
+      if (mesh.outgoing[v] == kNone) return;
+      list(v);
+      mesh.around(v, [&](std::uint32_t h) { list(mesh.target(h)); });
+    });
+  using Vertices = std::vector<std::uint32_t>;
+  return gathered<std::uint32_t>(
+      listed.size(),
+      [&](std::uint32_t v, Vertices& found) {
+        if (listed[v]) found.push_back(v);
+      },
+      1 << 14);
 }
 
 }  // namespace
@@ -45,8 +75,7 @@ void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options
   if (!options.settled) spreadOut(mesh, phi, options, edge);
   Repulsion repulsion(mesh, phi, edge);
   repulsion.awake.assign(mesh.vertexCount(), options.settled ? 0 : 1);
-  std::vector<std::uint32_t> active, changed, next;
-  std::vector<int> listed;  // the last sweep for which a vertex was listed
+  std::vector<std::uint32_t> active, changed;
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     changed.clear();
     // The number is put right while much moves; later only what is out of all proportion changes: each of the
@@ -62,26 +91,10 @@ void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options
     }
     if (sweep == 0) {
       active.clear();
-      for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+      for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v)
         if (mesh.outgoing[v] != kNone) active.push_back(v);
-      }
     } else {
-      // Only what has moved, and its neighbours, can be out of balance now.
-      listed.resize(mesh.vertexCount(), -1);
-      next.clear();
-      const auto list = [&](std::uint32_t v) {
-        if (listed[v] == sweep) return;
-        listed[v] = sweep;
-        next.push_back(v);
-      };
-      for (const std::vector<std::uint32_t>* source : {&active, &changed}) {
-        for (std::uint32_t v : *source) {
-          if (mesh.outgoing[v] == kNone) continue;
-          list(v);
-          mesh.around(v, [&](std::uint32_t h) { list(mesh.target(h)); });
-        }
-      }
-      active.swap(next);
+      active = withNeighbors(mesh, {&active, &changed});
     }
     repulsion.sweep(active, kWake, kSleep);
     if (active.empty() && changed.empty() && everywhere) break;

@@ -126,26 +126,23 @@ class Placed {
   std::vector<float> m_scale;  // #P where it varies
 };
 
-// Places those of `wanted` that no point stands in the way of which was there before or comes earlier. What
-// lies deep in a cube of space is placed together with others in theirs, and then what lies between the
+// Offers points to be placed, cube of space by cube: offersOf(cube, offer) calls offer(position, normal) for
+// those in a cube. One is placed where no other stands in its way that was there before or was offered
+// earlier. What lies deep in a cube is placed while others are in theirs, and then what lies between the
 // cubes.
-void placeAll(const LevelSet& phi, const PointSet& wanted, float radius, Placed& placed) {
-  constexpr float kSide = 50.0f;  // of a cube, in radii
-  const float side = kSide * radius;
-  const Patches cubes = patchesOf(wanted.position, side);
+template <class OffersOf>
+void placeAll(const LevelSet& phi, const Patches& cubes, float side, float radius, std::size_t expected,
+              const OffersOf& offersOf, Placed& placed) {
   struct Part {
-    PointSet points;
-    std::vector<std::uint32_t> between;
+    PointSet deep, between;
   };
   std::vector<Part> parts(cubes.count());
   const bool first = placed.points.position.empty();
   forEachPatch(cubes, [&](std::uint32_t cube) {
-    const std::uint32_t begin = cubes.first[cube], end = cubes.first[cube + 1];
-    Placed inside(phi, radius, std::size_t(end - begin) / 4);
-    for (std::uint32_t k = begin; k < end; ++k) {
-      const std::uint32_t i = cubes.vertex[k];
-      const Vec3f &p = wanted.position[i], &n = wanted.normal[i];
-      if (!first && placed.near(p, n, radius)) continue;
+    Placed inside(phi, radius, expected);
+    PointSet& between = parts[cube].between;
+    offersOf(cube, [&](const Vec3f& p, const Vec3f& n) {
+      if (!first && placed.near(p, n, radius)) return;
       const float reach = radius * phi.scale(p);
       bool deep = true;
       for (int axis = 0; axis < 3; ++axis) {
@@ -155,16 +152,18 @@ void placeAll(const LevelSet& phi, const PointSet& wanted, float radius, Placed&
       if (deep) {
         inside.place(p, n, radius);
       } else {
-        parts[cube].between.push_back(i);
+        between.position.push_back(p);
+        between.normal.push_back(n);
       }
-    }
-    parts[cube].points = std::move(inside.points);
+    });
+    parts[cube].deep = std::move(inside.points);
   });
   for (const Part& part : parts)
-    for (std::size_t k = 0; k < part.points.position.size(); ++k)
-      placed.add(part.points.position[k], part.points.normal[k]);
+    for (std::size_t k = 0; k < part.deep.position.size(); ++k)
+      placed.add(part.deep.position[k], part.deep.normal[k]);
   for (const Part& part : parts)
-    for (std::uint32_t i : part.between) placed.place(wanted.position[i], wanted.normal[i], radius);
+    for (std::size_t k = 0; k < part.between.position.size(); ++k)
+      placed.place(part.between.position[k], part.between.normal[k], radius);
 }
 
 // Calls offer(position, normal) for random points of triangle t, keyed by its cell and its number there.
@@ -201,6 +200,7 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
   constexpr float kDartDistance = 0.8f, kFillDistance = 0.95f;
   // Between seeds there are few gaps, and long edges are split later.
   const float dartsPerPoint = seeds.empty() ? 5.0f : 2.0f;
+  constexpr float kCube = 40.0f;     // spacings: the side of what one thread works on
   constexpr float kReach = 1.5f;     // voxels from which a seed is still brought back
   constexpr float kSnapped = 0.05f;  // voxels from the surface at most, after projection
   constexpr float kStill = 1e-3f;    // voxels: a seed this near stays exactly where it is
@@ -218,33 +218,36 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
     projected[i] = phi.project(seeds[i], kReach);
     if ((projected[i].position - seeds[i]).lengthSqr() < kStill * kStill) projected[i].position = seeds[i];
   });
-  PointSet kept;
-  for (const LevelSet::Projection& p : projected) {
-    if (!p.known || p.distance >= kSnapped) continue;
-    kept.position.push_back(p.position);
-    kept.normal.push_back(p.normal);
+  // Whole voxels, so that a cell's triangles lie in one cube.
+  const float side = std::ceil(kCube * spacing);
+  std::vector<Vec3f> places;
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t i = 0; i < projected.size(); ++i) {
+    if (!projected[i].known || projected[i].distance >= kSnapped) continue;
+    places.push_back(projected[i].position);
+    kept.push_back(i);
   }
-  placeAll(phi, kept, kSeedDistance * spacing, placed);
+  const auto perCube = std::size_t(kCube * kCube);
+  if (!kept.empty()) {
+    const Patches cubes = patchesOf(places, side);
+    const auto seedsOf = [&](std::uint32_t cube, const auto& offer) {
+      for (std::uint32_t k = cubes.first[cube]; k < cubes.first[cube + 1]; ++k) {
+        const LevelSet::Projection& p = projected[kept[cubes.vertex[k]]];
+        offer(p.position, p.normal);
+      }
+    };
+    placeAll(phi, cubes, side, kSeedDistance * spacing, perCube, seedsOf, placed);
+  }
 
-  constexpr std::size_t kChunk = 512;  // triangles
   const float perArea = dartsPerPoint / (spacing * spacing);
-  const std::size_t count = surface.triangles.size();
-  std::vector<PointSet> darts((count + kChunk - 1) / kChunk);
-  tbb::parallel_for(std::size_t(0), darts.size(), [&](std::size_t chunk) {
-    PointSet& own = darts[chunk];
-    for (std::size_t t = chunk * kChunk; t < std::min(count, (chunk + 1) * kChunk); ++t)
-      throwDarts(phi, surface, t, key, perArea, [&](const Vec3f& p, const Vec3f& n) {
-        own.position.push_back(p);
-        own.normal.push_back(n);
-      });
-  });
-  PointSet all;
-  for (PointSet& part : darts) {
-    all.position.insert(all.position.end(), part.position.begin(), part.position.end());
-    all.normal.insert(all.normal.end(), part.normal.begin(), part.normal.end());
-    part = {};
-  }
-  placeAll(phi, all, dartRadius, placed);
+  places.resize(surface.triangles.size());
+  forEachIndex(places.size(), [&](std::uint32_t t) { places[t] = surface.cells[t].asVec3s() + Vec3f(0.5f); });
+  const Patches cubes = patchesOf(places, side);
+  const auto dartsOf = [&](std::uint32_t cube, const auto& offer) {
+    for (std::uint32_t k = cubes.first[cube]; k < cubes.first[cube + 1]; ++k)
+      throwDarts(phi, surface, cubes.vertex[k], key, perArea, offer);
+  };
+  placeAll(phi, cubes, side, dartRadius, perCube, dartsOf, placed);
   return std::move(points);
 }
 
