@@ -38,6 +38,31 @@ bool longer(const Candidate& x, const Candidate& y) {
   return x.length != y.length ? x.length > y.length : x.halfEdge > y.halfEdge;
 }
 
+// Sorts, and drops those that only the number asks for beyond as many as it does.
+template <typename Before>
+void keepFirst(std::vector<Candidate>& candidates, double wanted, float limit, const Before& before) {
+  constexpr double kSpare = 2.0;    // some are skipped, since something changed beside them
+  constexpr double kMany = 1000.0;  // so many are taken as they lie in memory; what is skipped, the next time
+  const Candidate atLimit{limit, 0, 0, 0};
+  const auto must = std::partition(candidates.begin(), candidates.end(),
+                                   [&](const Candidate& c) { return before(c, atLimit); });
+  const auto required = std::size_t(must - candidates.begin());
+  const bool many = wanted > kMany;
+  const auto count =
+      std::max(required, std::size_t(wanted > 0.0 ? (many ? wanted : kSpare * wanted + 1.0) : 0.0));
+  if (count < candidates.size()) {
+    std::nth_element(candidates.begin(), candidates.begin() + std::ptrdiff_t(count), candidates.end(),
+                     before);
+    candidates.erase(candidates.begin() + std::ptrdiff_t(count), candidates.end());
+  }
+  if (many) {
+    std::sort(candidates.begin(), candidates.end(),
+              [](const Candidate& x, const Candidate& y) { return x.halfEdge < y.halfEdge; });
+  } else {
+    std::sort(candidates.begin(), candidates.end(), before);
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi, const AdjustOptions& options,
@@ -47,8 +72,9 @@ std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi,
   const float tooShort = options.settled ? 0.6f : 0.63f, tooLong = options.settled ? 1.8f : 1.7f;
   constexpr float kShort = 0.95f, kLong = 1.1f;  // only these are touched for the sake of the number
   constexpr float kMaybeLong = 1.4f;             // shorter edges cross no gap
-  const auto alive = static_cast<double>(
-      std::count_if(mesh.outgoing.begin(), mesh.outgoing.end(), [](std::uint32_t h) { return h != kNone; }));
+  constexpr std::size_t kAtOnce = 4096;          // of a sum
+  const double alive = sumOf(
+      mesh.vertexCount(), [&](std::uint32_t v) { return mesh.outgoing[v] != kNone ? 1.0 : 0.0; }, kAtOnce);
   const double excess = alive - options.points;
   const bool many = excess > options.slack * options.points, few = -excess > options.slack * options.points;
 
@@ -86,8 +112,8 @@ std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi,
                                                [&](const Candidate& c) { return c.length < shortLimit; });
   Candidates longest(firstLong, shortest.end());
   shortest.erase(firstLong, shortest.end());
-  std::sort(shortest.begin(), shortest.end(), shorter);
-  std::sort(longest.begin(), longest.end(), longer);
+  keepFirst(shortest, many ? excess : 0.0, tooShort, shorter);
+  keepFirst(longest, few ? -excess : 0.0, tooLong, longer);
 
   std::vector<std::uint32_t> changed;
   std::vector<std::uint8_t> touched;

@@ -4,6 +4,7 @@
 #include "texture/connect.h"
 
 #include "texture/parallel.h"
+#include "texture/patches.h"
 #include "texture/point_grid.h"
 #include "texture/remesh.h"
 
@@ -142,7 +143,7 @@ float largestScale(const EditableMesh& mesh) {
   return mesh.scale.empty() ? 1.0f : *std::max_element(mesh.scale.begin(), mesh.scale.end());
 }
 
-bool removeVertex(EditableMesh& mesh, std::uint32_t v) {
+bool removeVertex(EditableMesh& mesh, std::uint32_t v, std::vector<std::uint32_t>& freed) {
   constexpr std::size_t kMost = 32;
   std::uint32_t edges[kMost];
   std::size_t count = 0;
@@ -162,33 +163,79 @@ bool removeVertex(EditableMesh& mesh, std::uint32_t v) {
   }
   std::sort(ranked, ranked + count);
   for (std::size_t k = 0; k < count; ++k) {
-    if (tryCollapse(mesh, ranked[k].second)) return true;
+    if (tryCollapse(mesh, ranked[k].second, freed)) return true;
   }
   return false;
 }
 
-}  // namespace
-
-void removeVertices(EditableMesh& mesh, std::vector<std::uint8_t>& keep) {
-  constexpr int kRounds = 3;  // what is stuck may come free after its surroundings have gone
+// Removes the vertices whose entry in `keep` is 0, where possible, after [Turk92].
+void removeVertices(EditableMesh& mesh, const Patches& patches, const std::vector<std::uint8_t>& keep) {
+  constexpr int kRounds = 2;  // what is stuck may come free after its surroundings have gone
+  struct Left {
+    std::vector<std::uint32_t> vertices, freed;
+  };
+  std::vector<Left> left(patches.count());
+  forEachPatch(patches, [&](std::uint32_t patch) {
+    for (std::uint32_t i = patches.first[patch]; i < patches.first[patch + 1]; ++i) {
+      const std::uint32_t v = patches.vertex[i];
+      if (keep[v]) continue;
+      if (!patches.ownsRing(mesh, patch, v) || !removeVertex(mesh, v, left[patch].freed))
+        left[patch].vertices.push_back(v);
+    }
+    flipToDelaunay(mesh, patches, patch);
+  });
   std::vector<std::uint32_t> rest;
-  for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
-    if (!keep[v]) rest.push_back(v);
+  for (const Left& one : left) {
+    rest.insert(rest.end(), one.vertices.begin(), one.vertices.end());
+    mesh.free.insert(mesh.free.end(), one.freed.begin(), one.freed.end());
   }
+  flipToDelaunay(mesh);
   for (int round = 0; round < kRounds && !rest.empty(); ++round) {
-    const auto stuck =
-        std::remove_if(rest.begin(), rest.end(), [&](std::uint32_t v) { return removeVertex(mesh, v); });
+    const auto stuck = std::remove_if(rest.begin(), rest.end(),
+                                      [&](std::uint32_t v) { return removeVertex(mesh, v, mesh.free); });
     rest.erase(stuck, rest.end());
     flipToDelaunay(mesh);
   }
-  for (std::uint32_t v : rest) keep[v] = 1;
 }
+
+// Moves each vertex of the old mesh to the point that it is for, where that folds nothing; owner: kNone where
+// it does.
+void moveToPoints(EditableMesh& mesh, const LevelSet& phi, const Patches& patches, const PointSet& points,
+                  std::vector<std::uint32_t>& owner) {
+  const auto move = [&](std::uint32_t v) {
+    const std::uint32_t i = owner[v];
+    if (!mayFace(worstFacingAt(mesh, v, points.position[i], points.normal[i]), worstFacing(mesh, v))) {
+      owner[v] = kNone;
+      return;
+    }
+    mesh.position[v] = points.position[i];
+    mesh.normal[v] = points.normal[i];
+    if (phi.scaled()) mesh.scale[v] = phi.scale(mesh.position[v]);
+  };
+  std::vector<std::vector<std::uint32_t>> left(patches.count());
+  forEachPatch(patches, [&](std::uint32_t patch) {
+    for (std::uint32_t i = patches.first[patch]; i < patches.first[patch + 1]; ++i) {
+      const std::uint32_t v = patches.vertex[i];
+      if (owner[v] == kNone) continue;
+      if (patches.ownsRing(mesh, patch, v)) {
+        move(v);
+      } else {
+        left[patch].push_back(v);
+      }
+    }
+  });
+  for (const std::vector<std::uint32_t>& vertices : left)
+    for (std::uint32_t v : vertices) move(v);
+}
+
+}  // namespace
 
 EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const PointSet& points,
                            float spacing) {
   // Old vertices must be at least as dense as the points, so that most points find one of their own.
-  constexpr float kLongest = 1.4f;  // edges of the old mesh, in mean edge lengths
+  constexpr float kLongest = 1.6f;  // edges of the old mesh, in mean edge lengths
   constexpr float kTooNear = 0.4f;  // spacings: two points in one place
+  constexpr float kPatch = 40.0f;   // a patch's side, in edges of the old mesh or somewhat less
   EditableMesh mesh = makeEditableMesh(surface.positions, surface.triangles);
   forEachIndex(mesh.vertexCount(), [&](std::uint32_t v) {
     const Vec3f gradient = phi.sample(mesh.position[v]).gradient;
@@ -215,32 +262,24 @@ EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const
     const std::uint32_t v = nearest[i];
     if (v != kNone && (owner[v] == kNone || distance(i, v) < distance(owner[v], v))) owner[v] = i;
   }
-  std::vector<std::uint8_t> keep(mesh.vertexCount(), 0);
-  for (std::uint32_t v = 0; v < owner.size(); ++v) {
-    const std::uint32_t i = owner[v];
-    if (i == kNone) continue;
-    if (!mayFace(worstFacingAt(mesh, v, points.position[i], points.normal[i]), worstFacing(mesh, v))) {
-      owner[v] = kNone;
-      continue;
-    }
-    mesh.position[v] = points.position[i];
-    mesh.normal[v] = points.normal[i];
-    if (phi.scaled()) mesh.scale[v] = phi.scale(mesh.position[v]);
-    keep[v] = 1;
-  }
+  Patches patches = patchesOf(mesh, kPatch * std::min(1.0f, spacing * least), Vec3f(0.0f));
+  moveToPoints(mesh, phi, patches, points, owner);
+  std::vector<std::uint8_t> keep(mesh.vertexCount());
+  forEachIndex(keep.size(), [&](std::uint32_t v) { keep[v] = owner[v] != kNone; });
   std::vector<std::uint32_t> left;  // points that have no place yet
   const auto insert = [&](std::uint32_t i, std::uint32_t near) {
     const std::uint32_t added = insertPoint(mesh, near, points.position[i], points.normal[i],
                                             kTooNear * spacing * phi.scale(points.position[i]), keep);
     if (added == kNone) return false;
     keep.push_back(1);
+    patches.of.push_back(patches.of[near]);
     return true;
   };
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t v = nearest[i];
     if (v != kNone && owner[v] != i && !insert(i, v)) left.push_back(i);
   }
-  removeVertices(mesh, keep);
+  removeVertices(mesh, patches, keep);
   mesh.compact(surface.positions.size());
   if (left.empty()) return mesh;
 

@@ -14,7 +14,4 @@ namespace fluidtex::texture {
 EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const PointSet& points,
                            float spacing);
 
-// Removes the vertices whose entry in `keep` is 0, where possible, after [Turk92].
-void removeVertices(EditableMesh& mesh, std::vector<std::uint8_t>& keep);
-
 }  // namespace fluidtex::texture

@@ -131,7 +131,7 @@ bool EditableMesh::canCollapse(std::uint32_t h) const {
   return ok;
 }
 
-void EditableMesh::collapse(std::uint32_t h) {
+void EditableMesh::collapse(std::uint32_t h, std::vector<std::uint32_t>& freed) {
   const std::uint32_t t = twin[h];
   const std::uint32_t v = origin[h], u = origin[t];
   const std::uint32_t hn = next(h), hp = previous(h), tn = next(t), tp = previous(t);
@@ -147,62 +147,75 @@ void EditableMesh::collapse(std::uint32_t h) {
   outgoing[v] = kNone;
   for (std::uint32_t base : {h - h % 3, t - t % 3}) {
     for (std::uint32_t k = 0; k < 3; ++k) origin[base + k] = twin[base + k] = kNone;
-    free.push_back(base / 3);
+    freed.push_back(base / 3);
   }
 }
 
 void EditableMesh::compact(std::size_t firstNew) {
-  // Where a vertex goes: after the one of lowest rank among its neighbours that came before it.
-  std::vector<std::uint32_t> rank(position.size());
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> order;  // rank, old vertex
-  order.reserve(position.size());
-  for (std::uint32_t v = 0; v < position.size(); ++v) {
-    rank[v] = v;
+  const std::size_t before = position.size();
+  firstNew = std::min(firstNew, before);
+  // Where a new vertex goes: behind the one of lowest rank among its neighbours that came before it.
+  std::vector<std::uint32_t> rank(before - firstNew);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> added;  // rank, old vertex
+  added.reserve(rank.size());
+  for (std::uint32_t v = std::uint32_t(firstNew); v < before; ++v) {
     if (outgoing[v] == kNone) continue;
-    if (v >= firstNew) {
-      around(v, [&](std::uint32_t h) {
-        const std::uint32_t u = target(h);
-        if (u < v) rank[v] = std::min(rank[v], rank[u]);
-      });
-    }
-    order.emplace_back(rank[v], v);
-  }
-  std::sort(order.begin(), order.end());
-
-  const std::size_t vertices = order.size();
-  std::vector<std::uint32_t> oldVertexOf(vertices), newVertexOf(position.size(), kNone);
-  for (std::uint32_t v = 0; v < vertices; ++v) {
-    oldVertexOf[v] = order[v].second;
-    newVertexOf[order[v].second] = v;
-  }
-  std::vector<std::uint32_t> newHalfEdgeOf(origin.size(), kNone), oldHalfEdgeOf;
-  oldHalfEdgeOf.reserve(origin.size() - 3 * free.size());
-  for (std::uint32_t old : oldVertexOf) {
-    around(old, [&](std::uint32_t h) {
-      if (newHalfEdgeOf[h] != kNone) return;
-      for (std::uint32_t k = h - h % 3; k < h - h % 3 + 3; ++k) {
-        newHalfEdgeOf[k] = std::uint32_t(oldHalfEdgeOf.size());
-        oldHalfEdgeOf.push_back(k);
-      }
+    std::uint32_t& own = rank[v - firstNew];
+    own = v;
+    around(v, [&](std::uint32_t h) {
+      const std::uint32_t u = target(h);
+      if (u < v) own = std::min(own, u < firstNew ? u : rank[u - firstNew]);
     });
+    added.emplace_back(own, v);
   }
+  std::sort(added.begin(), added.end());
+
+  std::vector<std::uint32_t> oldVertexOf, newVertexOf(before, kNone);
+  oldVertexOf.reserve(before);
+  const auto take = [&](std::uint32_t v) {
+    newVertexOf[v] = std::uint32_t(oldVertexOf.size());
+    oldVertexOf.push_back(v);
+  };
+  auto next = added.begin();
+  for (std::uint32_t v = 0; v < firstNew; ++v) {
+    if (outgoing[v] != kNone) take(v);
+    for (; next != added.end() && next->first == v; ++next) take(next->second);
+  }
+  for (; next != added.end(); ++next) take(next->second);
+
+  // A triangle goes where the first of its vertices is, in the order around that.
+  const std::size_t vertices = oldVertexOf.size();
+  using HalfEdges = std::vector<std::uint32_t>;
+  const HalfEdges oldTriangles = gathered<std::uint32_t>(vertices, [&](std::uint32_t v, HalfEdges& found) {
+    around(oldVertexOf[v], [&](std::uint32_t h) {
+      if (v < newVertexOf[target(h)] && v < newVertexOf[opposite(h)]) found.push_back(h - h % 3);
+    });
+  });
+  std::vector<std::uint32_t> newHalfEdgeOf(origin.size());
+  forEachIndex(oldTriangles.size(), [&](std::uint32_t t) {
+    for (std::uint32_t k = 0; k < 3; ++k) newHalfEdgeOf[oldTriangles[t] + k] = 3 * t + k;
+  });
 
   EditableMesh packed;
   packed.position.resize(vertices);
   packed.normal.resize(vertices);
   packed.outgoing.resize(vertices);
-  for (std::size_t v = 0; v < vertices && !scale.empty(); ++v) packed.scale.push_back(scale[oldVertexOf[v]]);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    packed.position[v] = position[oldVertexOf[v]];
-    packed.normal[v] = normal[oldVertexOf[v]];
-    packed.outgoing[v] = newHalfEdgeOf[outgoing[oldVertexOf[v]]];
-  }
-  packed.origin.resize(oldHalfEdgeOf.size());
-  packed.twin.resize(oldHalfEdgeOf.size());
-  for (std::size_t h = 0; h < oldHalfEdgeOf.size(); ++h) {
-    packed.origin[h] = newVertexOf[origin[oldHalfEdgeOf[h]]];
-    packed.twin[h] = newHalfEdgeOf[twin[oldHalfEdgeOf[h]]];
-  }
+  if (!scale.empty()) packed.scale.resize(vertices);
+  forEachIndex(vertices, [&](std::uint32_t v) {
+    const std::uint32_t old = oldVertexOf[v];
+    packed.position[v] = position[old];
+    packed.normal[v] = normal[old];
+    packed.outgoing[v] = newHalfEdgeOf[outgoing[old]];
+    if (!scale.empty()) packed.scale[v] = scale[old];
+  });
+  packed.origin.resize(3 * oldTriangles.size());
+  packed.twin.resize(3 * oldTriangles.size());
+  forEachIndex(oldTriangles.size(), [&](std::uint32_t t) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      packed.origin[3 * t + k] = newVertexOf[origin[oldTriangles[t] + k]];
+      packed.twin[3 * t + k] = newHalfEdgeOf[twin[oldTriangles[t] + k]];
+    }
+  });
   *this = std::move(packed);
 }
 

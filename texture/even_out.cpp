@@ -3,15 +3,64 @@
 // mesh generator in MATLAB" (2004).
 #include "texture/adjust.h"
 #include "texture/mend.h"
+#include "texture/parallel.h"
+#include "texture/relax.h"
 #include "texture/remesh.h"
 #include "texture/repulsion.h"
 
-#include <numeric>
+#include <algorithm>
+#include <atomic>
+#include <initializer_list>
 
 namespace fluidtex::texture {
 namespace {
 
 constexpr std::uint32_t kNone = EditableMesh::kNone;
+
+// Points at random: all of them have to move.
+void spreadOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options, float edge) {
+  constexpr int kAtOnce = 3;        // sweeps in the same patches
+  constexpr int kNumbered = 3;      // rounds that begin with putting the number right
+  constexpr float kPatch = 40.0f;   // its side in edges: what is worked on fits into the nearer cache
+  constexpr float kShift = 0.382f;  // of the side, from round to round: what lay between patches comes inside
+  constexpr double kSlack = 0.005;
+  // A fourth sweep for each three is evenOut's own, for what is then still out of balance.
+  const int rounds = std::max(1, options.sweeps / (kAtOnce + 1));
+  const float side = kPatch * edge;
+  for (int round = 0; round < rounds; ++round) {
+    if (round < kNumbered) {
+      const std::vector<std::uint32_t> changed =
+          adjustNumber(mesh, phi, {edge, options.points, kSlack, options.settled});
+      if (!changed.empty()) flipToDelaunay(mesh, &changed);
+    }
+    relax(mesh, phi, patchesOf(mesh, side, Vec3f(kShift * side * float(round))), edge, kAtOnce);
+  }
+  flipToDelaunay(mesh);
+}
+
+// The vertices of the lists and those around them: only what has moved, and its neighbours, can be out of
+// balance.
+std::vector<std::uint32_t> withNeighbors(const EditableMesh& mesh,
+                                         std::initializer_list<const std::vector<std::uint32_t>*> lists) {
+  std::vector<std::uint8_t> listed(mesh.vertexCount(), 0);
+  const auto list = [&](std::uint32_t v) {
+    std::atomic_ref<std::uint8_t>(listed[v]).store(1, std::memory_order_relaxed);
+  };
+  for (const std::vector<std::uint32_t>* vertices : lists)
+    forEachIndex(vertices->size(), [&](std::uint32_t i) {
+      const std::uint32_t v = (*vertices)[i];
+      if (mesh.outgoing[v] == kNone) return;
+      list(v);
+      mesh.around(v, [&](std::uint32_t h) { list(mesh.target(h)); });
+    });
+  using Vertices = std::vector<std::uint32_t>;
+  return gathered<std::uint32_t>(
+      listed.size(),
+      [&](std::uint32_t v, Vertices& found) {
+        if (listed[v]) found.push_back(v);
+      },
+      1 << 14);
+}
 
 }  // namespace
 
@@ -19,68 +68,40 @@ void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options
   // In sweeps' pushes, mean edge lengths: a vertex at rest wakes above kWake, and moves until it is below
   // kSleep. The gap between them is what keeps a liquid at rest from shimmering.
   constexpr float kWake = 0.02f, kSleep = 0.005f;
-  constexpr int kMostSweeps = 120, kSettledCounted = 20;
-  constexpr int kReorder = 4;  // most fresh vertices have been made by then
-  constexpr double kSlack = 0.005, kSettledSlack = 0.015;
+  constexpr int kMostSweeps = 104, kCounted = 20;
+  constexpr double kSlack = 0.015;
   const float edge = options.spacing * kEdgePerSpacing;
+  const std::size_t inOrder = mesh.vertexCount();
+  if (!options.settled) spreadOut(mesh, phi, options, edge);
   Repulsion repulsion(mesh, phi, edge);
   repulsion.awake.assign(mesh.vertexCount(), options.settled ? 0 : 1);
-  const int counted = options.settled ? kSettledCounted : options.sweeps - 1;
-  std::vector<std::uint32_t> active, changed, next;
-  std::vector<int> listed;                 // the last sweep for which a vertex was listed
-  std::size_t fresh = mesh.vertexCount();  // later vertices are not in order yet
+  std::vector<std::uint32_t> active, changed;
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    if (sweep == kReorder && !options.settled) {
-      mesh.compact(fresh);
-      repulsion.forget();
-      fresh = mesh.vertexCount();
-      repulsion.awake.assign(fresh, 1);
-      listed.assign(fresh, -1);
-      active.resize(fresh);
-      std::iota(active.begin(), active.end(), 0u);
-    }
     changed.clear();
     // The number is put right while much moves; later only what is out of all proportion changes: each of the
     // two might undo the other for ever.
-    const bool adjusting = sweep < 4 || sweep % 5 == 0 || active.empty();
-    if (adjusting) {
-      const double slack = sweep > counted ? 1.0 : options.settled ? kSettledSlack : kSlack;
+    const bool everywhere = (options.settled && sweep < 4) || active.empty();
+    if (everywhere || sweep % 5 == 0) {
+      const double slack = options.settled && sweep <= kCounted ? kSlack : 1.0;
       changed = adjustNumber(mesh, phi, {edge, options.points, slack, options.settled},
-                             sweep < 4 || active.empty() ? nullptr : &active);
+                             everywhere ? nullptr : &active);
       repulsion.awake.resize(mesh.vertexCount(), 1);
       for (std::uint32_t v : changed) repulsion.awake[v] = 1;
       if (!changed.empty()) flipToDelaunay(mesh, &changed);
     }
-    const bool everything = !options.settled && sweep < options.sweeps;
-    if (sweep == 0 || everything) {
+    if (sweep == 0) {
       active.clear();
-      for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+      for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v)
         if (mesh.outgoing[v] != kNone) active.push_back(v);
-      }
     } else {
-      // Only what has moved, and its neighbours, can be out of balance now.
-      listed.resize(mesh.vertexCount(), -1);
-      next.clear();
-      const auto list = [&](std::uint32_t v) {
-        if (listed[v] == sweep) return;
-        listed[v] = sweep;
-        next.push_back(v);
-      };
-      for (const std::vector<std::uint32_t>* source : {&active, &changed}) {
-        for (std::uint32_t v : *source) {
-          if (mesh.outgoing[v] == kNone) continue;
-          list(v);
-          mesh.around(v, [&](std::uint32_t h) { list(mesh.target(h)); });
-        }
-      }
-      active.swap(next);
+      active = withNeighbors(mesh, {&active, &changed});
     }
-    repulsion.sweep(active, kWake, everything ? 0.0f : kSleep);
-    if (active.empty() && changed.empty() && adjusting) break;
+    repulsion.sweep(active, kWake, kSleep);
+    if (active.empty() && changed.empty() && everywhere) break;
     flipToDelaunay(mesh, &active);
   }
   mend(mesh, phi, options.spacing);
-  mesh.compact(fresh);
+  mesh.compact(inOrder);
 }
 
 }  // namespace fluidtex::texture

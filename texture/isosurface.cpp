@@ -3,6 +3,7 @@
 // so that ambiguous faces are decided alike from both sides.
 #include "texture/isosurface.h"
 
+#include "texture/crossed_cells.h"
 #include "texture/parallel.h"
 
 #include <tbb/parallel_for.h>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
 
@@ -209,9 +211,6 @@ const std::array<Case, 256>& cases() {
   return table;
 }
 
-int valueIndex(int x, int y, int z) {
-  return ((x + 1) * kPadded + y + 1) * kPadded + z + 1;
-}
 constexpr std::array<int, 3> kValueStep{kPadded * kPadded, kPadded, 1};
 
 unsigned cellMask(const float* corner) {
@@ -221,16 +220,6 @@ unsigned cellMask(const float* corner) {
     mask |= unsigned(corner[offset] < 0.0f) << c;
   }
   return mask;
-}
-
-template <class Body>  // body(local cell index, x, y, z, pointer to the value of its lowest corner)
-void forCells(const float* values, const Body& body) {
-  for (int x = 0; x < kSide; ++x) {
-    for (int y = 0; y < kSide; ++y) {
-      const float* row = values + valueIndex(x, y, 0);
-      for (int z = 0; z < kSide; ++z) body((x * kSide + y) * kSide + z, x, y, z, row + z);
-    }
-  }
 }
 
 }  // namespace
@@ -249,7 +238,7 @@ IsoSurface isoSurface(const LevelSet& phi) {
   std::vector<std::uint32_t> firstVertex(blocks + 1, 0), firstTriangle(blocks + 1, 0);
   forBlocks([&](std::size_t b) {
     std::uint32_t vertices = 0, triangles = 0;
-    forCells(phi.values(b), [&](int, int, int, int, const float* v) {
+    forCrossedCells(phi.values(b), [&](int, int, int, const float* v) {
       const bool inside = v[0] < 0.0f;
       for (int step : kValueStep) vertices += inside != (v[step] < 0.0f);
       const Case& c = table[cellMask(v)];
@@ -267,19 +256,19 @@ IsoSurface isoSurface(const LevelSet& phi) {
 
   // vertexOf[(block * cells + cell) * 3 + axis]: the crossing on the edge from the cell's lowest corner along
   // that axis.
-  std::vector<std::uint32_t> vertexOf(blocks * kBlockCells * 3);
+  const auto vertexOf = std::make_unique_for_overwrite<std::uint32_t[]>(blocks * kBlockCells * 3);
   forBlocks([&](std::size_t b) {
     constexpr float kMargin = 0.02f;
     std::uint32_t next = firstVertex[b];
     const Coord o = phi.origin(b);
-    forCells(phi.values(b), [&](int cell, int x, int y, int z, const float* v) {
+    forCrossedCells(phi.values(b), [&](int x, int y, int z, const float* v) {
       const Vec3f base(float(o.x() + x), float(o.y() + y), float(o.z() + z));
       for (int axis = 0; axis < 3; ++axis) {
         const float v1 = v[kValueStep[std::size_t(axis)]];
         if ((v[0] < 0.0f) == (v1 < 0.0f)) continue;
         Vec3f p = base;
         p[axis] += std::clamp(v[0] / (v[0] - v1), kMargin, 1.0f - kMargin);
-        vertexOf[(b * kBlockCells + std::size_t(cell)) * 3 + std::size_t(axis)] = next;
+        vertexOf[(b * kBlockCells + std::size_t((x * kSide + y) * kSide + z)) * 3 + std::size_t(axis)] = next;
         surface.positions[next++] = p;
       }
     });
@@ -297,9 +286,9 @@ IsoSurface isoSurface(const LevelSet& phi) {
     std::uint32_t triangle = firstTriangle[b];
     // Centres are numbered after the block's crossings.
     std::uint32_t centre = firstVertex[b + 1];
-    forCells(phi.values(b),
-             [&](int, int, int, int, const float* v) { centre -= !table[cellMask(v)].rim.empty(); });
-    forCells(phi.values(b), [&](int, int x, int y, int z, const float* v) {
+    forCrossedCells(phi.values(b),
+                    [&](int, int, int, const float* v) { centre -= !table[cellMask(v)].rim.empty(); });
+    forCrossedCells(phi.values(b), [&](int x, int y, int z, const float* v) {
       const unsigned mask = cellMask(v);
       const Case& c = table[mask];
       if (c.triangles.empty()) return;

@@ -37,4 +37,15 @@ inline unsigned atMost8(const Float8& v, float bound) {
 #endif
 }
 
+// Bit k is set where lane k is less than `bound`.
+inline unsigned below8(const Float8& v, float bound) {
+#ifdef __AVX__
+  return unsigned(_mm256_movemask_ps(_mm256_cmp_ps(__m256(v), _mm256_set1_ps(bound), _CMP_LT_OQ)));
+#else
+  unsigned bits = 0;
+  for (unsigned k = 0; k < 8; ++k) bits |= unsigned(v[k] < bound) << k;
+  return bits;
+#endif
+}
+
 }  // namespace fluidtex::texture

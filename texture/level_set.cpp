@@ -1,7 +1,11 @@
 #include "texture/level_set.h"
 
+#include "texture/crossed_cells.h"
+#include "texture/parallel.h"
+
 #include <openvdb/tree/ValueAccessor.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -44,8 +48,10 @@ std::uint64_t morton(const Coord& origin) {
 }
 
 std::size_t hashOf(const Coord& origin) {
-  std::uint64_t h = morton(origin) * 0x9e3779b97f4a7c15ULL;
-  return std::size_t(h ^ h >> 29);
+  std::uint64_t h = std::uint64_t(std::uint32_t(origin.x())) * 0x9e3779b97f4a7c15ULL ^
+                    std::uint64_t(std::uint32_t(origin.y())) * 0xc2b2ae3d27d4eb4fULL ^
+                    std::uint64_t(std::uint32_t(origin.z())) * 0x165667b19e3779f9ULL;
+  return std::size_t(h ^ h >> 32);
 }
 
 void requireFinite(const FloatGrid& phi, const std::vector<const Leaf*>& leaves) {
@@ -70,16 +76,14 @@ void requireFinite(const FloatGrid& phi, const std::vector<const Leaf*>& leaves)
 // the blocks below each leaf count too. Two tiles of opposite sign may touch without a leaf between them:
 // their rim counts as well.
 std::vector<Coord> candidateBlocks(const FloatGrid& phi, const std::vector<const Leaf*>& leaves) {
-  std::vector<Coord> blocks;
-  blocks.reserve(leaves.size() * 4);
-  auto acc = phi.getConstAccessor();
-  for (const Leaf* leaf : leaves) {
-    const Coord o = leaf->origin();
+  std::vector<Coord> blocks = gathered<Coord>(leaves.size(), [&](std::uint32_t i, std::vector<Coord>& found) {
+    const Coord o = leaves[i]->origin();
     for (int n = 0; n < 8; ++n) {
       const Coord b = o.offsetBy(n & 1 ? -kSide : 0, n & 2 ? -kSide : 0, n & 4 ? -kSide : 0);
-      if (n == 0 || !acc.probeConstLeaf(b)) blocks.push_back(b);
+      if (n == 0 || !phi.tree().probeConstLeaf(b)) found.push_back(b);
     }
-  }
+  });
+  auto acc = phi.getConstAccessor();
   const auto rim = [&](const Coord& o) {
     for (int n = 0; n < 27; ++n) {
       const Coord b = o.offsetBy((n % 3 - 1) * kSide, (n / 3 % 3 - 1) * kSide, (n / 9 - 1) * kSide);
@@ -106,6 +110,31 @@ std::vector<Coord> candidateBlocks(const FloatGrid& phi, const std::vector<const
     }
   }
   return blocks;
+}
+
+// Whether a cell of the block may have corners of both signs: none has if the block and those above it have
+// one.
+bool maybeCrossed(const FloatGrid::ConstAccessor& acc, const Coord& origin) {
+  bool inside = false, outside = false;
+  for (int n = 0; n < 8; ++n) {
+    const Coord o = origin.offsetBy(n & 1 ? kSide : 0, n & 2 ? kSide : 0, n & 4 ? kSide : 0);
+    const Leaf* leaf = acc.probeConstLeaf(o);
+    if (!leaf) {
+      (acc.getValue(o) < 0.0f ? inside : outside) = true;
+    } else {
+      // Of the blocks above only the lowest layer, edge or corner is the block's too.
+      const float* v = leaf->buffer().data();
+      const int xs = n & 1 ? 1 : kSide, ys = n & 2 ? 1 : kSide, zs = n & 4 ? 1 : kSide;
+      for (int x = 0; x < xs; ++x)
+        for (int y = 0; y < ys; ++y) {
+          const unsigned below = below8(load8(v + x * 64 + y * 8), 0.0f) & ((1u << zs) - 1u);
+          inside = inside || below != 0;
+          outside = outside || below != (1u << zs) - 1u;
+        }
+    }
+    if (inside && outside) return true;
+  }
+  return false;
 }
 
 // The 11^3 values around a block, in voxels.
@@ -146,42 +175,23 @@ struct CellBox {  // of the cells that the zero set crosses; empty if lo > hi
   bool empty() const { return hi[0] < 0; }
 };
 
-CellBox crossedCells(const float* v) {
-  // One bit a value, a row along z at a time; a cell is crossed if its eight signs differ.
-  std::array<std::array<std::uint16_t, 9>, 9> sign;
-  for (int x = 0; x < 9; ++x) {
-    for (int y = 0; y < 9; ++y) {
-      const float* row = v + ((x + 1) * kPadded + y + 1) * kPadded + 1;
-      unsigned bits = 0;
-      for (int z = 0; z < 9; ++z) bits |= unsigned(row[z] < 0.0f) << z;
-      sign[std::size_t(x)][std::size_t(y)] = std::uint16_t(bits);
-    }
-  }
+CellBox crossedCells(const float* values) {
   CellBox box;
-  for (std::size_t x = 0; x < 8; ++x) {
-    for (std::size_t y = 0; y < 8; ++y) {
-      const unsigned a = sign[x][y], b = sign[x + 1][y], c = sign[x][y + 1], d = sign[x + 1][y + 1];
-      const unsigned any = a | b | c | d, all = a & b & c & d;
-      const unsigned crossed = ((any | any >> 1) & ~(all & all >> 1)) & 0xffu;
-      if (!crossed) continue;
-      for (int z = 0; z < 8; ++z) {
-        if (!(crossed >> z & 1u)) continue;
-        const std::array<std::int8_t, 3> cell{std::int8_t(x), std::int8_t(y), std::int8_t(z)};
-        for (std::size_t k = 0; k < 3; ++k) {
-          box.lo[k] = std::min(box.lo[k], cell[k]);
-          box.hi[k] = std::max(box.hi[k], cell[k]);
-        }
-      }
+  forCrossedCells(values, [&](int x, int y, int z, const float*) {
+    const std::array<std::int8_t, 3> cell{std::int8_t(x), std::int8_t(y), std::int8_t(z)};
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.lo[k] = std::min(box.lo[k], cell[k]);
+      box.hi[k] = std::max(box.hi[k], cell[k]);
     }
-  }
+  });
   return box;
 }
 
 void sortAlongCurve(std::vector<Coord>& blocks) {
   std::vector<std::pair<std::uint64_t, Coord>> keyed;
-  keyed.reserve(blocks.size());
-  for (const Coord& b : blocks) keyed.emplace_back(morton(b), b);
-  std::sort(keyed.begin(), keyed.end());
+  keyed.resize(blocks.size());
+  forEachIndex(blocks.size(), [&](std::uint32_t b) { keyed[b] = {morton(blocks[b]), blocks[b]}; });
+  tbb::parallel_sort(keyed.begin(), keyed.end());
   keyed.erase(std::unique(keyed.begin(), keyed.end()), keyed.end());
   blocks.clear();
   for (const auto& [key, b] : keyed) blocks.push_back(b);
@@ -209,6 +219,7 @@ LevelSet::LevelSet(const FloatGrid& phi) {
     });
   };
   forBlocks(candidates.size(), [&](const FloatGrid::ConstAccessor& acc, std::size_t i) {
+    if (!maybeCrossed(acc, candidates[i])) return;
     std::array<float, kBlockValues> v;
     gather(acc, candidates[i], scale, v.data());
     boxes[i] = crossedCells(v.data());
@@ -245,9 +256,9 @@ LevelSet::LevelSet(const FloatGrid& phi) {
     m_origins.push_back(o);
     insert(std::uint32_t(m_origins.size() - 1));
   }
-  m_values.resize(m_origins.size() * kBlockValues);
+  m_values = std::make_unique_for_overwrite<float[]>(m_origins.size() * kBlockValues);
   forBlocks(m_origins.size(), [&](const FloatGrid::ConstAccessor& acc, std::size_t i) {
-    gather(acc, m_origins[i], scale, m_values.data() + i * kBlockValues);
+    gather(acc, m_origins[i], scale, m_values.get() + i * kBlockValues);
   });
 }
 

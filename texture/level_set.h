@@ -6,6 +6,8 @@
 
 #include <openvdb/openvdb.h>
 
+#include <memory>
+
 namespace fluidtex::texture {
 
 // Works in index space (one voxel = 1, voxel centres at integers) and in voxels of distance, whatever the
@@ -26,7 +28,7 @@ class LevelSet {
   // Values at local coordinates (x, y, z) of a block, each -1..9: values(b)[((x + 1) * kPadded + y + 1) *
   // kPadded + z + 1].
   const float* values(std::size_t block) const {
-    return m_values.data() + block * kPadded * kPadded * kPadded;
+    return m_values.get() + block * kPadded * kPadded * kPadded;
   }
   std::size_t blockCount() const { return m_origins.size(); }
   std::uint32_t find(const openvdb::Coord& origin) const;
@@ -63,7 +65,7 @@ class LevelSet {
   float sampleScale(const Vec3f& x) const;
 
   std::vector<openvdb::Coord> m_origins;
-  std::vector<float> m_values;
+  std::unique_ptr<float[]> m_values;
   std::vector<float> m_scale;          // empty: 1 everywhere
   std::vector<std::uint32_t> m_table;  // open addressing on the block's origin
   std::size_t m_surfaceBlocks = 0;

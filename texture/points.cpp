@@ -3,6 +3,7 @@
 #include "texture/points.h"
 
 #include "texture/parallel.h"
+#include "texture/patches.h"
 #include "texture/point_grid.h"
 #include "texture/point_scale.h"
 #include "texture/random.h"
@@ -101,7 +102,9 @@ class Placed {
     return false;
   }
   void place(const Vec3f& p, const Vec3f& n, float radius) {
-    if (near(p, n, radius)) return;
+    if (!near(p, n, radius)) add(p, n);
+  }
+  void add(const Vec3f& p, const Vec3f& n) {
     const float scale = m_phi.scale(p);
     if (m_phi.scaled()) m_scale.push_back(scale);
     m_grids[m_phi.scaled() ? octave(scale) : 0].insert(p, std::uint32_t(points.position.size()));
@@ -123,9 +126,45 @@ class Placed {
   std::vector<float> m_scale;  // #P where it varies
 };
 
-struct Dart {
-  Vec3f position, normal;
-};
+// Offers points to be placed, cube of space by cube: offersOf(cube, offer) calls offer(position, normal) for
+// those in a cube. One is placed where no other stands in its way that was there before or was offered
+// earlier. What lies deep in a cube is placed while others are in theirs, and then what lies between the
+// cubes.
+template <class OffersOf>
+void placeAll(const LevelSet& phi, const Patches& cubes, float side, float radius, std::size_t expected,
+              const OffersOf& offersOf, Placed& placed) {
+  struct Part {
+    PointSet deep, between;
+  };
+  std::vector<Part> parts(cubes.count());
+  const bool first = placed.points.position.empty();
+  forEachPatch(cubes, [&](std::uint32_t cube) {
+    Placed inside(phi, radius, expected);
+    PointSet& between = parts[cube].between;
+    offersOf(cube, [&](const Vec3f& p, const Vec3f& n) {
+      if (!first && placed.near(p, n, radius)) return;
+      const float reach = radius * phi.scale(p);
+      bool deep = true;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float at = p[axis] - side * std::floor(p[axis] / side);
+        deep = deep && at > reach && at < side - reach;
+      }
+      if (deep) {
+        inside.place(p, n, radius);
+      } else {
+        between.position.push_back(p);
+        between.normal.push_back(n);
+      }
+    });
+    parts[cube].deep = std::move(inside.points);
+  });
+  for (const Part& part : parts)
+    for (std::size_t k = 0; k < part.deep.position.size(); ++k)
+      placed.add(part.deep.position[k], part.deep.normal[k]);
+  for (const Part& part : parts)
+    for (std::size_t k = 0; k < part.between.position.size(); ++k)
+      placed.place(part.between.position[k], part.between.normal[k], radius);
+}
 
 // Calls offer(position, normal) for random points of triangle t, keyed by its cell and its number there.
 template <class Offer>
@@ -161,6 +200,7 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
   constexpr float kDartDistance = 0.8f, kFillDistance = 0.95f;
   // Between seeds there are few gaps, and long edges are split later.
   const float dartsPerPoint = seeds.empty() ? 5.0f : 2.0f;
+  constexpr float kCube = 40.0f;     // spacings: the side of what one thread works on
   constexpr float kReach = 1.5f;     // voxels from which a seed is still brought back
   constexpr float kSnapped = 0.05f;  // voxels from the surface at most, after projection
   constexpr float kStill = 1e-3f;    // voxels: a seed this near stays exactly where it is
@@ -178,24 +218,36 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
     projected[i] = phi.project(seeds[i], kReach);
     if ((projected[i].position - seeds[i]).lengthSqr() < kStill * kStill) projected[i].position = seeds[i];
   });
-  for (const LevelSet::Projection& p : projected) {
-    if (p.known && p.distance < kSnapped) placed.place(p.position, p.normal, kSeedDistance * spacing);
+  // Whole voxels, so that a cell's triangles lie in one cube.
+  const float side = std::ceil(kCube * spacing);
+  std::vector<Vec3f> places;
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t i = 0; i < projected.size(); ++i) {
+    if (!projected[i].known || projected[i].distance >= kSnapped) continue;
+    places.push_back(projected[i].position);
+    kept.push_back(i);
+  }
+  const auto perCube = std::size_t(kCube * kCube);
+  if (!kept.empty()) {
+    const Patches cubes = patchesOf(places, side);
+    const auto seedsOf = [&](std::uint32_t cube, const auto& offer) {
+      for (std::uint32_t k = cubes.first[cube]; k < cubes.first[cube + 1]; ++k) {
+        const LevelSet::Projection& p = projected[kept[cubes.vertex[k]]];
+        offer(p.position, p.normal);
+      }
+    };
+    placeAll(phi, cubes, side, kSeedDistance * spacing, perCube, seedsOf, placed);
   }
 
-  // Darts that a seed keeps out are dropped in parallel: mostly that is all of them. The others are placed
-  // one after the other.
-  constexpr std::size_t kChunk = 512;  // triangles
   const float perArea = dartsPerPoint / (spacing * spacing);
-  const std::size_t count = surface.triangles.size();
-  std::vector<std::vector<Dart>> darts((count + kChunk - 1) / kChunk);
-  tbb::parallel_for(std::size_t(0), darts.size(), [&](std::size_t chunk) {
-    for (std::size_t t = chunk * kChunk; t < std::min(count, (chunk + 1) * kChunk); ++t)
-      throwDarts(phi, surface, t, key, perArea, [&](const Vec3f& p, const Vec3f& n) {
-        if (seeds.empty() || !placed.near(p, n, dartRadius)) darts[chunk].push_back({p, n});
-      });
-  });
-  for (const std::vector<Dart>& thrown : darts)
-    for (const Dart& dart : thrown) placed.place(dart.position, dart.normal, dartRadius);
+  places.resize(surface.triangles.size());
+  forEachIndex(places.size(), [&](std::uint32_t t) { places[t] = surface.cells[t].asVec3s() + Vec3f(0.5f); });
+  const Patches cubes = patchesOf(places, side);
+  const auto dartsOf = [&](std::uint32_t cube, const auto& offer) {
+    for (std::uint32_t k = cubes.first[cube]; k < cubes.first[cube + 1]; ++k)
+      throwDarts(phi, surface, cubes.vertex[k], key, perArea, offer);
+  };
+  placeAll(phi, cubes, side, dartRadius, perCube, dartsOf, placed);
   return std::move(points);
 }
 

@@ -40,6 +40,34 @@ bool flipFolds(const EditableMesh& mesh, std::uint32_t h) {
   return now < kFacing && !mayFace(now, std::min(facingOf(mesh, a, b, c), facingOf(mesh, b, a, d)));
 }
 
+// Flipping ends by itself on a plane; on a coarsely sampled surface it might go round in a circle.
+std::size_t flipBudget(std::size_t halfEdges) {
+  return 10 * halfEdges;
+}
+
+// Flips the edges on the stack that have to be, and then whatever that asks for, among those that are
+// `allowed`.
+template <typename Allowed>
+void settle(EditableMesh& mesh, std::vector<std::uint32_t>& stack, std::size_t& budget,
+            const Allowed& allowed) {
+  while (!stack.empty() && budget > 0) {
+    const std::uint32_t h = stack.back();
+    stack.pop_back();
+    --budget;
+    if (!allowed(h) || !violatesDelaunay(mesh, h) || !mesh.canFlip(h) || flipFolds(mesh, h)) continue;
+    mesh.flip(h);
+    const std::uint32_t n = EditableMesh::next(h), t = mesh.twin[n];
+    for (std::uint32_t e : {h, EditableMesh::previous(n), EditableMesh::next(t), EditableMesh::previous(t)})
+      stack.push_back(e);
+  }
+  stack.clear();
+}
+
+bool ownsCorners(const EditableMesh& mesh, const Patches& patches, std::uint32_t patch, std::uint32_t h) {
+  return patches.owns(patch, mesh.origin[h]) && patches.owns(patch, mesh.target(h)) &&
+         patches.owns(patch, mesh.opposite(h)) && patches.owns(patch, mesh.opposite(mesh.twin[h]));
+}
+
 }  // namespace
 
 float facing(const Vec3f (&p)[3], const Vec3f (&n)[3]) {
@@ -82,24 +110,7 @@ float worstFacing(const EditableMesh& mesh, std::uint32_t v, std::uint32_t excep
 
 void flipToDelaunay(EditableMesh& mesh, const std::vector<std::uint32_t>* dirty) {
   std::vector<std::uint32_t> stack;
-  // Flipping ends by itself on a plane; on a coarsely sampled surface it might go round in a circle.
-  std::size_t budget = 10 * mesh.halfEdgeCount();
-  const auto settle = [&](std::uint32_t first) {
-    stack.push_back(first);
-    while (!stack.empty() && budget > 0) {
-      const std::uint32_t h = stack.back();
-      stack.pop_back();
-      --budget;
-      if (!violatesDelaunay(mesh, h) || !mesh.canFlip(h) || flipFolds(mesh, h)) continue;
-      mesh.flip(h);
-      const std::uint32_t n = EditableMesh::next(h), t = mesh.twin[n];
-      for (std::uint32_t e :
-           {h, EditableMesh::previous(n), EditableMesh::next(t), EditableMesh::previous(t)}) {
-        stack.push_back(e);
-      }
-    }
-    stack.clear();
-  };
+  std::size_t budget = flipBudget(mesh.halfEdgeCount());
   // Most edges are right as they are, and that is found out in parallel.
   using Edges = std::vector<std::uint32_t>;
   Edges wrong;
@@ -118,15 +129,46 @@ void flipToDelaunay(EditableMesh& mesh, const std::vector<std::uint32_t>* dirty)
       if (mesh.alive(h) && h < mesh.twin[h] && violatesDelaunay(mesh, h)) found.push_back(h);
     });
   }
-  for (std::uint32_t h : wrong) settle(h);
+  for (std::uint32_t h : wrong) {
+    stack.assign(1, h);
+    settle(mesh, stack, budget, [](std::uint32_t) { return true; });
+  }
 }
 
-bool tryCollapse(EditableMesh& mesh, std::uint32_t h) {
+void flipToDelaunay(EditableMesh& mesh, const Patches& patches, std::uint32_t patch, std::uint32_t v,
+                    std::vector<std::uint32_t>& stack) {
+  constexpr std::size_t kMostFlips = 64;
+  mesh.around(v, [&](std::uint32_t h) {
+    if (violatesDelaunay(mesh, h)) stack.push_back(h);
+  });
+  std::size_t budget = kMostFlips;
+  settle(mesh, stack, budget, [&](std::uint32_t h) { return ownsCorners(mesh, patches, patch, h); });
+}
+
+void flipToDelaunay(EditableMesh& mesh, const Patches& patches, std::uint32_t patch) {
+  std::vector<std::uint32_t> wrong, stack;
+  const std::uint32_t begin = patches.first[patch], end = patches.first[patch + 1];
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const std::uint32_t v = patches.vertex[i];
+    if (mesh.outgoing[v] == kNone) continue;
+    mesh.around(v, [&](std::uint32_t h) {
+      if (v < mesh.target(h) && ownsCorners(mesh, patches, patch, h) && violatesDelaunay(mesh, h))
+        wrong.push_back(h);
+    });
+  }
+  std::size_t budget = flipBudget(6 * (end - begin));
+  for (std::uint32_t h : wrong) {
+    stack.assign(1, h);
+    settle(mesh, stack, budget, [&](std::uint32_t e) { return ownsCorners(mesh, patches, patch, e); });
+  }
+}
+
+bool tryCollapse(EditableMesh& mesh, std::uint32_t h, std::vector<std::uint32_t>& freed) {
   const std::uint32_t v = mesh.origin[h], u = mesh.target(h);
   const float now = worstFacingAt(mesh, v, mesh.position[u], mesh.normal[u], u);
   if (now < kFacing && !mayFace(now, worstFacing(mesh, v))) return false;
   if (!mesh.canCollapse(h)) return false;
-  mesh.collapse(h);
+  mesh.collapse(h, freed);
   return true;
 }
 
@@ -157,27 +199,28 @@ void splitLongEdges(EditableMesh& mesh, const LevelSet& phi, float longest) {
   };
   constexpr int kRounds =
       32;  // each halves lengths: enough for any ratio of voxel and spacing that fits into memory
-  std::vector<std::uint32_t> stack;
+  using Edges = std::vector<std::uint32_t>;
   for (int round = 0; round < kRounds; ++round) {
-    const std::size_t count = mesh.halfEdgeCount();
-    bool any = false;
-    for (std::uint32_t h = 0; h < count; ++h) {
-      if (!mesh.alive(h) || h > mesh.twin[h]) continue;
+    const auto tooLong = [&](std::uint32_t h) {
       const float most = longest * std::min(mesh.scaleAt(mesh.origin[h]), mesh.scaleAt(mesh.target(h)));
-      if (length2(h) <= most * most) continue;
+      return length2(h) > most * most;
+    };
+    const Edges edges = gathered<std::uint32_t>(mesh.halfEdgeCount(), [&](std::uint32_t h, Edges& found) {
+      if (mesh.alive(h) && h < mesh.twin[h] && tooLong(h)) found.push_back(h);
+    });
+    if (edges.empty()) break;
+    for (std::uint32_t h : edges) {
+      // A split beside it may have made another edge of it.
+      if (!tooLong(h)) continue;
       // Only the longest edge of both its triangles is split, so that triangles keep their shape.
       const std::uint32_t t = mesh.twin[h];
       const float own = length2(h);
       const auto longer = [&](std::uint32_t e) { return length2(e) > own; };
       if (longer(EditableMesh::next(h)) || longer(EditableMesh::previous(h)) ||
-          longer(EditableMesh::next(t)) || longer(EditableMesh::previous(t))) {
-        any = true;
+          longer(EditableMesh::next(t)) || longer(EditableMesh::previous(t)))
         continue;
-      }
       splitOnSurface(mesh, h, phi);
-      any = true;
     }
-    if (!any) break;
   }
 }
 

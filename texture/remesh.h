@@ -4,6 +4,7 @@
 
 #include "texture/editable_mesh.h"
 #include "texture/level_set.h"
+#include "texture/patches.h"
 
 namespace fluidtex::texture {
 
@@ -35,8 +36,20 @@ float worstFacingAt(const EditableMesh& mesh, std::uint32_t v, const Vec3f& at, 
 // Starts from the edges around the vertices in `dirty`, or from all edges if it is null.
 void flipToDelaunay(EditableMesh& mesh, const std::vector<std::uint32_t>* dirty = nullptr);
 
-// Collapses h if topology and facing allow it.
-bool tryCollapse(EditableMesh& mesh, std::uint32_t h);
+// The same for the edges around v, and for those that this turns wrong, as far as their four corners are the
+// patch's, where others work in theirs. `stack` is room to work in.
+void flipToDelaunay(EditableMesh& mesh, const Patches& patches, std::uint32_t patch, std::uint32_t v,
+                    std::vector<std::uint32_t>& stack);
+
+// The same for all such edges of the patch.
+void flipToDelaunay(EditableMesh& mesh, const Patches& patches, std::uint32_t patch);
+
+// Collapses h if topology and facing allow it. Triangles that vanish are added to `freed`, or else to the
+// mesh's own list.
+bool tryCollapse(EditableMesh& mesh, std::uint32_t h, std::vector<std::uint32_t>& freed);
+inline bool tryCollapse(EditableMesh& mesh, std::uint32_t h) {
+  return tryCollapse(mesh, h, mesh.free);
+}
 
 // Gives each vertex the level set's scale, where it has one.
 void takeScale(EditableMesh& mesh, const LevelSet& phi);

@@ -8,24 +8,16 @@
 #include <cmath>
 
 namespace fluidtex::texture {
-namespace {
-
-constexpr float kLongest = 0.25f;  // move in one sweep, mean edge lengths
-
-}  // namespace
 
 // Where repulsion drives a vertex in one sweep, tangent to the surface.
 Vec3f Repulsion::push(std::uint32_t v) const {
-  // Neighbours repel up to 1.25 mean edge lengths: beyond it a Delaunay flip turns edges, and no force may
-  // jump there.
-  constexpr float kRange = 1.25f;
   constexpr float kStep = 0.2f;  // of the distance that would undo the overlap: stable for six neighbours
   const float own = m_mesh.scaleAt(v);
   const Vec3f at = m_mesh.position[v];
   Vec3f sum(0.0f);
   m_mesh.around(v, [&](std::uint32_t h) {
     const std::uint32_t u = m_mesh.target(h);
-    const float range = kRange * m_edge * 0.5f * (own + m_mesh.scaleAt(u));
+    const float range = kRepulsionRange * m_edge * 0.5f * (own + m_mesh.scaleAt(u));
     const Vec3f away = at - m_mesh.position[u];
     const float distance2 = away.lengthSqr();
     if (distance2 > 0.0f && distance2 < range * range) sum += away * (range / std::sqrt(distance2) - 1.0f);
@@ -46,7 +38,7 @@ void Repulsion::sweep(std::vector<std::uint32_t>& active, float wake, float slee
     const std::uint32_t v = active[i];
     const Vec3f from = m_mesh.position[v];
     Vec3f move = push(v);
-    const float edge = m_edge * m_mesh.scaleAt(v), longest = kLongest * edge, asleep = sleep * edge;
+    const float edge = m_edge * m_mesh.scaleAt(v), longest = kLongestMove * edge, asleep = sleep * edge;
     const float limit = awake[v] ? asleep : wake * edge;
     awake[v] = move.lengthSqr() > limit * limit;
     if (awake[v]) {

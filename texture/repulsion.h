@@ -6,6 +6,11 @@
 
 namespace fluidtex::texture {
 
+// Neighbours repel up to so many mean edge lengths: beyond it a Delaunay flip turns edges, and no force may
+// jump there.
+inline constexpr float kRepulsionRange = 1.25f;
+inline constexpr float kLongestMove = 0.25f;  // in one sweep, mean edge lengths
+
 // Moves vertices away from their neighbours, sweep by sweep. What it works on stays outside: `mesh` may
 // change between sweeps.
 class Repulsion {
@@ -20,9 +25,6 @@ class Repulsion {
   // where that folds no triangle. Leaves in `active` those that moved by more than `sleep`; the others go to
   // sleep where they were. Both in mean edge lengths there.
   void sweep(std::vector<std::uint32_t>& active, float wake, float sleep);
-
-  // To be called when the mesh's vertices have got other numbers.
-  void forget() { m_last.clear(); }
 
  private:
   Vec3f push(std::uint32_t v) const;
