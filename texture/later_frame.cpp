@@ -110,14 +110,14 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   const Wear wear = wearAround(seamModel(synthesizer, now, 0), carriedLabels, carried.trust);
   const std::size_t count = carriedLabels.size();
   LaterFrame result{carriedLabels, std::vector<std::uint8_t>(count, 0), std::vector<float>(count)};
+  const std::vector<Strain> rates =
+      strainRates(now, carried.previousPosition, carried.trust, secondsSinceLast);
   forEachIndex(count, [&](std::uint32_t v) {
-    result.fadingSpeed[v] = fadingSpeed(wear.stretch[v], carried.age[v], options.keepStretch, options.fade);
+    result.fadingSpeed[v] = fadingSpeed(largest(rates[v]), options.keepStretch, options.fade);
   });
 
   // From here on the surface is that of a while ahead, and labels are what they will be there.
-  const std::vector<Strain> ahead =
-      strainAhead(now, carried.previousPosition, carried.trust, secondsSinceLast, options.lookAhead,
-                  std::log(options.keepStretch));
+  const std::vector<Strain> ahead = strainAhead(rates, options.lookAhead, std::log(options.keepStretch));
   const Connection connection = strained(now, ahead);
   const MeshView view{now.mesh, now.graph, connection, now.pixel, now.members};
   const SeamModel seams = seamModel(synthesizer, view, 0);

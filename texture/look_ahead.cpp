@@ -90,10 +90,14 @@ Complexf strained(const Strain& strain, const Complexf& x) {
   return std::exp(strain.mean) * (std::cosh(size) * x + along * product(strain.deviator, std::conj(x)));
 }
 
-std::vector<Strain> strainAhead(const MeshView& view, const std::vector<Vec3f>& previous,
-                                const std::vector<float>& trust, double seconds, double horizon, double most) {
+float largest(const Strain& strain) {
+  return std::abs(strain.mean) + std::abs(strain.deviator);
+}
+
+std::vector<Strain> strainRates(const MeshView& view, const std::vector<Vec3f>& previous,
+                                const std::vector<float>& trust, double seconds) {
   std::vector<Strain> result(previous.size());
-  if (!(seconds > 0.0) || !(horizon > 0.0)) return result;
+  if (!(seconds > 0.0)) return result;
   std::vector<Weighted> fitted(previous.size());
   forEachIndex(fitted.size(), [&](std::uint32_t v) {
     bool known = trust[v] >= kLowTrust;
@@ -101,15 +105,21 @@ std::vector<Strain> strainAhead(const MeshView& view, const std::vector<Vec3f>& 
     if (known) fitted[v] = fittedStrain(view, previous, v);
   });
   fitted = blurred(view, std::move(fitted));
-  const auto frames = float(horizon / seconds), limit = float(most);
   forEachIndex(fitted.size(), [&](std::uint32_t v) {
     const Weighted& f = fitted[v];
     if (!(f.weight > 1e-6f)) return;
-    const float largest = (std::abs(f.mean) + std::abs(f.deviator)) / f.weight;
-    const float scale = std::min(frames, limit / std::max(largest, 1e-12f)) / f.weight;
+    const float scale = 1.0f / (f.weight * float(seconds));
     result[v] = {f.mean * scale, f.deviator * scale};
   });
   return result;
+}
+
+std::vector<Strain> strainAhead(std::vector<Strain> rates, double horizon, double most) {
+  forEachIndex(rates.size(), [&](std::uint32_t v) {
+    const float scale = std::min(float(horizon), float(most) / std::max(largest(rates[v]), 1e-12f));
+    rates[v] = {rates[v].mean * scale, rates[v].deviator * scale};
+  });
+  return rates;
 }
 
 Connection strained(const MeshView& view, const std::vector<Strain>& strain) {

@@ -17,12 +17,17 @@ struct Strain {
 // exp(strain) x.
 Complexf strained(const Strain& strain, const Complexf& x);
 
-// #V, logarithmic: how the surface around each vertex will be strained `horizon` seconds from now if it goes on
-// as in the last `seconds`, no eigenvalue beyond `most`. The last strain is fitted to how the lengths of the
-// vertex's edges changed since `previous` (where the vertices were) and averaged over a small window; where
-// trust is low it is that of the surroundings. Zero where seconds are.
-std::vector<Strain> strainAhead(const MeshView& view, const std::vector<Vec3f>& previous,
-                                const std::vector<float>& trust, double seconds, double horizon, double most);
+// #V, 1/s, logarithmic: how the surface around each vertex was strained in the last `seconds`. Fitted to how the
+// lengths of the vertex's edges changed since `previous` (where the vertices were) and averaged over a small
+// window; where trust is low it is that of the surroundings. Zero where seconds are.
+std::vector<Strain> strainRates(const MeshView& view, const std::vector<Vec3f>& previous,
+                                const std::vector<float>& trust, double seconds);
+
+// Its largest eigenvalue, up to the sign.
+float largest(const Strain& strain);
+
+// #V: how the surface will be strained in `horizon` seconds if it goes on so, no eigenvalue beyond `most`.
+std::vector<Strain> strainAhead(std::vector<Strain> rates, double horizon, double most);
 
 // The view's edges strained, each by the mean of its ends.
 Connection strained(const MeshView& view, const std::vector<Strain>& strain);

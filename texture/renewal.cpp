@@ -21,6 +21,8 @@ constexpr float kDiscShare = 0.8f, kDiscsApart = 1.6f;  // of a disc's nominal r
 constexpr float kMostYoung = 0.35f;                     // share of a disc
 constexpr float kTooYoung =
     0.3f;  // around a centre with more of it none is tried again, of the nominal radius
+// Of what is kept (log): the earliest that texture is renewed. Far from one, for neighbours were laid together.
+constexpr float kEarliest = 0.5f;
 // Where the log stretch is this many times what is kept, discs may cover more than the budget.
 constexpr float kUrgent = 1.5f;
 
@@ -127,9 +129,9 @@ Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<
           blurred(model.view.graph, std::move(stretched))};
 }
 
-float fadingSpeed(float logStretch, float age, double keepStretch, double fade) {
-  const double most = double(kUrgent) * std::log(std::max(keepStretch, 1.01)), least = std::max(fade, 1e-3);
-  return float(std::max(1.0 / least, double(logStretch) / std::max(double(age), least) / most));
+float fadingSpeed(float strainRate, double keepStretch, double fade) {
+  const double most = double(kUrgent) * std::log(std::max(keepStretch, 1.01));
+  return float(std::max(1.0 / std::max(fade, 1e-3), double(strainRate) / most));
 }
 
 std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,
@@ -140,7 +142,7 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
   const auto young = [&](std::uint32_t v) { return fading[v] > 0.0f && believed(trust[v]); };
   const auto kept = float(std::log(options.keepStretch));
   std::vector<std::uint32_t> candidates = gathered<std::uint32_t>(count, [&](std::uint32_t v, auto& list) {
-    if (!young(v) && bad[v] > kept * (0.8f + 0.4f * noiseAt(labels[v].texel, seed))) list.push_back(v);
+    if (!young(v) && bad[v] > kept * (kEarliest + (1.0f - kEarliest) * noiseAt(labels[v].texel, seed))) list.push_back(v);
   });
   std::sort(candidates.begin(), candidates.end(),
             [&](std::uint32_t a, std::uint32_t b) { return bad[a] > bad[b] || (bad[a] == bad[b] && a < b); });

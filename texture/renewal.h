@@ -43,7 +43,7 @@ struct Wear {
 Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<float>& trust);
 
 // Discs around the worst places, worst first, until the budget is used: where wear is worse than that of
-// texture stretched by keepStretch. The threshold varies by a fifth, smoothly over the exemplar, so that
+// texture stretched by keepStretch. The threshold varies from half of that (log), smoothly over the exemplar, so that
 // neighbours do not renew at once. What still takes the place of older texture (`fading`, its weight) is no
 // member, and discs that hold much of it are left for later.
 std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,
@@ -51,10 +51,9 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
                              const DiscOptions& options, std::uint64_t seed);
 
 // 1/s, how fast the old texture gives way where it is renewed: in `fade` seconds, or in the time in which
-// texture at this place is stretched half as much again (log) as keepStretch, if that is shorter. The time is
-// told by its log stretch since it was laid `age` seconds ago; of what is younger than a fade it tells nothing,
-// since texture is not laid without all stretch.
-float fadingSpeed(float logStretch, float age, double keepStretch, double fade);
+// texture is stretched half as much again (log) as keepStretch, if that is shorter. strainRate: 1/s,
+// logarithmic.
+float fadingSpeed(float strainRate, double keepStretch, double fade);
 
 // 1 where labels must be renewed whatever else is: beyond the edge of an exemplar that does not wrap, or
 // hardly trusted.

@@ -111,7 +111,7 @@ TEST_CASE("synthesize: a first frame takes its texels from the whole exemplar, u
     CHECK((q[0] >= 0 && q[0] <= (toroidal ? 96 : 95) && q[1] >= 0 && q[1] <= (toroidal ? 88 : 87)));
     CHECK(stretchAt(result, v) < 1.01f);
     float expected[4];
-    sampleBilinear(synthesizer.exemplar.color, toroidal, q, expected);
+    sampleCubic(synthesizer.exemplar.color, toroidal, q, expected);
     CHECK(result.color[v] == Vec4f(expected));
     CHECK(result.age[v] == 0.0f);
     CHECK(result.trust[v] == 0.0f);
@@ -279,7 +279,7 @@ TEST_CASE("synthesize: the paper's method carries and averages colours") {
   for (std::size_t v = 0; v < next.color.size(); ++v) {
     difference += (next.color[v] - first.color[v]).length() / double(next.color.size());
     float texel[4];
-    sampleBilinear(synthesizer.exemplar.color, false, next.coordinate[v], texel);
+    sampleCubic(synthesizer.exemplar.color, false, next.coordinate[v], texel);
     looked += (Vec4f(texel) - next.color[v]).length() < 1e-4f;
   }
   CHECK(difference < 0.15);                                 // it starts from and is held to what was carried

@@ -1,0 +1,84 @@
+#include "texture/shown_color.h"
+
+#include "texture/random.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace fluidtex::texture;
+
+namespace {
+
+// Opaque grey noise about 0.5.
+Image noise(int side) {
+  Image image{side, side, 4, {}};
+  for (int i = 0; i < side * side; ++i) {
+    const float grey = 0.25f + 0.5f * float(randomUnit(7, std::uint64_t(i)));
+    image.data.insert(image.data.end(), {grey, grey, grey, 1.0f});
+  }
+  return image;
+}
+
+}  // namespace
+
+TEST_CASE("cubic: passes through texels, exact for a linear image, never beyond the four around") {
+  Image ramp{9, 9, 1, {}}, random{9, 9, 1, {}};
+  for (int y = 0; y < 9; ++y)
+    for (int x = 0; x < 9; ++x) {
+      ramp.data.push_back(float(x) - 2.0f * float(y));
+      random.data.push_back(float(randomUnit(3, std::uint64_t(9 * y + x))));
+    }
+  float out;
+  for (float y = 1.0f; y <= 7.0f; y += 0.25f)
+    for (float x = 1.0f; x <= 7.0f; x += 0.25f) {
+      sampleCubic(ramp, false, {x, y}, &out);
+      CHECK(out == Approx(x - 2.0f * y).margin(1e-5));
+      sampleCubic(random, false, {x, y}, &out);
+      const int i = std::min(int(x), 7), j = std::min(int(y), 7);
+      const auto [least, most] = std::minmax(
+          {*random.at(i, j), *random.at(i + 1, j), *random.at(i, j + 1), *random.at(i + 1, j + 1)});
+      CHECK((out >= least && out <= most));
+      if (x == std::floor(x) && y == std::floor(y)) CHECK(out == Approx(*random.at(int(x), int(y))));
+    }
+  sampleCubic(random, true, {8.5f, 3.0f}, &out);
+  const float wrapped = out;
+  sampleCubic(random, true, {-0.5f, 3.0f}, &out);
+  CHECK(wrapped == Approx(out));
+  sampleCubic(random, false, {1e30f, -1e30f}, &out);
+  CHECK(out == *random.at(8, 0));
+  sampleCubic(random, false, {NAN, NAN}, &out);
+  CHECK(std::isfinite(out));
+}
+
+TEST_CASE("shown color: half-way between two places there is as much contrast as at either") {
+  const Image color = noise(128), around = meansAround(color, true);
+  const auto contrast = [&](float weight) {
+    double sum = 0.0, squares = 0.0;
+    const int count = 4000;
+    for (int i = 0; i < count; ++i) {
+      const auto place = [&](std::uint64_t salt) {
+        return Vec2f(float(int(128.0 * randomUnit(salt, std::uint64_t(2 * i)))),
+                     float(int(128.0 * randomUnit(salt, std::uint64_t(2 * i + 1)))));
+      };
+      const double grey = shownColor(color, around, true, place(1), place(2), weight)[0];
+      sum += grey / count, squares += grey * grey / count;
+    }
+    return std::sqrt(squares - sum * sum);
+  };
+  const double alone = contrast(0.0f);
+  CHECK(contrast(1.0f) == Approx(alone).epsilon(0.05));
+  // A plain mean would have 0.71 of it. What lies on one side of the mean at both places does not overshoot.
+  CHECK(contrast(0.5f) > 0.85 * alone);
+  CHECK(contrast(0.5f) < 1.05 * alone);
+}
+
+TEST_CASE("shown color: the ends are the places themselves, and the same place stays as it is") {
+  const Image color = noise(32), around = meansAround(color, false);
+  const Vec2f a(7.25f, 11.5f), b(20.0f, 3.75f);
+  float expected[4];
+  sampleCubic(color, false, a, expected);
+  CHECK((shownColor(color, around, false, a, b, 0.0f) - Vec4f(expected)).length() < 1e-6f);
+  CHECK((shownColor(color, around, false, b, a, 1.0f) - Vec4f(expected)).length() < 1e-5f);
+  CHECK((shownColor(color, around, false, a, a, 0.3f) - Vec4f(expected)).length() < 1e-5f);
+}
