@@ -8,7 +8,7 @@ namespace fluidtex::texture {
 struct LaterFrame {
   Labels labels;
   std::vector<std::uint8_t> renewed;  // #V: 1 where the label is not the carried one
-  std::vector<float> fadingSpeed;     // #V, 1/s: of what is renewed now
+  std::vector<float> fadingSpeed;     // #V, 1/s: the least at which what fades gives way in this frame
 };
 
 // `view` is of the surface's finest level. Where it has coarser ones too, surface that has just come to

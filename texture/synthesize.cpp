@@ -78,7 +78,9 @@ Fading fadingAfter(const Carried& carried, const LaterFrame& later, double secon
         result.gradient[v] = carried.gradient[v];
       }
     }
-    result.weight[v] = std::max(0.0f, result.weight[v] - result.speed[v] * float(seconds));
+    // Where the flow has become faster since then, so has the fade: only what has faded can be renewed again.
+    const float speed = std::max(result.speed[v], later.fadingSpeed[v]);
+    result.weight[v] = std::max(0.0f, result.weight[v] - speed * float(seconds));
   });
   return result;
 }
