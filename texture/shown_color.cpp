@@ -10,6 +10,12 @@ namespace fluidtex::texture {
 namespace {
 
 constexpr int kHalvings = 3;
+// Differences of luminance, squared, below which two places count as equally bright.
+constexpr float kSame = 1e-3f;
+
+float luminance(const Vec4f& c) {
+  return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
+}
 
 Vec4f premultiplied(const Vec4f& c) {
   return {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]};
@@ -50,13 +56,14 @@ Vec4f shownColor(const Image& colors, const Image& around, bool toroidal, const 
   const Reading now = readAt(colors, around, toroidal, present),
                 old = readAt(colors, around, toroidal, former);
   const float angle = 0.5f * std::numbers::pi_v<float> * weight, a = std::cos(angle), b = std::sin(angle);
-  Vec4f mixed;
-  for (int k = 0; k < 4; ++k) {
-    const float mean = now.mean[k] + weight * (old.mean[k] - now.mean[k]);
-    const float value = mean + a * (now.color[k] - now.mean[k]) + b * (old.color[k] - old.mean[k]);
-    const float one = now.color[k], other = old.color[k];
-    mixed[k] = std::clamp(value, std::min(one, other), std::max(one, other));
-  }
+  const float mean = luminance(now.mean) + weight * (luminance(old.mean) - luminance(now.mean));
+  const float one = luminance(now.color), other = luminance(old.color);
+  const float wanted = std::clamp(mean + a * (one - luminance(now.mean)) + b * (other - luminance(old.mean)),
+                                  std::min(one, other), std::max(one, other));
+  // The colour on the way from one to the other that is as bright; where both are, the way's own share.
+  const float way = one - other;
+  const float share = ((wanted - other) * way + kSame * (1.0f - weight)) / (way * way + kSame);
+  const Vec4f mixed = old.color + (now.color - old.color) * share;
   const float alpha = mixed[3];
   if (!(alpha > 1e-6f)) return {now.color[0], now.color[1], now.color[2], 0.0f};
   return {mixed[0] / alpha, mixed[1] / alpha, mixed[2] / alpha, alpha};

@@ -9,10 +9,11 @@ namespace fluidtex::texture {
 // at (x - 3.5) / 8 of it.
 Image meansAround(const Image& color, bool toroidal);
 
-// Linear RGBA, straight alpha; around: meansAround(color). `weight`, 0..1, is what is left of the former place. The means around both places
-// are mixed by it; what differs from the mean is mixed with equal power, cos and sin of a quarter turn, and held
-// between the two: the sum of two pictures that have nothing to do with each other has the contrast of each
-// instead of 0.7 of it half-way.
+// Linear RGBA, straight alpha; around: meansAround(color). `weight`, 0..1, is what is left of the former place.
+// The colour lies between those of both places, where it is as bright as this: the means around both are mixed by
+// the weight; what differs from the mean is mixed with equal power, cos and sin of a quarter turn, and held
+// between the two. The sum of two pictures that have nothing to do with each other has the contrast of each
+// instead of 0.7 of it half-way. (Mixing each channel so would make colours that neither picture has.)
 Vec4f shownColor(const Image& color, const Image& around, bool toroidal, const Vec2f& present,
                  const Vec2f& former, float weight);
 

@@ -78,7 +78,7 @@ Surface prepare(const FloatGrid& grid, double spacing, const Seeds& seeds = {}) 
 }
 
 Seeds resting(const SurfaceMesh& mesh) {
-  return {mesh.positions, mesh.positions, mesh.triangles};
+  return {mesh.positions, mesh.positions, mesh.triangles, {}};
 }
 
 void requireGuarantees(const SurfaceMesh& mesh, const FloatGrid& grid) {
@@ -96,7 +96,7 @@ TEST_CASE("guarantees: near the level set, nothing folded or slim, topology and 
       INFO(name << ", spacing " << ratio << " voxels");
       const SurfaceMesh random = prepare(*shape.grid, ratio * kVoxel).levels[0];
       // Without their mesh the points are connected again.
-      const SurfaceMesh again = prepare(*shape.grid, ratio * kVoxel, {random.positions, {}, {}}).levels[0];
+      const SurfaceMesh again = prepare(*shape.grid, ratio * kVoxel, {random.positions, {}, {}, {}}).levels[0];
       for (const SurfaceMesh& mesh : {random, again}) {
         requireGuarantees(mesh, *shape.grid);
         // Flat triangles with corners on a ball of radius 2 voxels and edges of one lose a tenth of it.
@@ -171,7 +171,7 @@ TEST_CASE("guarantees: the same bytes on one and two threads, with the last mesh
     Seeds moved = resting(meshes[0]);
     for (Vec3f& p : moved.positions) p += Vec3f(0.01f * std::sin(20.0f * p.y()), 0.0f, 0.005f);
     meshes.push_back(prepare(*grid, 0.07, moved).levels[0]);
-    meshes.push_back(prepare(*grid, 0.07, {moved.positions, {}, {}}).levels[0]);
+    meshes.push_back(prepare(*grid, 0.07, {moved.positions, {}, {}, {}}).levels[0]);
     return meshes;
   };
   const auto one = run(1), two = run(2);

@@ -128,9 +128,9 @@ TEST_CASE("guidance: what is wanted is held in the map's channel, and costs what
   CHECK(values[3][1] == Approx(0.5f * std::sqrt(weight)));
   CHECK(guidanceCost(image, surface.mesh, {31.5f, 3.0f}, 3) == 0.0f);
   CHECK(guidanceCost(image, surface.mesh, {31.5f + 63.0f * 0.09f, 3.0f}, 3) == 0.0f);
-  const float half = guidanceCost(image, surface.mesh, {0.0f, 3.0f}, 3);
-  CHECK(half == Approx(2.0f * weight * 0.4f));
-  CHECK(guidanceCost(image, surface.mesh, {63.0f, 9.0f}, 3) == Approx(half));
+  const float middle = guidanceCost(image, surface.mesh, {0.0f, 3.0f}, 3);
+  CHECK(middle == Approx(2.0f * weight * 0.4f));
+  CHECK(guidanceCost(image, surface.mesh, {63.0f, 9.0f}, 3) == Approx(middle));
 }
 
 TEST_CASE("guidance: what the surface asks for is asked of the parts that have it, one on average") {

@@ -22,7 +22,7 @@ TEST_CASE("a dam break's surface: even, near the level set and sound on every fr
     const FloatGrid& phi = *frame.surfacePhi;
     const double spacing = phi.voxelSize().x();
     Seeds seeds;
-    if (number > 1) seeds = {transport::moved(mesh.positions, frame), mesh.positions, mesh.triangles};
+    if (number > 1) seeds = {transport::moved(mesh.positions, frame), mesh.positions, mesh.triangles, {}};
     mesh = prepareSurface(phi, spacing, seeds, 1, SurfaceOptions{}).levels[0];
     requireSound(mesh, phi);
     const Quality q = measure(mesh, phi);
