@@ -148,6 +148,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   carried.fading = texture::noFading(count);
   carried.age.resize(count);
   carried.trust.resize(count);
+  std::vector<float> stretched(count);
   carried.previousPosition.resize(count);
   texture::forEachIndex(count, [&](std::uint32_t v) {
     const Mat3d& map = trace.map[v];
@@ -177,12 +178,14 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
       carried.orientation[v] = turnedWithFlow(direction, map, normal);
     else
       carried.orientation[v] = texture::tangentUnit(direction, normal, anyTangent(normal));
-    carried.trust[v] = landingTrust(landing, scale, oldNormal) * trace.known[v] *
-                       stretchTrust(texel.gradient, previous.spacing * next.spacingAt(v) / next.spacing);
+    carried.trust[v] = landingTrust(landing, scale, oldNormal) * trace.known[v];
+    stretched[v] = stretchTrust(texel.gradient, previous.spacing * next.spacingAt(v) / next.spacing);
     carried.previousPosition[v] = Vec3f(landing.point.position);
   });
   const std::vector<float> neighbors = neighborTrust(next, carried.previousPosition, trace.map);
-  texture::forEachIndex(count, [&](std::uint32_t v) { carried.trust[v] *= neighbors[v]; });
+  texture::forEachIndex(count, [&](std::uint32_t v) {
+    carried.trust[v] = std::min(carried.trust[v] * neighbors[v], stretched[v]);
+  });
   return carried;
 }
 

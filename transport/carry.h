@@ -24,7 +24,7 @@ std::vector<std::uint8_t> contactAt(const std::vector<texture::Vec3f>& positions
 //  - orientation, by a cubic between the corners, turned with the flow by equation (4), or not (options.orientation), tangent
 //    to the new surface; directions that turns of 360 / symmetry degrees make equal are interpolated as one. With Method::grid
 //    it goes over the grid instead, as an arrow: symmetry 1.
-// trust: transport/trust.h, times the share of the path along which the velocity is known.
+// trust: transport/trust.h, times the share of the path along which the velocity is known; no more than that of stretch.
 // previous empty (the first frame with a surface): an empty result.
 texture::Carried carry(const texture::TexturedSurface& previous, const sim::Frame& frame, const texture::SurfaceMesh& next,
                        int symmetry = 1, const Options& options = {});

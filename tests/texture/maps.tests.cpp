@@ -17,7 +17,7 @@ TexturedSurface twoVertices() {
   surface.positions.resize(2);
   surface.coordinate = {{2.0f, 1.0f}, {5.5f, 2.0f}};
   surface.fading = noFading(2);
-  surface.fading.coordinate[1] = {1.0f, 0.0f};
+  surface.fading.coordinate[1] = {2.0f, 1.0f};
   surface.fading.weight[1] = 0.25f;
   return surface;
 }
@@ -34,7 +34,7 @@ TEST_CASE("maps: looked up at the exemplar coordinates in any resolution, with w
   lookUpMap("height", map, false, surface);
   REQUIRE(surface.maps.at("height").size() == 2);
   CHECK(surface.maps.at("height")[0] == Approx(2.5f + 150.0f));
-  CHECK(surface.maps.at("height")[1] == Approx(0.75f * (6.0f + 250.0f) + 0.25f * (1.5f + 50.0f)));
+  CHECK(surface.maps.at("height")[1] == Approx(0.75f * (6.0f + 250.0f) + 0.25f * (2.5f + 150.0f)));
 }
 
 TEST_CASE("maps: three channels get a name each") {

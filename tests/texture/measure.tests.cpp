@@ -42,7 +42,7 @@ TexturedSurface sheet(const Image& color, const Layout& layout, bool known = tru
     const Vec2f texel = layout(Vec2f(mesh.positions[v].dot(d), mesh.positions[v].dot(b)));
     surface.coordinate.push_back(texel);
     Vec4f shown;
-    sampleBilinear(color, true, texel, shown.asPointer());
+    sampleCubic(color, true, texel, shown.asPointer());
     surface.color.push_back(shown);
   }
   surface.age.assign(surface.positions.size(), 0.0f);
