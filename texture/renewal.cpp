@@ -152,7 +152,8 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
   Surroundings surroundings(model.view);
   double covered = 0.0;
   for (const std::uint32_t center : candidates) {
-    if (wear.stretch[center] < kUrgent * kept && covered >= options.budget * double(count)) continue;
+    // A budget of less than a vertex is none.
+    if (wear.stretch[center] < kUrgent * kept && covered + 1.0 > options.budget * double(count)) continue;
     if (near[center]) continue;
     Disc disc{center, surroundings.within(center, double(kDiscShare) * options.radius), 1.0f};
     const auto fresh = std::count_if(disc.members.begin(), disc.members.end(), young);
