@@ -1,4 +1,4 @@
-// Eight floats at once, for the inner loops of the search. Compiled for a processor without such registers it
+// Eight floats at once, for inner loops. Compiled for a processor without such registers it
 // works as well, only slower.
 #pragma once
 
@@ -24,6 +24,13 @@ inline void store8(float* to, const Float8& lanes) {
 
 inline float sum8(const Float8& v) {
   return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+
+// Lane k of `set` where bit k is set, else of `clear`.
+inline Float8 select8(unsigned bits, const Float8& set, const Float8& clear) {
+  using Int8 = int __attribute__((vector_size(32)));
+  constexpr Int8 kBit{1, 2, 4, 8, 16, 32, 64, 128};
+  return (kBit & int(bits)) != 0 ? set : clear;
 }
 
 // Bit k is set where lane k is at most `bound`.

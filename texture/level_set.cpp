@@ -1,5 +1,7 @@
 #include "texture/level_set.h"
 
+#include "texture/morton.h"
+
 #include "texture/crossed_cells.h"
 #include "texture/parallel.h"
 
@@ -29,22 +31,8 @@ static_assert(Leaf::DIM == kSide);
 // Values further from the surface than this carry no information about it; the bound keeps products finite.
 constexpr float kFarthest = 8.0f;
 
-// Bits of x spread to every third place: 21 bits a coordinate make one Morton code.
-std::uint64_t spread(std::uint64_t x) {
-  x &= 0x1fffff;
-  x = (x | x << 32) & 0x1f00000000ffffULL;
-  x = (x | x << 16) & 0x1f0000ff0000ffULL;
-  x = (x | x << 8) & 0x100f00f00f00f00fULL;
-  x = (x | x << 4) & 0x10c30c30c30c30c3ULL;
-  x = (x | x << 2) & 0x1249249249249249ULL;
-  return x;
-}
-
 std::uint64_t morton(const Coord& origin) {
-  constexpr int kOffset = 1 << 20;
-  return spread(std::uint64_t(origin.x() / kSide + kOffset)) << 2 |
-         spread(std::uint64_t(origin.y() / kSide + kOffset)) << 1 |
-         spread(std::uint64_t(origin.z() / kSide + kOffset));
+  return mortonCode(origin.x() / kSide, origin.y() / kSide, origin.z() / kSide);
 }
 
 std::size_t hashOf(const Coord& origin) {

@@ -16,17 +16,19 @@ std::vector<texture::Vec3f> velocityAt(const std::vector<texture::Vec3f>& positi
 // 1 where a position is nearer to a solid than half a voxel, else 0.
 std::vector<std::uint8_t> contactAt(const std::vector<texture::Vec3f>& positions, const sim::Frame& frame);
 
-// Each vertex of `next` is traced back through the frame, together with the gradient of that map, by options.method; lands on
-// the closest point of `previous`; and picks up what is there:
-//  - exemplar coordinate: the nearest corner's plus its gradient times the offset, never averaged across a jump;
+// Each vertex of `next` is traced back through the frame, together with the gradient of that map, by
+// options.method; lands on the closest point of `previous`; and picks up what is there:
+//  - exemplar coordinate: the nearest corner's plus its gradient times the offset, never averaged across a
+//  jump;
 //    its gradient deformed by the flow; likewise the place that fades;
 //  - colour and age by barycentric interpolation;
-//  - orientation, by a cubic between the corners, turned with the flow by equation (4), or not (options.orientation), tangent
-//    to the new surface; directions that turns of 360 / symmetry degrees make equal are interpolated as one. With Method::grid
-//    it goes over the grid instead, as an arrow: symmetry 1.
-// trust: transport/trust.h, times the share of the path along which the velocity is known; no more than that of stretch.
-// previous empty (the first frame with a surface): an empty result.
-texture::Carried carry(const texture::TexturedSurface& previous, const sim::Frame& frame, const texture::SurfaceMesh& next,
-                       int symmetry = 1, const Options& options = {});
+//  - orientation, by a cubic between the corners, turned with the flow by equation (4), or not
+//  (options.orientation), tangent
+//    to the new surface; directions that turns of 360 / symmetry degrees make equal are interpolated as one.
+//    With Method::grid it goes over the grid instead, as an arrow: symmetry 1.
+// trust: transport/trust.h, times the share of the path along which the velocity is known; no more than that
+// of stretch. previous empty (the first frame with a surface): an empty result.
+texture::Carried carry(const texture::TexturedSurface& previous, const sim::Frame& frame,
+                       const texture::SurfaceMesh& next, int symmetry = 1, const Options& options = {});
 
 }  // namespace fluidtex::transport

@@ -73,7 +73,8 @@ ClosestPoint::ClosestPoint(const std::vector<Vec3f>& positions, const std::vecto
     Vec3f n = ab.cross(ac);
     if (!n.normalize(0.0f)) continue;
     const Vec3f middle = (ab + ac) / 3.0f;
-    const float radius2 = std::max({middle.lengthSqr(), (ab - middle).lengthSqr(), (ac - middle).lengthSqr()});
+    const float radius2 =
+        std::max({middle.lengthSqr(), (ab - middle).lengthSqr(), (ac - middle).lengthSqr()});
     m_bounds[t] = {a + middle, (1.0f + kSlack) * std::sqrt(radius2), n};
   }
   // The second bound keeps one huge triangle among small ones from filling millions of cells.
@@ -103,7 +104,9 @@ ClosestPoint::ClosestPoint(const std::vector<Vec3f>& positions, const std::vecto
 
 openvdb::Coord ClosestPoint::cellOf(const Vec3d& x) const {
   // Far outside all cells the number of the cell no longer matters, only that it exists.
-  const auto part = [&](double value) { return int(std::clamp(std::floor(value * m_cellsPerMetre), -1e9, 1e9)); };
+  const auto part = [&](double value) {
+    return int(std::clamp(std::floor(value * m_cellsPerMetre), -1e9, 1e9));
+  };
   return {part(x.x()), part(x.y()), part(x.z())};
 }
 
