@@ -61,6 +61,15 @@ struct ClosestPoint::Search {
   Vec3f weight{1.0f, 0.0f, 0.0f};
 };
 
+inline openvdb::Coord ClosestPoint::cellOf(const Vec3d& x) const {
+  // Far outside all cells the number of the cell no longer matters, only that it exists. In this order minimum
+  // and maximum are one instruction each.
+  const auto part = [&](double value) {
+    return int(std::max(-1e9, std::min(1e9, std::floor(value * m_cellsPerMetre))));
+  };
+  return {part(x.x()), part(x.y()), part(x.z())};
+}
+
 ClosestPoint::ClosestPoint(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles)
     : m_positions(positions), m_triangles(triangles), m_bounds(triangles.size()), m_table(64) {
   double sum = 0.0, longest = 0.0;
@@ -100,14 +109,6 @@ ClosestPoint::ClosestPoint(const std::vector<Vec3f>& positions, const std::vecto
   for (auto t = std::uint32_t(triangles.size()); t-- > 0;) {
     forEachCell(t, [&](const Coord& cell) { m_entries[--at(cell)] = t; });
   }
-}
-
-openvdb::Coord ClosestPoint::cellOf(const Vec3d& x) const {
-  // Far outside all cells the number of the cell no longer matters, only that it exists.
-  const auto part = [&](double value) {
-    return int(std::clamp(std::floor(value * m_cellsPerMetre), -1e9, 1e9));
-  };
-  return {part(x.x()), part(x.y()), part(x.z())};
 }
 
 const ClosestPoint::Block* ClosestPoint::findBlock(const Coord& origin) const {
