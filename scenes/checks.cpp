@@ -2,6 +2,7 @@
 
 #include "scenes/format.h"
 #include "scenes/schema.h"
+#include "texture/vector_maps.h"
 
 #include <algorithm>
 #include <cctype>
@@ -324,10 +325,25 @@ const std::set<std::string> kVertexNames = {
     "s",  "t",     "dx",  "dy",      "dz",       "bx",     "by",     "bz",    "vx",   "vy",
     "vz", "trust", "age", "contact", "guidance", "fade_s", "fade_t", "fade"};
 
+// Of all properties that the maps before have; a map of vectors has three.
+void checkMapName(const texture::MapOptions& map, std::set<std::string>& names, Reader& reader,
+                  const std::string& key) {
+  std::vector<std::string> own{map.name};
+  if (map.holds != texture::MapHolds::values) {
+    for (const std::string& part : texture::vectorNames(map.name)) own.push_back(part);
+  }
+  bool free = true;
+  for (const std::string& name : own) free &= names.insert(name).second;
+  if (!free)
+    reader.fault(key, "\"" + map.name + "\" is the name of an earlier map too",
+                 "give each map a name of its own");
+}
+
 void checkMaps(const Scene& scene, Reader& reader) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < scene.texture.exemplar.maps.size(); ++i) {
-    const std::string& name = scene.texture.exemplar.maps[i].name;
+    const texture::MapOptions& map = scene.texture.exemplar.maps[i];
+    const std::string& name = map.name;
     const std::string path = "texture.map." + std::to_string(i), key = path + ".name";
     if (!reader.clean(key)) continue;
     const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
@@ -339,9 +355,8 @@ void checkMaps(const Scene& scene, Reader& reader) {
                    "give letters, digits and _, a letter first");
     else if (kVertexNames.contains(name))
       reader.fault(key, "\"" + name + "\" is what every vertex has anyway", "give another name");
-    else if (!names.insert(name).second)
-      reader.fault(key, "\"" + name + "\" is the name of an earlier map too",
-                   "give each map a name of its own");
+    else
+      checkMapName(map, names, reader, key);
   }
 }
 

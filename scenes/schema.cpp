@@ -209,6 +209,7 @@ void describeTexture(Visitor& visitor, Scene& scene) {
         visitor.list("map", texture.exemplar.maps, [&](texture::MapOptions& map) {
           visitor.text("name", map.name);
           visitor.file("file", map.file, {});
+          choice(visitor, "holds", map.holds, {"values", "normals", "directions"});
         });
         visitor.table("orientation", [&] { describeOrientation(visitor, scene); });
         visitor.table("transport", [&] {

@@ -188,7 +188,7 @@ Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& sy
   Exemplar exemplar = prepare(std::move(color), std::move(guidance), options.toroidal, synthesis, levels,
                               options.file.string());
   for (const MapOptions& map : options.maps)
-    exemplar.maps[map.name] = vertexMap(readMap(map.file), exemplar.color.width, options.toroidal);
+    exemplar.maps[map.name] = loadMap(map, exemplar.color.width, options.toroidal);
   return exemplar;
 }
 

@@ -24,6 +24,12 @@ void sampleBilinear(const Image& image, bool toroidal, const Vec2f& texel, float
 // texels bilinear interpolation loses half of the finest detail, this a fifth, and it does not ring.
 void sampleCubic(const Image& image, bool toroidal, const Vec2f& texel, float* out);
 
+// Numbers or vectors over the same picture, ready to be looked up at vertices.
+struct ExemplarMap {
+  Image image;
+  MapHolds holds = MapHolds::values;
+};
+
 struct Exemplar {
   bool toroidal = false;
   // Linear RGBA at full size, straight alpha; what the colour of a vertex is looked up in.
@@ -38,7 +44,7 @@ struct Exemplar {
   bool guided = false;
   float guidanceWeight = 1.0f;
   // Further maps over the same picture, ready to be looked up at vertices (texture/maps.h).
-  std::map<std::string, Image> maps;
+  std::map<std::string, ExemplarMap> maps;
 };
 
 // The input is wrong; the message is one sentence that names the file.

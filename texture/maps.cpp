@@ -2,41 +2,23 @@
 
 #include "texture/channels.h"
 #include "texture/parallel.h"
+#include "texture/read_image.h"
 #include "texture/shown_color.h"
+#include "texture/texel_place.h"
+#include "texture/vector_maps.h"
 
 namespace fluidtex::texture {
-namespace {
-
-// From texels of a surface's exemplar to pixels of an image that lies over it.
-class ToImage {
- public:
-  ToImage(const TexturedSurface& surface, const Image& image)
-      : m_scale(float(image.width) / float(surface.exemplarWidth),
-                float(image.height) / float(surface.exemplarHeight)) {
-    if (image.data.empty()) throw std::invalid_argument("lookUpMap: the map has no pixels");
-    if (surface.exemplarWidth < 1 || surface.exemplarHeight < 1)
-      throw std::invalid_argument("lookUpMap: the surface does not know the size of its exemplar");
-  }
-  // Centres lie at integers, in the exemplar as in the image.
-  Vec2f operator()(const Vec2f& texel) const {
-    const Vec2f half(0.5f, 0.5f);
-    return (texel + half) * m_scale - half;
-  }
-
- private:
-  Vec2f m_scale;
-};
-
-// Of a vertex's former place.
-float leftOf(const Fading& fading, std::uint32_t v) {
-  return fading.weight.empty() ? 0.0f : fading.weight[v];
-}
-
-}  // namespace
-
 Image vertexMap(Image map, int exemplarWidth, bool toroidal) {
   while (map.width >= 2 * exemplarWidth && map.width > 1 && map.height > 1) map = halve(map, toroidal);
   return map;
+}
+
+ExemplarMap loadMap(const MapOptions& options, int exemplarWidth, bool toroidal) {
+  Image image = readMap(options.file);
+  if (options.holds != MapHolds::values && image.channels != 3)
+    throw ExemplarError(options.file.string() +
+                        " is grey; a map of vectors must have x, y and z as red, green and blue.");
+  return {vertexMap(std::move(image), exemplarWidth, toroidal), options.holds};
 }
 
 std::vector<std::string> mapNames(const std::string& name, int channels) {
@@ -45,7 +27,7 @@ std::vector<std::string> mapNames(const std::string& name, int channels) {
 }
 
 void lookUpMap(const std::string& name, const Image& map, bool toroidal, TexturedSurface& surface) {
-  const ToImage toMap(surface, map);
+  const TexelToImage toMap(surface, map);
   if (map.channels != 1 && map.channels != 3)
     throw std::invalid_argument("lookUpMap: the map must have one or three channels");
   const std::size_t count = surface.positions.size();
@@ -64,8 +46,15 @@ void lookUpMap(const std::string& name, const Image& map, bool toroidal, Texture
   });
 }
 
+void lookUp(const std::string& name, const ExemplarMap& map, bool toroidal, TexturedSurface& surface) {
+  if (map.holds == MapHolds::values)
+    lookUpMap(name, map.image, toroidal, surface);
+  else
+    lookUpVectors(name, map, toroidal, surface);
+}
+
 void lookUpColor(const Image& color, bool toroidal, TexturedSurface& surface) {
-  const ToImage toColor(surface, color);
+  const TexelToImage toColor(surface, color);
   if (color.channels != 4) throw std::invalid_argument("lookUpColor: colours must be RGBA");
   const Image around = meansAround(color, toroidal);
   surface.color.resize(surface.positions.size());

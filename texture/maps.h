@@ -14,14 +14,21 @@ namespace fluidtex::texture {
 // is less than twice as wide as the exemplar.
 Image vertexMap(Image map, int exemplarWidth, bool toroidal);
 
+// Reads a map and makes it ready for vertices. Throws ExemplarError as readMap() does, and where vectors are
+// asked of an image without three channels.
+ExemplarMap loadMap(const MapOptions& options, int exemplarWidth, bool toroidal);
+
 // The names under which a map of so many channels is kept: its own, or name_red, name_green and name_blue for
 // three.
 std::vector<std::string> mapNames(const std::string& name, int channels);
 
 // Fills surface.maps under these names, whatever the map's size: where a vertex still shows its former place
-// too, with both, mixed by what is left of it. Throws std::invalid_argument if the map is empty or the surface
-// does not know the size of its exemplar.
+// too, with both, mixed by what is left of it. Throws std::invalid_argument if the map is empty or the
+// surface does not know the size of its exemplar.
 void lookUpMap(const std::string& name, const Image& map, bool toroidal, TexturedSurface& surface);
+
+// What the map holds: lookUpMap() or, of vectors, lookUpVectors() (texture/vector_maps.h).
+void lookUp(const std::string& name, const ExemplarMap& map, bool toroidal, TexturedSurface& surface);
 
 // Looks surface.color up anew, in colours of any size. Throws as lookUpMap().
 void lookUpColor(const Image& color, bool toroidal, TexturedSurface& surface);

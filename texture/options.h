@@ -117,10 +117,14 @@ struct SynthesisOptions {
   std::uint64_t seed = 1;
 };
 
+// Numbers; or vectors in the axes of the picture, which turn with the texture (texture/vector_maps.h).
+enum class MapHolds { values, normals, directions };
+
 // A further map that lies over the exemplar, in any resolution: looked up wherever a colour is.
 struct MapOptions {
   std::string name;               // of a vertex's property in the PLY
   std::filesystem::path file;
+  MapHolds holds = MapHolds::values;
 };
 
 struct ExemplarOptions {

@@ -99,6 +99,7 @@ struct TexturedSurface {
   std::vector<Vec3f> velocity;          // m/s
   std::vector<std::uint8_t> contact;    // 1 where the vertex touches a solid
   std::map<std::string, std::vector<float>> maps;  // every further map by name, and kGuidance
+  std::map<std::string, std::vector<Vec3f>> vectors;  // unit or zero, in space: maps that hold vectors
   int exemplarWidth = 0, exemplarHeight = 0;       // texels
   std::vector<float> scale;             // of the spacing, as in SurfaceMesh; may be empty
   bool empty() const { return positions.empty(); }

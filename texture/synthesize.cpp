@@ -173,7 +173,7 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
   result.previousPosition = carried.empty() ? mesh.positions : carried.previousPosition;
   takeMesh(mesh, result);
   for (const auto& [name, map] : synthesizer.exemplar.maps)
-    lookUpMap(name, map, synthesizer.exemplar.toroidal, result);
+    lookUp(name, map, synthesizer.exemplar.toroidal, result);
   return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include "texture/maps.h"
 #include "texture/read_image.h"
+#include "texture/vector_maps.h"
 #include "tools/atomic_file.h"
 #include "tools/commands.h"
 #include "tools/errors.h"
@@ -34,30 +35,49 @@ void checkName(const std::string& name) {
 
 }  // namespace
 
-std::pair<std::string, fs::path> parseMap(const std::string& text) {
+texture::MapOptions parseMap(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == text.npos || equals == 0 || equals + 1 == text.size())
     throw UsageError(fmt::format("{}: is no map; write NAME=FILE, for example height=bark_height.png", text));
-  return {text.substr(0, equals), text.substr(equals + 1)};
+  texture::MapOptions map{.name = text.substr(0, equals), .file = text.substr(equals + 1)};
+  const std::size_t colon = map.name.find(':');
+  if (colon == text.npos) return map;
+  const std::string holds = map.name.substr(colon + 1);
+  map.name.resize(colon);
+  if (holds == "normals")
+    map.holds = texture::MapHolds::normals;
+  else if (holds == "directions")
+    map.holds = texture::MapHolds::directions;
+  else
+    throw UsageError(fmt::format(
+        "{}: a map of {} is not known; write NAME:normals=FILE or NAME:directions=FILE", text, holds));
+  return map;
 }
 
 void applyMaps(const ApplyWishes& wishes) {
-  for (const auto& [name, file] : wishes.maps)
-    if (name != kColor) checkName(name);
+  for (const texture::MapOptions& map : wishes.maps)
+    if (map.name != kColor) checkName(map.name);
   const FinishedRun run = openRun(wishes.out, wishes.exemplar);
   const int width = run.color.width, height = run.color.height;
-  std::vector<std::pair<std::string, texture::Image>> maps;
-  for (const auto& [name, file] : wishes.maps)
-    maps.emplace_back(
-        name, texture::vertexMap(name == kColor ? texture::readImage(file) : texture::readMap(file), width,
-                                 run.toroidal));
+  std::vector<std::pair<std::string, texture::ExemplarMap>> maps;
+  bool vectors = false;
+  for (const texture::MapOptions& map : wishes.maps) {
+    vectors |= map.holds != texture::MapHolds::values;
+    maps.emplace_back(map.name, map.name == kColor ? texture::ExemplarMap{texture::vertexMap(
+                                                         texture::readImage(map.file), width, run.toroidal)}
+                                                   : texture::loadMap(map, width, run.toroidal));
+  }
   for (const int frame : run.frames) {
     texture::TexturedSurface surface = readPly(run.surfaceOf(frame), width, height);
+    if (vectors && !surface.empty()) {
+      surface.spacing = spacingOf(run, surface, frame);
+      texture::recoverGradients(run.toroidal, surface);
+    }
     for (const auto& [name, map] : maps) {
       if (name == kColor)
-        texture::lookUpColor(map, run.toroidal, surface);
+        texture::lookUpColor(map.image, run.toroidal, surface);
       else
-        texture::lookUpMap(name, map, run.toroidal, surface);
+        texture::lookUp(name, map, run.toroidal, surface);
     }
     writeAtomically(run.surfaceOf(frame), [&](const fs::path& file) { writePly(surface, file); });
   }

@@ -7,8 +7,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 namespace fluidtex::tools {
 namespace fs = std::filesystem;
@@ -40,6 +42,29 @@ std::vector<int> framesIn(const fs::path& folder) {
 
 fs::path FinishedRun::surfaceOf(int frame) const {
   return out / "surface" / (render::frameName(frame) + ".ply");
+}
+
+const Json* recordOf(const FinishedRun& run, int frame) {
+  for (const Json& record : run.report["frames"])
+    if (record.value("frame", -1) == frame) return &record;
+  return nullptr;
+}
+
+Json* recordOf(FinishedRun& run, int frame) {
+  return const_cast<Json*>(recordOf(std::as_const(run), frame));
+}
+
+double spacingOf(const FinishedRun& run, const texture::TexturedSurface& surface, int frame) {
+  const Json* record = recordOf(run, frame);
+  if (record != nullptr && record->contains("spacing") && (*record)["spacing"].is_number())
+    return (*record)["spacing"].get<double>();
+  double area = 0.0;
+  for (const texture::Vec3I& t : surface.triangles) {
+    const texture::Vec3f &a = surface.positions[t[0]], &b = surface.positions[t[1]],
+                         &c = surface.positions[t[2]];
+    area += 0.5 * (b - a).cross(c - a).length();
+  }
+  return std::sqrt(area / double(surface.positions.size()));
 }
 
 FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {

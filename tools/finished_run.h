@@ -19,6 +19,14 @@ struct FinishedRun {
   std::filesystem::path surfaceOf(int frame) const;
 };
 
+// What the report says of a frame; null where it says nothing.
+const Json* recordOf(const FinishedRun& run, int frame);
+Json* recordOf(FinishedRun& run, int frame);
+
+// The frame's spacing, metres, as the report says; or else of as many squares as the surface has points,
+// since one vertex shows a texel.
+double spacingOf(const FinishedRun& run, const texture::TexturedSurface& surface, int frame);
+
 // `exemplar`: instead of the run's own, where that is no longer at its place; else empty. Throws UsageError
 // where the folder holds no run, or its exemplar is gone.
 FinishedRun openRun(const std::filesystem::path& out, const std::filesystem::path& exemplar);

@@ -25,13 +25,6 @@ constexpr std::pair<const char*, const char*> kColumns[] = {
     {"change", "change"},      {"renewed", "renewed"}, {"change_along_flow", "along flow"},
     {"coherence", "coherence"}};
 
-// What a frame's record says of the key; null where there is no such frame or key.
-Json* recordOf(Json& report, int frame) {
-  for (Json& record : report["frames"])
-    if (record.value("frame", -1) == frame) return &record;
-  return nullptr;
-}
-
 class Measurer {
  public:
   explicit Measurer(const MeasureWishes& wishes)
@@ -72,25 +65,11 @@ class Measurer {
   }
 
  private:
-  // One vertex shows a texel: on the first frame the points are as many as squares of the spacing cover it.
   texture::TexturedSurface readSurface(int frame) {
     texture::TexturedSurface surface = readPly(m_run.surfaceOf(frame), m_run.color.width, m_run.color.height);
-    if (m_spacing == 0.0 && !surface.empty()) m_spacing = spacingOf(surface, frame);
+    if (m_spacing == 0.0 && !surface.empty()) m_spacing = spacingOf(m_run, surface, frame);
     surface.spacing = m_spacing;
     return surface;
-  }
-
-  double spacingOf(const texture::TexturedSurface& surface, int frame) {
-    const Json* record = recordOf(m_run.report, frame);
-    if (record != nullptr && record->contains("spacing") && (*record)["spacing"].is_number())
-      return (*record)["spacing"].get<double>();
-    double area = 0.0;
-    for (const texture::Vec3I& t : surface.triangles) {
-      const texture::Vec3f &a = surface.positions[t[0]], &b = surface.positions[t[1]],
-                           &c = surface.positions[t[2]];
-      area += 0.5 * (b - a).cross(c - a).length();
-    }
-    return std::sqrt(area / double(surface.positions.size()));
   }
 
   static void addLikeness(Json& row, const std::optional<texture::Likeness>& found) {
@@ -149,7 +128,7 @@ class Measurer {
 
   void fillReport(const Json& rows) {
     for (const Json& row : rows) {
-      Json* record = recordOf(m_run.report, row["frame"].get<int>());
+      Json* record = recordOf(m_run, row["frame"].get<int>());
       if (record == nullptr) continue;
       for (const char* key : {"likeness", "sharpness", "change_along_flow"})
         if (row.contains(key)) (*record)[key] = row[key];

@@ -1,6 +1,7 @@
 #include "tools/ply.h"
 
 #include "texture/srgb.h"
+#include "texture/vector_maps.h"
 
 #include <algorithm>
 #include <bit>
@@ -32,6 +33,9 @@ std::string header(const texture::TexturedSurface& surface) {
   text += "property uchar contact\n";
   for (const char* name : {"fade_s", "fade_t", "fade"}) text += std::string("property float ") + name + "\n";
   for (const auto& [name, values] : surface.maps) text += "property float " + name + "\n";
+  for (const auto& [name, values] : surface.vectors) {
+    for (const std::string& part : texture::vectorNames(name)) text += "property float " + part + "\n";
+  }
   text += "element face " + std::to_string(surface.triangles.size()) + "\n";
   text += "property list uchar int vertex_indices\nend_header\n";
   return text;
@@ -79,7 +83,8 @@ bool isPlyProperty(const std::string& name) {
 }
 
 void writePly(const texture::TexturedSurface& surface, const std::filesystem::path& file) {
-  Bytes bytes(surface.positions.size() * (kVertexBytes + 4 * surface.maps.size()) +
+  Bytes bytes(surface.positions.size() *
+                  (kVertexBytes + 4 * surface.maps.size() + 12 * surface.vectors.size()) +
               surface.triangles.size() * kFaceBytes);
   const float width = static_cast<float>(std::max(surface.exemplarWidth, 1));
   const float height = static_cast<float>(std::max(surface.exemplarHeight, 1));
@@ -103,6 +108,7 @@ void writePly(const texture::TexturedSurface& surface, const std::filesystem::pa
     bytes.put(share(former.y(), height));
     bytes.put(fade);
     for (const auto& [name, values] : surface.maps) bytes.put(values[v]);
+    for (const auto& [name, values] : surface.vectors) bytes.put(values[v]);
   }
   for (const auto& triangle : surface.triangles) {
     bytes.put(std::uint8_t{3});

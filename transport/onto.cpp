@@ -32,6 +32,15 @@ std::vector<Vec3f> normalsOf(const std::vector<Vec3f>& positions, const std::vec
   return normals;
 }
 
+// A vector that goes with the surface, from where its normal is `from` to where it is `to`; of length 1, or
+// 0.
+Vec3f turned(const Vec3f& x, const Vec3f& from, const Vec3f& to) {
+  if (from.dot(to) <= -0.9f) return x;
+  const Vec3f tangent = x - from * from.dot(x);
+  Vec3f result = texture::turnedTangent(tangent, from, to) + to * from.dot(x);
+  return result.normalize(1e-6f) ? result : Vec3f(0.0f);
+}
+
 }  // namespace
 
 TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> positions,
@@ -55,13 +64,15 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
   result.velocity.assign(count, Vec3f(0.0f));
   result.contact.assign(count, 0);
   for (const auto& [name, values] : surface.maps) result.maps[name].assign(count, 0.0f);
+  for (const auto& [name, values] : surface.vectors) result.vectors[name].assign(count, Vec3f(0.0f));
   if (surface.empty() || surface.triangles.empty()) return result;
 
   const ClosestPoint closest(surface.positions, surface.triangles);
   const std::vector<Vec3f> slopes = angleSlopes(surface, 1);
+  std::vector<Landing> landings(count);
   forEachIndex(count, [&](std::uint32_t v) {
     const Vec3f& normal = result.normals[v];
-    const Landing landing =
+    const Landing& landing = landings[v] =
         landingAt(surface, closest.nearest(Vec3d(result.positions[v]), normal, kOtherSide * surface.spacing));
     const Texel texel =
         texelAt(surface, surface.coordinate, surface.gradient, landing, Mat3d::identity(), normal);
@@ -80,9 +91,12 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
   });
   for (auto& [name, values] : result.maps) {
     const std::vector<float>& from = surface.maps.at(name);
+    forEachIndex(count, [&, &to = values](std::uint32_t v) { to[v] = valueAt(from, landings[v]); });
+  }
+  for (auto& [name, values] : result.vectors) {
+    const std::vector<Vec3f>& from = surface.vectors.at(name);
     forEachIndex(count, [&, &to = values](std::uint32_t v) {
-      to[v] = valueAt(from, landingAt(surface, closest.nearest(Vec3d(result.positions[v]), result.normals[v],
-                                                               kOtherSide * surface.spacing)));
+      to[v] = turned(valueAt(from, landings[v]), landings[v].normal, result.normals[v]);
     });
   }
   return result;

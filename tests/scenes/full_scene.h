@@ -177,6 +177,7 @@ level = 0.75
 [[texture.map]]
 name = "height"
 file = "e.png"
+holds = "normals"
 [texture.orientation]
 symmetry = 2
 align = "field"

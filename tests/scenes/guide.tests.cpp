@@ -90,11 +90,11 @@ TEST_CASE("scene: the guide tells every shape and what is inside it", "[scenes]"
 
 TEST_CASE("scene: the guide's defaults are the ones that are used", "[scenes]") {
   const std::string box = "box = { min = [0, 0, 0], max = [1, 1, 1] }\n";
-  const Json resolved =
-      Json::parse(sceneOf(kGoodScene + "[[solid]]\nmesh = { file = 'm.obj' }\n" +
-                          "keyframe = [ { time = 1 } ]\n[[source]]\n" + box +
-                          "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + box + "[[wall]]\n")
-                      .resolved);
+  const Json resolved = Json::parse(sceneOf(kGoodScene + "[[solid]]\nmesh = { file = 'm.obj' }\n" +
+                                            "keyframe = [ { time = 1 } ]\n[[source]]\n" + box +
+                                            "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + box +
+                                            "[[wall]]\n[[texture.map]]\nname = 'height'\nfile = 'e.png'\n")
+                                        .resolved);
   int compared = 0;
   for (const GuideRow& row : guideRows()) {
     if (row.cells.size() != 4 || !row.cells[2].starts_with("`")) continue;

@@ -289,7 +289,7 @@ TEST_CASE("exemplar: its maps are read with it, a guidance map of another size i
     for (int x = 0; x < kWidth; ++x)
       CHECK(exemplar.match[0].at(x, y)[3] == Approx(2.0f * stored(x, y, 0)).margin(1e-5));
   REQUIRE(exemplar.maps.contains("height"));
-  CHECK(exemplar.maps.at("height").channels == 1);
+  CHECK(exemplar.maps.at("height").image.channels == 1);
 
   const std::filesystem::path other = folder.path / "other.png";
   const auto output = OIIO::ImageOutput::create(other.string());

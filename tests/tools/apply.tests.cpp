@@ -32,6 +32,13 @@ texture::TexturedSurface surfaceOf(const fs::path& out, int frame) {
   return tools::readPly(out / "surface" / ("000" + std::to_string(frame) + ".ply"), 256, 256);
 }
 
+texture::Vec3f bumpAt(const texture::TexturedSurface& surface, std::size_t v) {
+  const texture::Vec3f bump(surface.maps.at("bump_x")[v], surface.maps.at("bump_y")[v],
+                            surface.maps.at("bump_z")[v]);
+  REQUIRE(bump.length() == Approx(1.0f));
+  return bump;
+}
+
 }  // namespace
 
 TEST_CASE("fluidtex apply: later gives what the run itself would have written, in any resolution",
@@ -49,19 +56,22 @@ TEST_CASE("fluidtex apply: later gives what the run itself would have written, i
     REQUIRE(done.exitCode == 0);
   };
   run(with, {"--set", "texture.map=[{ name = 'shade', file = '" + (scratch.path / "shade.png").string() +
-                          "' }, { name = 'fine', file = '" + (scratch.path / "fine.png").string() + "' }]"});
+                          "' }, { name = 'fine', file = '" + (scratch.path / "fine.png").string() +
+                          "' }, { name = 'bump', holds = 'normals', file = '" +
+                          (scratch.path / "fine.png").string() + "' }]"});
   run(after, {});
   const std::string exemplar = FLUIDTEX_SOURCE "/scenes/exemplars/green_scales.png";
   const Finished done = runProgram({"apply", after.string(), "shade=" + (scratch.path / "shade.png").string(),
-                                    "fine=" + (scratch.path / "fine.png").string(), "color=" + exemplar});
+                                    "fine=" + (scratch.path / "fine.png").string(), "color=" + exemplar,
+                                    "bump:normals=" + (scratch.path / "fine.png").string()});
   INFO(done.err);
   REQUIRE(done.exitCode == 0);
   for (int frame = 1; frame <= 3; ++frame) {
     const texture::TexturedSurface a = surfaceOf(with, frame), b = surfaceOf(after, frame);
     CHECK(a.positions == b.positions);
     CHECK(a.triangles == b.triangles);
-    REQUIRE(a.maps.size() == 4);
-    REQUIRE(b.maps.size() == 4);
+    REQUIRE(a.maps.size() == 7);
+    REQUIRE(b.maps.size() == 7);
     for (const char* name : {"shade", "fine_red", "fine_green", "fine_blue"}) {
       const std::vector<float>&here = a.maps.at(name), &there = b.maps.at(name);
       REQUIRE(here.size() == there.size());
@@ -74,6 +84,11 @@ TEST_CASE("fluidtex apply: later gives what the run itself would have written, i
       CHECK(difference < 1e-3);
       CHECK(most > mean + 0.1);
     }
+    // Vectors need the gradient, which apply finds from the coordinates again.
+    double agreement = 0.0;
+    for (std::size_t v = 0; v < a.positions.size(); ++v)
+      agreement += double(bumpAt(a, v).dot(bumpAt(b, v))) / double(a.positions.size());
+    CHECK(agreement > 0.95);
     // The colours were looked up in the same image.
     for (std::size_t v = 0; v < a.color.size(); ++v)
       for (int c = 0; c < 3; ++c) CHECK(std::abs(a.color[v][c] - b.color[v][c]) < 0.02f);
@@ -92,6 +107,7 @@ TEST_CASE("fluidtex apply: what is no map is refused in one sentence", "[tools]"
   refused("=a.png", "is no map; write NAME=FILE");
   refused("a b=a.png", "a b: cannot be the name of a vertex's property");
   refused("trust=a.png", "trust: is what every vertex has anyway");
+  refused("bump:bumps=a.png", "a map of bumps is not known");
   refused("height=a.png", "run.json: cannot be read");
 }
 

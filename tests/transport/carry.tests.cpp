@@ -1,6 +1,7 @@
 #include "transport/carry.h"
 
 #include "tests/transport/textured_meshes.h"
+#include "texture/vector_maps.h"
 
 #include <tbb/global_control.h>
 
@@ -53,6 +54,43 @@ TEST_CASE("carry: a uniform stream takes everything with it onto another mesh", 
   std::sort(turns.begin(), turns.end());
   CHECK(turns[turns.size() / 2] < 0.2 * kDegree);
   CHECK(turns[turns.size() * 95 / 100] < 1.0 * kDegree);
+}
+
+// Of one direction or normal all over the exemplar, where the surface looks about along `up`.
+void requireTurned(texture::MapHolds holds, const Mat3d& f, const Mat3d& rate, double time) {
+  const SurfaceMesh mesh = sphereMesh(24), next = mappedMesh(mesh, f);
+  TexturedSurface before = texturedMesh(mesh, constantDirection({0.3, 0.5, 0.8}));
+  before.exemplarWidth = before.exemplarHeight = 8;
+  before.fading = texture::noFading(mesh.positions.size());
+  texture::ExemplarMap map{{8, 8, 3, {}}, holds};
+  for (int pixel = 0; pixel < 64; ++pixel) map.image.data.insert(map.image.data.end(), {0.8f, 0.6f, 0.85f});
+  if (holds == texture::MapHolds::directions)
+    for (std::size_t i = 2; i < map.image.data.size(); i += 3) map.image.data[i] = 0.5f;  // in the plane
+
+  TexturedSurface after =
+      continued(carry(before, steadyFrame({0.1, -24, 24}, time, 20, linearFlow(rate)), next), next);
+  after.exemplarWidth = after.exemplarHeight = 8;
+  texture::lookUpVectors("bump", map, true, before);
+  texture::lookUpVectors("bump", map, true, after);
+  int seen = 0;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    if (std::abs(mesh.normals[v].z()) < 0.5f) continue;  // the texture is stretched without end on the rim
+    ++seen;
+    const Vec3d turned = f * Vec3d(before.vectors.at("bump")[v]);
+    REQUIRE(angleBetween(turned, Vec3d(after.vectors.at("bump")[v])) < 0.2 * kDegree);
+  }
+  CHECK(seen > 1000);
+}
+
+TEST_CASE("carry: vectors in maps of the exemplar turn with the flow", "[transport]") {
+  const double angle = 1.1;
+  const Vec3d axis = Vec3d(1, 2, 3).unit();
+  const Mat3d turn = exponential(rotationAbout(axis, angle));
+  requireTurned(texture::MapHolds::normals, turn, rotationAbout(axis, angle), 1.0);
+  requireTurned(texture::MapHolds::directions, turn, rotationAbout(axis, angle), 1.0);
+  const Mat3d strain(0.4, 0.0, 0.0, 0.0, -0.4, 0.0, 0.0, 0.0, 0.0);
+  const Mat3d drawn(std::exp(0.4), 0.0, 0.0, 0.0, std::exp(-0.4), 0.0, 0.0, 0.0, 1.0);
+  requireTurned(texture::MapHolds::directions, drawn, strain, 1.0);
 }
 
 TEST_CASE("carry: transparent colour does not bleed", "[transport]") {

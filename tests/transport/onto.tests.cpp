@@ -16,6 +16,7 @@ TexturedSurface finished(const SurfaceMesh& mesh) {
   surface.contact.assign(count, 0);
   surface.maps["height"].resize(count);
   for (std::size_t v = 0; v < count; ++v) surface.maps["height"][v] = mesh.positions[v].x();
+  surface.vectors["fibre"] = surface.orientation;
   surface.exemplarWidth = 64;
   surface.exemplarHeight = 32;
   for (Vec3f& x : surface.previousPosition) x -= Vec3f(0.5f, 0, 0);
@@ -44,6 +45,11 @@ TEST_CASE("onto a mesh: every vertex gets every map of the closest place", "[tra
     REQUIRE(std::abs(result.orientation[v].dot(result.normals[v])) < 1e-5f);
     REQUIRE(result.orientation[v].length() == Approx(1.0f));
     REQUIRE(result.trust[v] > 0.5f);
+    const Vec3f& fibre = result.vectors.at("fibre")[v];
+    REQUIRE(fibre.length() == Approx(1.0f));
+    // The field has two poles, beside which corners differ much.
+    if (std::abs(place.dot(Vec3f(0.3f, 0.5f, 0.8f))) < 0.8f)
+      REQUIRE(fibre.dot(result.orientation[v]) > 0.99f);
   }
 }
 

@@ -48,6 +48,7 @@ inline TexturedSurface continued(const Carried& carried, const SurfaceMesh& mesh
           .velocity = {},
           .contact = {},
           .maps = {},
+          .vectors = {},
           .scale = {}};
 }
 

@@ -1,0 +1,32 @@
+// Maps of an exemplar that hold vectors: they stand in the axes of the picture, and lie on the surface as the
+// texture does, so that they turn and are drawn out with it.
+#pragma once
+
+#include "texture/exemplar.h"
+
+namespace fluidtex::texture {
+
+// Fills surface.vectors[name] with unit vectors in space. A pixel holds x to the right, y upwards and z out
+// of the picture, each as (c + 1) / 2; with the gradient G of the exemplar coordinate q,
+//  - normals are gradients: N + (x / z) G_s spacing - (y / z) G_t spacing, N being the surface's normal, so
+//  that
+//    drawn-out bumps become flatter; z is taken as 0.05 at least;
+//  - directions are carried by the map itself: the tangent d with G d = (x, -y), as long as (x, y), and z N;
+//    zero where nothing is left.
+// Where a vertex still shows its former place too, both are mixed by what is left of it. Needs gradient,
+// normals and spacing; entries of surface.maps under the names that a PLY gives the parts are taken out.
+// Throws std::invalid_argument if the map has not three channels, holds values, or the surface does not know
+// the size of its exemplar.
+void lookUpVectors(const std::string& name, const ExemplarMap& map, bool toroidal, TexturedSurface& surface);
+
+// The names of a vector's three parts in a PLY.
+inline std::vector<std::string> vectorNames(const std::string& name) {
+  return {name + "_x", name + "_y", name + "_z"};
+}
+
+// Fills surface.gradient and that of what fades from the coordinates themselves, for surfaces that come from
+// a file (texture/measure_gradient.h). Where no neighbours agree on one, it is the unstretched one along the
+// orientation. Needs spacing and orientation; throws std::invalid_argument if the mesh is not closed.
+void recoverGradients(bool toroidal, TexturedSurface& surface);
+
+}  // namespace fluidtex::texture
