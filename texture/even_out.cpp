@@ -28,7 +28,7 @@ void spreadOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& optio
   constexpr int kNumbered = 3;      // rounds that begin with putting the number right
   constexpr float kPatch = 40.0f;   // its side in edges: what is worked on fits into the nearer cache
   constexpr float kShift = 0.382f;  // of the side, from round to round: what lay between patches comes inside
-  const double slack = options.settled ? kSettledSlack : 0.005;
+  const double slack = options.settled ? kSettledSlack : 0.001;
   // Somewhat more than wakes a vertex in evenOut's own sweeps, whose steps are shorter.
   const float wake = options.settled ? 0.06f : 0.0f;
   // A fourth sweep for each three is evenOut's own, for what is then still out of balance.
@@ -77,7 +77,7 @@ void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options
   // In sweeps' pushes, mean edge lengths: a vertex at rest wakes above kWake, and moves until it is below
   // kSleep. The gap between them is what keeps a liquid at rest from shimmering.
   constexpr float kWake = 0.02f, kSleep = 0.005f;
-  constexpr int kMostSweeps = 104, kCounted = 20;
+  constexpr int kMostSweeps = 52, kCounted = 20;
   const float edge = options.spacing * kEdgePerSpacing;
   const std::size_t inOrder = mesh.vertexCount();
   Repulsion repulsion(mesh, phi, edge);
