@@ -10,7 +10,11 @@ namespace fluidtex::texture {
 
 std::vector<Singularity> singularities(const SurfaceMesh& mesh, int symmetry) {
   const VertexGraph graph = buildVertexGraph(mesh);
-  const Connection connection = buildConnection(mesh, graph, mesh.orientation);
+  return singularities(mesh, graph, buildConnection(mesh, graph, mesh.orientation), symmetry);
+}
+
+std::vector<Singularity> singularities(const SurfaceMesh& mesh, const VertexGraph& graph,
+                                       const Connection& connection, int symmetry) {
   const auto edgeTo = [&](std::uint32_t from, std::uint32_t to) {
     std::uint32_t h = graph.first[from];
     while (graph.neighbor[h] != to) ++h;
