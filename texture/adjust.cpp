@@ -70,16 +70,22 @@ std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi,
   // Mean edge lengths. Points that were even in the last frame get some margin, so that nothing flickers at
   // the limits.
   const float tooShort = options.settled ? 0.6f : 0.63f, tooLong = options.settled ? 1.8f : 1.7f;
-  constexpr float kShort = 0.95f, kLong = 1.1f;  // only these are touched for the sake of the number
-  constexpr float kMaybeLong = 1.4f;             // shorter edges cross no gap
-  constexpr std::size_t kAtOnce = 4096;          // of a sum
+  constexpr float kMaybeLong = 1.4f;     // shorter edges cross no gap
+  constexpr std::size_t kAtOnce = 4096;  // of a sum
   const double alive = sumOf(
       mesh.vertexCount(), [&](std::uint32_t v) { return mesh.outgoing[v] != kNone ? 1.0 : 0.0; }, kAtOnce);
-  const double excess = alive - options.points;
-  const bool many = excess > options.slack * options.points, few = -excess > options.slack * options.points;
+  // Only what is beyond the slack: where a surface grows steadily, that is a little on every frame.
+  const double tolerated = options.slack * options.points;
+  double toRemove = std::max(0.0, alive - options.points - tolerated),
+         toAdd = std::max(0.0, options.points - tolerated - alive);
+  const bool many = toRemove >= 1.0, few = toAdd >= 1.0;
+  // Only these are touched for the sake of the number: of a few more than are needed.
+  constexpr double kFew = 0.004;
+  const float justShort = toRemove < kFew * options.points ? 0.8f : 0.95f,
+              justLong = toAdd < kFew * options.points ? 1.25f : 1.1f;
 
   using Candidates = std::vector<Candidate>;
-  const float shortLimit = many ? kShort : tooShort, longLimit = few ? kLong : tooLong;
+  const float shortLimit = many ? justShort : tooShort, longLimit = few ? justLong : tooLong;
   const float perEdge2 = 1.0f / (options.edge * options.edge);
   const float shortLimit2 = shortLimit * shortLimit,
               longLimit2 = std::min(longLimit, kMaybeLong) * std::min(longLimit, kMaybeLong);
@@ -112,8 +118,8 @@ std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi,
                                                [&](const Candidate& c) { return c.length < shortLimit; });
   Candidates longest(firstLong, shortest.end());
   shortest.erase(firstLong, shortest.end());
-  keepFirst(shortest, many ? excess : 0.0, tooShort, shorter);
-  keepFirst(longest, few ? -excess : 0.0, tooLong, longer);
+  keepFirst(shortest, toRemove, tooShort, shorter);
+  keepFirst(longest, toAdd, tooLong, longer);
 
   std::vector<std::uint32_t> changed;
   std::vector<std::uint8_t> touched;
@@ -130,7 +136,6 @@ std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi,
     touched[v] = 1;
     changed.push_back(v);
   };
-  double toRemove = many ? excess : 0.0, toAdd = few ? -excess : 0.0;
   for (const Candidate& c : shortest) {
     if (c.length >= tooShort && toRemove < 1.0) break;
     if (!same(c)) continue;

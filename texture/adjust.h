@@ -13,9 +13,9 @@ struct AdjustOptions {
   bool settled = false;  // the points were even in the last frame: what is out of proportion gets some margin
 };
 
-// Splits what is far too long, collapses what is far too short, and then the worst edges until the number
-// of points is within `slack` of what it should be. Lists all vertices whose surroundings changed; the mesh
-// there may no longer be Delaunay. `moved`: where given, and the number is right, only edges at these
+// Splits what is far too long, collapses what is far too short, and then the worst edges just until the
+// number of points is within `slack` of what it should be. Lists all vertices whose surroundings changed; the
+// mesh there may no longer be Delaunay. `moved`: where given, and the number is right, only edges at these
 // vertices are looked at.
 std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi, const AdjustOptions& options,
                                         const std::vector<std::uint32_t>* moved = nullptr);

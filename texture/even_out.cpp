@@ -17,23 +17,32 @@ namespace {
 
 constexpr std::uint32_t kNone = EditableMesh::kNone;
 
-// Points at random: all of them have to move.
-void spreadOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options, float edge) {
+// Of a number of points that were even in the last frame, so much may be wrong.
+constexpr double kSettledSlack = 0.015;
+
+// Points that have just been connected: at random all of them have to move, else those that are new and what
+// is around them. `awake`: as for relax().
+void spreadOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options, float edge,
+               std::vector<std::uint8_t>& awake) {
   constexpr int kAtOnce = 3;        // sweeps in the same patches
   constexpr int kNumbered = 3;      // rounds that begin with putting the number right
   constexpr float kPatch = 40.0f;   // its side in edges: what is worked on fits into the nearer cache
   constexpr float kShift = 0.382f;  // of the side, from round to round: what lay between patches comes inside
-  constexpr double kSlack = 0.005;
+  const double slack = options.settled ? kSettledSlack : 0.001;
+  // Somewhat more than wakes a vertex in evenOut's own sweeps, whose steps are shorter.
+  const float wake = options.settled ? 0.06f : 0.0f;
   // A fourth sweep for each three is evenOut's own, for what is then still out of balance.
   const int rounds = std::max(1, options.sweeps / (kAtOnce + 1));
   const float side = kPatch * edge;
   for (int round = 0; round < rounds; ++round) {
     if (round < kNumbered) {
       const std::vector<std::uint32_t> changed =
-          adjustNumber(mesh, phi, {edge, options.points, kSlack, options.settled});
+          adjustNumber(mesh, phi, {edge, options.points, slack, options.settled});
+      awake.resize(mesh.vertexCount(), 1);
+      for (std::uint32_t v : changed) awake[v] = 1;
       if (!changed.empty()) flipToDelaunay(mesh, &changed);
     }
-    relax(mesh, phi, patchesOf(mesh, side, Vec3f(kShift * side * float(round))), edge, kAtOnce);
+    relax(mesh, phi, patchesOf(mesh, side, Vec3f(kShift * side * float(round))), edge, kAtOnce, wake, awake);
   }
   flipToDelaunay(mesh);
 }
@@ -68,13 +77,15 @@ void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options
   // In sweeps' pushes, mean edge lengths: a vertex at rest wakes above kWake, and moves until it is below
   // kSleep. The gap between them is what keeps a liquid at rest from shimmering.
   constexpr float kWake = 0.02f, kSleep = 0.005f;
-  constexpr int kMostSweeps = 104, kCounted = 20;
-  constexpr double kSlack = 0.015;
+  constexpr int kMostSweeps = 52, kCounted = 20;
   const float edge = options.spacing * kEdgePerSpacing;
   const std::size_t inOrder = mesh.vertexCount();
-  if (!options.settled) spreadOut(mesh, phi, options, edge);
   Repulsion repulsion(mesh, phi, edge);
-  repulsion.awake.assign(mesh.vertexCount(), options.settled ? 0 : 1);
+  repulsion.awake.assign(inOrder, options.settled ? 0 : 1);
+  if (!options.kept) {
+    spreadOut(mesh, phi, options, edge, repulsion.awake);
+    repulsion.awake.assign(mesh.vertexCount(), options.settled ? 0 : 1);
+  }
   std::vector<std::uint32_t> active, changed;
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     changed.clear();
@@ -82,7 +93,7 @@ void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options
     // two might undo the other for ever.
     const bool everywhere = (options.settled && sweep < 4) || active.empty();
     if (everywhere || sweep % 5 == 0) {
-      const double slack = options.settled && sweep <= kCounted ? kSlack : 1.0;
+      const double slack = options.settled && sweep <= kCounted ? kSettledSlack : 1.0;
       changed = adjustNumber(mesh, phi, {edge, options.points, slack, options.settled},
                              everywhere ? nullptr : &active);
       repulsion.awake.resize(mesh.vertexCount(), 1);

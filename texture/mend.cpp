@@ -28,7 +28,8 @@ struct Mender {
     constexpr float kSlim = 0.1325f;   // the square of the sine of a little more than 20 degrees
     constexpr float kFlat = 0.05f;     // a gradient smaller than this points nowhere
     constexpr float kOutward = 0.05f;  // cosine
-    constexpr float kFoldWeight = 4.0f, kFarWeight = 2.0f, kSlimWeight = 1.0f;
+    constexpr float kLong = 2.0f;      // spacings
+    constexpr float kFoldWeight = 4.0f, kFarWeight = 2.0f, kSlimWeight = 1.0f, kLongWeight = 0.5f;
     const Vec3f u = b - a, v = c - a, w = c - b;
     const Vec3f normal = u.cross(v);
     const float area2 = normal.lengthSqr();
@@ -38,6 +39,8 @@ struct Mender {
     const float sides = uu * vv * ww / std::min({uu, vv, ww});
     const float sine2 = sides > 0.0f ? area2 / sides : 0.0f;
     if (sine2 < kSlim) bad += kSlimWeight * (0.5f + 0.5f * (1.0f - sine2 / kSlim));
+    const float most = kLong * spacing * phi.scale(a), longest2 = std::max({uu, vv, ww});
+    if (longest2 > most * most) bad += kLongWeight * std::sqrt(longest2) / most;
     const Vec3f centre = (a + b + c) / 3.0f;
     const LevelSet::Sample s = phi.sample(centre);
     if (!s.known) return bad + kFoldWeight;

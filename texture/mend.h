@@ -7,8 +7,8 @@
 namespace fluidtex::texture {
 
 // Flips, collapses and splits edges and moves vertices at triangles that face inwards, lie far from the level
-// set or are too slim, one after the other, as long as that helps. Keeps the mesh closed and manifold and its
-// topology. `spacing` in voxels, at scale 1.
+// set, are slim or have edges of more than two spacings, one after the other, as long as that helps. Keeps
+// the mesh closed and manifold and its topology. `spacing` in voxels, at scale 1.
 void mend(EditableMesh& mesh, const LevelSet& phi, float spacing);
 
 }  // namespace fluidtex::texture

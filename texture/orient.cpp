@@ -16,6 +16,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <tuple>
 
 namespace fluidtex::texture {
 namespace {
@@ -249,6 +250,42 @@ void orientFiner(std::size_t level, Surface& surface, const OrientOptions& optio
   writeOrientation(field, options.symmetry, mesh);
 }
 
+// Pairs of opposite singularities that are near each other let go of the carried field around them, so that
+// they meet: held to it they would stay for as long as the texture does.
+void freePairs(const SurfaceMesh& mesh, const std::vector<Singularity>& all, Held& held) {
+  constexpr float kNear = 8.0f;    // spacings
+  constexpr float kBeyond = 2.0f;  // spacings further than they are from each other, around their middle
+  constexpr float kLeft = 0.02f;   // of the hold
+  struct Pair {
+    float distance2;
+    std::uint32_t a, b;
+  };
+  const auto nearest2 = static_cast<float>(kNear * kNear * mesh.spacing * mesh.spacing);
+  std::vector<Pair> pairs;
+  for (std::uint32_t a = 0; a < all.size(); ++a)
+    for (std::uint32_t b = a + 1; b < all.size(); ++b) {
+      const float distance2 = (all[a].position - all[b].position).lengthSqr();
+      if (all[a].turns == -all[b].turns && distance2 < nearest2) pairs.push_back({distance2, a, b});
+    }
+  if (pairs.empty()) return;
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
+    return std::tuple(x.distance2, x.a, x.b) < std::tuple(y.distance2, y.a, y.b);
+  });
+  const PointGrid grid(mesh.positions, (kNear + kBeyond) * mesh.spacing);
+  std::vector<std::uint8_t> taken(all.size(), 0);
+  for (const Pair& pair : pairs) {
+    if (taken[pair.a] || taken[pair.b]) continue;
+    taken[pair.a] = taken[pair.b] = 1;
+    const Vec3f middle = (all[pair.a].position + all[pair.b].position) * 0.5f;
+    const float reach = std::sqrt(pair.distance2) + kBeyond * static_cast<float>(mesh.spacing);
+    grid.visitNear(middle, [&](std::uint32_t v) {
+      if ((mesh.positions[v] - middle).lengthSqr() > reach * reach) return;
+      held.hold[v] *= kLeft;
+      held.right[v] *= kLeft;
+    });
+  }
+}
+
 // The carried vectors are the axes, and what the field is held to, each as much as it is trusted.
 void orientCarried(Surface& surface, const Carried& carried, const OrientOptions& options,
                    const OrientWishes& wishes) {
@@ -271,6 +308,7 @@ void orientCarried(Surface& surface, const Carried& carried, const OrientOptions
     held.hold[v] = degree(graph, v) * share / ((1.0f - share) * stiffness);
     held.right[v] = held.hold[v];
   });
+  freePairs(mesh, singularities(mesh, graph, connection, options.symmetry), held);
   holdToWishes(mesh, graph, field.axes, asked(wishes.direction, mesh), 1.0, options.symmetry, held);
   solveField(smooth, held.hold, held.right, kDiffusionSteps, kTolerance, field.values);
   writeOrientation(field, options.symmetry, mesh);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "texture/surface.h"
+#include "texture/tangent.h"
 
 #include <functional>
 
@@ -31,7 +32,8 @@ struct OrientWishes {
 // by inverse iteration from consistent reference vectors with noise that breaks symmetry, or where directions
 // are wished the smoothest that is held to them; handed down and diffused at each finer level. Later frames:
 // the smoothest field that is held to carried.orientation and to the wishes, so that one that is smooth
-// hardly changes; where trust is low it is taken from the neighbours. Directions are averaged as complex
+// hardly changes; where trust is low, and around two opposite singularities that are near each other, it is
+// taken from the neighbours. Directions are averaged as complex
 // numbers in the polar map of each vertex. Throws std::invalid_argument if a level's mesh is not closed and
 // manifold, or if wishes are not one a vertex.
 void orient(Surface& surface, const Carried& carried, const OrientOptions& options = {},
@@ -47,5 +49,8 @@ struct Singularity {
 // Of the field mesh.orientation. Over a closed surface the turns sum to symmetry times the Euler
 // characteristic.
 std::vector<Singularity> singularities(const SurfaceMesh& mesh, int symmetry = 1);
+// The same of the field whose arrows are the axes of `connection`.
+std::vector<Singularity> singularities(const SurfaceMesh& mesh, const VertexGraph& graph,
+                                       const Connection& connection, int symmetry);
 
 }  // namespace fluidtex::texture

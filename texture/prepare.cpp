@@ -182,6 +182,7 @@ SurfaceMesh settledLevel(const Ground& ground, const Seeds& seeds, const Surface
                           even.spacing * kEdgePerSpacing);
   }
   if (!carried) return evened(ground, connected(ground, start, 0, even.spacing, options), 0, even);
+  even.kept = true;
   flipToDelaunay(*carried);
   return evened(ground, std::move(*carried), 0, even);
 }

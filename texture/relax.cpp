@@ -122,7 +122,8 @@ void look(const Ring& ring, const Vec3f& p, const Vec3f& n, Fan& fan) {
 
 }  // namespace
 
-void relax(EditableMesh& mesh, const LevelSet& phi, const Patches& patches, float edge, int sweeps) {
+void relax(EditableMesh& mesh, const LevelSet& phi, const Patches& patches, float edge, int sweeps,
+           float wake, std::vector<std::uint8_t>& awake) {
   // Of the distance that would undo the overlap: more than twice what repulsion that moves all at once bears.
   // At 0.9 points no longer come to rest, and from 0.6 on more of those beside a crease find another place on
   // the next frame.
@@ -139,7 +140,8 @@ void relax(EditableMesh& mesh, const LevelSet& phi, const Patches& patches, floa
       Vec3f way = push(ring, from, scale, kRepulsionRange * edge) * kStep;
       way -= mesh.normal[v] * mesh.normal[v].dot(way);
       const float size = way.length();
-      if (size < kStill * edge * scale) return;
+      awake[v] = size >= (awake[v] ? kStill : std::max(kStill, wake)) * edge * scale;
+      if (!awake[v]) return;
       if (size > longest) way *= longest / size;
       const LevelSet::Projection p = phi.slide(from + way, edge * scale);
       if (!p.known) return;

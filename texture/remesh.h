@@ -66,6 +66,7 @@ struct EvenOptions {
   double points = 0.0;   // how many there should be
   int sweeps = 30;       // of repulsion while everything moves
   bool settled = false;  // the points were even in the last frame: only those move that are out of balance
+  bool kept = false;     // and so was the mesh
 };
 
 // Spreads the vertices evenly: repulsion between neighbours, restricted to the level set [Turk91], with the

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Draws a frame's mesh, orientation field and singularities as SVG.
 
-    tools/draw_surface.py OUT FRAME FILE.svg [--every N]
+    tools/draw_surface.py OUT FRAME FILE.svg [--every N] [--points] [--crop X Y WIDTH HEIGHT]
 
 OUT is the folder of a run. Every N-th vertex that faces the camera gets an arrow (0: none). Red points: singularities that
-turn with the way around them, blue ones: against it.
+turn with the way around them, blue ones: against it. With --points every vertex is a dot. --crop shows a part of the picture,
+in shares of its size.
 """
 import argparse
 import json
@@ -72,7 +73,7 @@ class Camera:
         return 0.5 * WIDTH + s * dot(ray, self.right), 0.5 * self.height - s * dot(ray, self.up)
 
 
-def shapes(rows, triangles, singular, camera, every, spacing):
+def shapes(rows, triangles, singular, camera, every, spacing, points):
     """(depth, SVG) of everything that faces the camera."""
     position = [[r["x"], r["y"], r["z"]] for r in rows]
     flat = [camera.project(x) for x in position]
@@ -86,6 +87,10 @@ def shapes(rows, triangles, singular, camera, every, spacing):
         corners = " ".join(f"{flat[i][0]:.1f},{flat[i][1]:.1f}" for i in t)
         yield max(camera.depth(x) for x in (a, b, c)), f'<polygon points="{corners}" fill="rgb({grey},{grey},{grey})"/>'
     lift = 0.5 * spacing
+    if points:
+        for r, x, (px, py) in zip(rows, position, flat):
+            if dot([r["nx"], r["ny"], r["nz"]], sub(camera.eye, x)) > 0.0:
+                yield camera.depth(x) - lift, f'<circle cx="{px:.2f}" cy="{py:.2f}" r="{0.14 * spacing * camera.scale / camera.depth(x):.2f}" class="p"/>'
     for r, x in list(zip(rows, position))[:: every or len(rows) + 1]:
         n, d = [r["nx"], r["ny"], r["nz"]], [r["dx"], r["dy"], r["dz"]]
         if dot(n, sub(camera.eye, x)) <= 0.0:
@@ -110,6 +115,8 @@ def main():
     parser.add_argument("frame", type=int)
     parser.add_argument("file", type=Path)
     parser.add_argument("--every", type=int, default=12)
+    parser.add_argument("--points", action="store_true")
+    parser.add_argument("--crop", type=float, nargs=4, default=(0, 0, 1, 1))
     options = parser.parse_args()
     run = json.loads((options.out / "run.json").read_text())
     frame = next(f for f in run["frames"] if f["frame"] == options.frame)
@@ -122,11 +129,12 @@ def main():
         camera_of["from"] = [p + q for p, q in zip(camera_of["at"], [c * x - s * y, s * x + c * y, z])]
     camera = Camera(camera_of, run["scene"]["render"]["size"])
     rows, triangles = read_ply(options.out / "surface" / f"{options.frame:04d}.ply")
-    drawn = sorted(shapes(rows, triangles, frame["singular_points"], camera, options.every, frame["edge_mean"]), key=lambda item: -item[0])
-    style = "polygon{stroke:#777;stroke-width:.4} .a{stroke:#063;stroke-width:1.6;fill:none} circle{stroke:#fff;stroke-width:1.5}"
+    drawn = sorted(shapes(rows, triangles, frame["singular_points"], camera, options.every, frame["edge_mean"], options.points), key=lambda item: -item[0])
+    style = "polygon{stroke:#777;stroke-width:.4} .a{stroke:#063;stroke-width:1.6;fill:none} circle{stroke:#fff;stroke-width:1.5} .p{fill:#a30;stroke:none}"
+    x, y, w, h = (share * size for share, size in zip(options.crop, [WIDTH, camera.height] * 2))
     options.file.write_text(
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{camera.height:.0f}"><style>{style}</style>'
-        '<rect width="100%" height="100%" fill="#fff"/>' + "\n".join(svg for _, svg in drawn) + "</svg>\n"
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{x:.0f} {y:.0f} {w:.0f} {h:.0f}" width="{WIDTH}" height="{WIDTH * h / w:.0f}"><style>{style}</style>'
+        '<rect x="{x:.0f}" y="{y:.0f}" width="100%" height="100%" fill="#fff"/>' + "\n".join(svg for _, svg in drawn) + "</svg>\n"
     )
 
 

@@ -1,6 +1,7 @@
 // The fluidtex program: one small file per subcommand.
 #include "tools/commands.h"
 #include "tools/errors.h"
+#include "tools/keep_memory.h"
 
 #include <openvdb/openvdb.h>
 #include <spdlog/sinks/null_sink.h>
@@ -11,6 +12,7 @@
 
 int main(int argc, char** argv) {
   using namespace fluidtex::tools;
+  keepMemory();
   openvdb::initialize();
   // Until a run opens its log file, what is logged goes nowhere; by default it would go to stdout.
   spdlog::set_default_logger(

@@ -151,6 +151,36 @@ TEST_CASE("orientation: a carried field that is smooth hardly changes, frame aft
   CHECK(share(changes(start), 3.0 * kDegree) > 0.98);
 }
 
+TEST_CASE("orientation: opposite singularities near each other meet, and what is far from them stays",
+          "[texture]") {
+  Surface surface = levelsOf({sphereMesh(40)});
+  SurfaceMesh& mesh = surface.levels[0];
+  for (const double spacings : {4.3, 6.7}) {
+    // Around an axis, and on one side turned by the difference of the angles seen from two points.
+    const double half = 0.5 * spacings * mesh.spacing;
+    const auto set = [&](bool pair) {
+      setField(mesh, [&](const Vec3f& x) {
+        const Vec3f around = Vec3f(-x.y(), x.x(), 1e-4f).unit();
+        if (!pair || x.x() < 0.0f) return around;
+        const double y = x.y() - 0.003, z = x.z() - 0.004;
+        const auto angle = static_cast<float>(std::atan2(z, y - half) - std::atan2(z, y + half));
+        return around * std::cos(angle) + x.cross(around) * std::sin(angle);
+      });
+      return singularities(mesh).size();
+    };
+    REQUIRE(set(false) == 2);
+    REQUIRE(set(true) == 4);
+    const std::vector<Vec3f> start = mesh.orientation;
+    for (int frame = 0; frame < 2; ++frame) orient(surface, carriedFrom(mesh));
+    CHECK(singularities(mesh).size() == 2);
+    for (std::size_t v = 0; v < start.size(); ++v) {
+      const bool far = mesh.positions[v].x() < 0.9f && std::abs(mesh.positions[v].z()) < 0.9f &&
+                       std::abs(mesh.positions[v].x()) > 0.1f;
+      if (far) REQUIRE(angleBetween(mesh.orientation[v], start[v]) < 2.0 * kDegree);
+    }
+  }
+}
+
 TEST_CASE("orientation: noise that was carried is smoothed away", "[texture]") {
   Surface surface = sphereLevels();
   orient(surface, {});

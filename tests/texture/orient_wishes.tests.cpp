@@ -1,17 +1,22 @@
 // Symmetry, alignment and places kept clear of singularities.
 #include "texture/orient.h"
 
+#include "tests/texture/level_sets.h"
 #include "tests/texture/orientation_fields.h"
+#include "texture/carried_mesh.h"
 #include "texture/directions.h"
+#include "texture/prepare.h"
 #include "texture/read_grid.h"
 #include "texture/tangent.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -61,6 +66,32 @@ TEST_CASE("orientation: with a symmetry, turns sum to it times the Euler charact
       CHECK(found.size() == 2u * unsigned(symmetry));
     }
     for (const SurfaceMesh& mesh : torus.levels) CHECK(sumOfTurns(singularities(mesh, symmetry)) == 0);
+  }
+}
+
+TEST_CASE(
+    "orientation: on every component of a splash, the smallest too, turns sum to N times its characteristic",
+    "[texture]") {
+  const double voxel = 0.1;
+  Surface surface = prepareSurface(*splashGrid(120, voxel, 1), voxel, Seeds{}, 3, SurfaceOptions{});
+  for (const int symmetry : {1, 2, 4}) {
+    orient(surface, {}, {.symmetry = symmetry});
+    for (const SurfaceMesh& mesh : surface.levels) {
+      const std::vector<std::uint32_t> component = components(mesh.positions.size(), mesh.triangles);
+      std::map<std::uint32_t, long> expected, found;
+      for (const Components::Part& part : componentsOf(mesh.positions, mesh.triangles).parts)
+        expected[part.first] = symmetry * part.characteristic;
+      for (const auto& [first, turns] : expected) found[first] = 0;
+      // The centre of a triangle tells whose it is.
+      std::map<std::array<float, 3>, std::uint32_t> owner;
+      for (const Vec3I& t : mesh.triangles) {
+        const Vec3f centre = (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0f;
+        owner[{centre.x(), centre.y(), centre.z()}] = component[t[0]];
+      }
+      for (const Singularity& s : singularities(mesh, symmetry))
+        found[owner.at({s.position.x(), s.position.y(), s.position.z()})] += s.turns;
+      CHECK(found == expected);
+    }
   }
 }
 

@@ -4,7 +4,6 @@
 #include "mesh_quality.h"
 #include "texture/isosurface.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 #include <array>
@@ -214,21 +213,6 @@ TEST_CASE("prepare: each level has twice the spacing of the finer one") {
   }
 }
 
-TEST_CASE("prepare: the same bytes on one and two threads, random and from seeds") {
-  const auto grid = splashGrid(60, 0.1, 5);
-  const auto run = [&](std::size_t threads) {
-    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    const SurfaceMesh first = prepare(*grid, 0.07).levels[0];
-    return std::pair(first, prepare(*grid, 0.07, first.positions).levels[0]);
-  };
-  const auto one = run(1), two = run(2);
-  CHECK(one.first.positions == two.first.positions);
-  CHECK(one.first.normals == two.first.normals);
-  CHECK(one.first.triangles == two.first.triangles);
-  CHECK(one.second.positions == two.second.positions);
-  CHECK(one.second.triangles == two.second.triangles);
-}
-
 TEST_CASE("prepare: the number of points for a spacing and back") {
   const auto grid = sphereGrid(1.0, 0.05);
   for (const int points : {500, 5000}) {
@@ -249,18 +233,55 @@ TEST_CASE("prepare: the grid's transform is honoured") {
   }
 }
 
-TEST_CASE("prepare: no surface gives an empty result, wrong input is refused") {
+TEST_CASE("prepare: no surface gives an empty result, and the next frame starts anew") {
   openvdb::initialize();
-  const auto empty = FloatGrid::create(0.3f);
-  CHECK(prepare(*empty, 0.1).empty());
-  CHECK(spacingForPoints(*empty, 1000) == 0.0);
-  const auto full = FloatGrid::create(-0.3f);
-  CHECK(prepare(*full, 0.1).empty());
+  const auto sphere = sphereGrid(1.0, 0.1);
+  const SurfaceMesh last = prepare(*sphere, 0.1).levels[0];
+  const auto empty = FloatGrid::create(0.3f), full = FloatGrid::create(-0.3f);
+  for (const auto& grid : {empty, full}) {
+    CHECK(prepare(*grid, 0.1).empty());
+    CHECK(prepare(*grid, 0.1, last.positions, 3).empty());
+    CHECK(prepareSurface(*grid, 0.1, Seeds{last.positions, last.positions, last.triangles, {}}, 3,
+                         SurfaceOptions{})
+              .empty());
+    CHECK(spacingForPoints(*grid, 1000) == 0.0);
+    Surface none;
+    addCoarserLevels(*grid, 3, SurfaceOptions{}, {}, none);
+    CHECK(none.empty());
+  }
+  const Surface again = prepareSurface(*sphere, 0.1, Seeds{}, 1, SurfaceOptions{});
+  CHECK(again.levels[0].positions == last.positions);
+}
+
+TEST_CASE("prepare: a surface of one voxel has three levels, whatever it comes from") {
+  const double voxel = 0.1;
+  const auto grid = oneVoxelGrid(voxel);
+  const SurfaceMesh far = prepare(*sphereGrid(1.0, voxel), voxel).levels[0];
+  for (const Seeds& seeds : {Seeds{}, Seeds{far.positions, far.positions, far.triangles, {}},
+                             Seeds{std::vector<Vec3f>(5, Vec3f(std::nanf(""))), {}, {}, {}}}) {
+    const Surface surface = prepareSurface(*grid, voxel, seeds, 3, SurfaceOptions{});
+    REQUIRE(surface.levels.size() == 3);
+    for (const SurfaceMesh& mesh : surface.levels) requireSound(mesh, *grid);
+  }
+}
+
+TEST_CASE("prepare: wrong input is refused, wherever a value is not finite") {
+  openvdb::initialize();
   const auto sphere = sphereGrid(1.0, 0.1);
   CHECK_THROWS_AS(prepare(*sphere, 0.0), std::invalid_argument);
   CHECK_THROWS_AS(prepare(*sphere, -1.0), std::invalid_argument);
   CHECK_THROWS_AS(prepare(*sphere, std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
-  sphere->tree().setValue(openvdb::Coord(10, 0, 0), std::numeric_limits<float>::quiet_NaN());
-  CHECK_THROWS_AS(prepare(*sphere, 0.1), std::invalid_argument);
-  CHECK_THROWS_AS(spacingForPoints(*sphere, 1000), std::invalid_argument);
+  CHECK_THROWS_AS(spacingForPoints(*sphere, 0), std::invalid_argument);
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                          -std::numeric_limits<float>::infinity()}) {
+    const auto voxel = sphere->deepCopy(), idle = sphere->deepCopy(), tile = sphere->deepCopy();
+    voxel->tree().setValue(openvdb::Coord(10, 0, 0), bad);
+    idle->tree().setValueOff(openvdb::Coord(0, 9, 3), bad);
+    tile->tree().addTile(1, openvdb::Coord(64, 64, 64), bad, false);
+    const auto background = FloatGrid::create(bad);
+    for (const auto& grid : {voxel, idle, tile, background}) {
+      CHECK_THROWS_WITH(prepare(*grid, 0.1), "the level set holds a value that is not finite");
+      CHECK_THROWS_WITH(spacingForPoints(*grid, 1000), "the level set holds a value that is not finite");
+    }
+  }
 }

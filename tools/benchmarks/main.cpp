@@ -1,8 +1,10 @@
 // The benchmarks: Google Benchmark's program, with ratios to the peers at the end. See docs/benchmarks.md.
 #include "tools/benchmarks/measure.h"
+#include "tools/keep_memory.h"
 
 int main(int argc, char** argv) {
   using namespace fluidtex::benchmarks;
+  fluidtex::tools::keepMemory();  // as the program does
   if (answerSelf(argc, argv) || answerSurface(argc, argv)) return 0;
   registerPressure();
   registerDamBreak();

@@ -12,9 +12,6 @@
 
 namespace fluidtex::benchmarks {
 
-// LeVeque's deformation of the unit cube with a period of 3 s: the velocity at p, m/s, at time t.
-openvdb::Vec3d deformationVelocity(const openvdb::Vec3d& p, double t);
-
 struct MovingSurface {
   openvdb::FloatGrid::ConstPtr before, now;  // metres, negative inside
   double spacing = 0.0;  // metres; one voxel, at which `now` has about the points asked for

@@ -6,6 +6,7 @@
 #include "texture/random.h"
 #include "texture/tangent.h"
 #include "tools/benchmarks/closest_peers.h"
+#include "tools/benchmarks/deformed_shapes.h"
 #include "tools/benchmarks/measure.h"
 #include "tools/benchmarks/moving_surfaces.h"
 #include "transport/backtrace.h"
@@ -24,7 +25,7 @@ using texture::Vec3f;
 
 constexpr int kSubsteps = 4;
 constexpr double kFastest = 2.0;  // m/s, of the deformation
-constexpr float kOff = 0.3f;  // how far off the moved points the new ones lie, spacings
+constexpr float kOff = 0.3f;      // how far off the moved points the new ones lie, spacings
 
 struct Problem {
   texture::TexturedSurface previous;
@@ -125,8 +126,8 @@ void count(benchmark::State& state, double seconds, double vertices, double part
 void trace(benchmark::State& state, int points) {
   const auto p = problem(points);
   for ([[maybe_unused]] auto _ : state) {
-    const double seconds =
-        medianSeconds(points, [&] { benchmark::DoNotOptimize(transport::traceBack(p->next.positions, p->frame)); });
+    const double seconds = medianSeconds(
+        points, [&] { benchmark::DoNotOptimize(transport::traceBack(p->next.positions, p->frame)); });
     count(state, seconds, double(p->next.positions.size()), kSubsteps);
   }
 }
@@ -135,10 +136,10 @@ void trace(benchmark::State& state, int points) {
 void pickUp(benchmark::State& state, int points) {
   const auto p = problem(points);
   for ([[maybe_unused]] auto _ : state) {
-    const double tracing =
-        medianSeconds(points, [&] { benchmark::DoNotOptimize(transport::traceBack(p->next.positions, p->frame)); });
-    const double whole =
-        medianSeconds(points, [&] { benchmark::DoNotOptimize(transport::carry(p->previous, p->frame, p->next)); });
+    const double tracing = medianSeconds(
+        points, [&] { benchmark::DoNotOptimize(transport::traceBack(p->next.positions, p->frame)); });
+    const double whole = medianSeconds(
+        points, [&] { benchmark::DoNotOptimize(transport::carry(p->previous, p->frame, p->next)); });
     count(state, whole - tracing, double(p->next.positions.size()));
   }
 }
