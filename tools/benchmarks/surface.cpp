@@ -41,7 +41,7 @@ std::shared_ptr<const Problem> problem(const std::string& shape, int points) {
   const texture::Surface before =
       texture::prepareSurface(*made->surface.before, made->surface.spacing, texture::Seeds{}, 1, {});
   const texture::SurfaceMesh& mesh = before.levels[0];
-  made->seeds = {made->surface.moved(mesh.positions), mesh.positions, mesh.triangles};
+  made->seeds = {made->surface.moved(mesh.positions), mesh.positions, mesh.triangles, {}};
   key = wanted;
   last = made;
   return last;
