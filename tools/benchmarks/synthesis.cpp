@@ -1,14 +1,12 @@
 // Synthesis: what an exemplar costs before its first window is matched, without and with what an earlier run
 // has kept; a first frame; and later frames of a texture that is drawn out evenly, neighbourhoods included.
 // Processor time of one thread, but for the preparation, which is wall time on all.
-#include "scenes/exemplars/scales.h"
 #include "sim/motion.h"
 #include "texture/orient.h"
 #include "texture/prepare.h"
-#include "texture/srgb.h"
 #include "texture/synthesize.h"
 #include "tools/benchmarks/measure.h"
-#include "tools/benchmarks/moving_surfaces.h"
+#include "tools/benchmarks/textured_samples.h"
 #include "transport/carry.h"
 
 #include <tbb/global_control.h>
@@ -26,22 +24,6 @@ constexpr int kLevels = 3;
 constexpr double kFrame = 1.0 / 24.0;  // s
 // A texture as it is laid has nothing to renew: these bring it to where as much is renewed as is stretched.
 constexpr int kFramesBefore = 12, kFramesTimed = 6;
-
-// Green scales of so many pixels' width, each scale of the same size in pixels.
-texture::Image scales(int size) {
-  exemplars::Scales options;
-  options.columns = options.columns * size / options.size;
-  options.rows = options.rows * size / options.size;
-  options.size = size;
-  texture::Image image{size, size, 4, {}};
-  const std::vector<std::uint8_t> pixels = exemplars::makeGreenScales(options);
-  for (std::size_t i = 0; i < pixels.size(); i += 3) {
-    for (std::size_t c = 0; c < 3; ++c)
-      image.data.push_back(texture::decodeSrgb(float(pixels[i + c]) / 255.0f));
-    image.data.push_back(1.0f);
-  }
-  return image;
-}
 
 texture::Synthesizer synthesizer(int size, const fs::path& cache) {
   const texture::SynthesisOptions options;
@@ -74,14 +56,6 @@ void prepare(benchmark::State& state, int size) {
     state.counters["cached_s"] = cached;
     state.counters["kept_bytes"] = bytes;
   }
-}
-
-texture::Surface sphere(int points, int levels) {
-  const MovingSurface moving = movingSurface("sphere", points);
-  texture::Surface surface =
-      texture::prepareSurface(*moving.before, moving.spacing, texture::Seeds{}, levels, {});
-  texture::orient(surface, {});
-  return surface;
 }
 
 void count(benchmark::State& state, double seconds, double vertices) {
