@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // To be raised whenever tables are built in another way or laid out differently.
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
 constexpr const char* kEnding = ".table";
 
 // All that a table depends on, in 128 bits.
@@ -36,7 +36,8 @@ std::string nameOf(const Image& match, bool toroidal, int window, std::uint64_t 
   return text;
 }
 
-// Visits every part of a table in the one order that both directions share; padded is left out.
+// Visits every part of a table in the one order that both directions share; padded is left out, and so are coarse
+// codes, which are the upper bits of the fine ones.
 template <typename Table, typename Visit>
 void eachPart(Table& table, const Visit& visit) {
   visit(table.window), visit(table.channels), visit(table.toroidal);
@@ -44,8 +45,8 @@ void eachPart(Table& table, const Visit& visit) {
   visit(table.falloff);
   visit(table.basis.size), visit(table.basis.component), visit(table.basis.offset), visit(table.basis.mean);
   visit(table.tree.firstBlock), visit(table.tree.index);
-  visit(table.tree.descriptor.first), visit(table.tree.descriptor.rest);
-  visit(table.tree.leafMean.first), visit(table.tree.leafMean.rest);
+  visit(table.tree.codes.low), visit(table.tree.codes.step), visit(table.tree.codes.fine);
+  visit(table.tree.leafMean);
   visit(table.stride), visit(table.similarCount), visit(table.similar);
 }
 
@@ -101,6 +102,7 @@ std::optional<SearchTable> readTable(const fs::path& file) {
   SearchTable table;
   const char* at = bytes.data();
   eachPart(table, Reader{at});
+  makeCoarse(table.tree.codes);
   fs::last_write_time(file, fs::file_time_type::clock::now(), error);  // used just now
   return table;
 }

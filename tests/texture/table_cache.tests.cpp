@@ -37,10 +37,11 @@ void checkSame(const SearchTable& a, const SearchTable& b) {
   CHECK(a.basis.mean == b.basis.mean);
   CHECK(a.tree.firstBlock == b.tree.firstBlock);
   CHECK(a.tree.index == b.tree.index);
-  CHECK(a.tree.descriptor.first == b.tree.descriptor.first);
-  CHECK(a.tree.descriptor.rest == b.tree.descriptor.rest);
-  CHECK(a.tree.leafMean.first == b.tree.leafMean.first);
-  CHECK(a.tree.leafMean.rest == b.tree.leafMean.rest);
+  CHECK(a.tree.codes.low == b.tree.codes.low);
+  CHECK(a.tree.codes.step == b.tree.codes.step);
+  CHECK(a.tree.codes.fine == b.tree.codes.fine);
+  CHECK(a.tree.codes.coarse == b.tree.codes.coarse);
+  CHECK(a.tree.leafMean == b.tree.leafMean);
   CHECK(a.similarCount == b.similarCount);
   CHECK(a.similar == b.similar);
 }
