@@ -20,7 +20,7 @@ float clamped(float x, float low, float high) {
 
 }  // namespace
 
-Vec2f TexelImage::brought(const Vec2f& texel) const {
+Vec2f TexelImage::broughtFromOutside(const Vec2f& texel) const {
   if (toroidal) return Vec2f(wrapped(texel[0], float(width)), wrapped(texel[1], float(height)));
   return Vec2f(clamped(texel[0], 0.0f, float(width - 1)), clamped(texel[1], 0.0f, float(height - 1)));
 }
