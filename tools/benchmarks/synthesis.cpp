@@ -39,8 +39,8 @@ void prepare(benchmark::State& state, int size) {
   const texture::SynthesisOptions options;
   const auto seconds = [&] {
     const double from = wallSeconds();
-    texture::Synthesizer made =
-        texture::makeSynthesizer(texture::makeExemplar(image, true, options, kLevels), options, cache);
+    texture::Synthesizer made = texture::makeSynthesizer(
+        texture::makeExemplar(image, true, options, kLevels, {}, cache), options, cache);
     texture::prepareTables(made);
     return wallSeconds() - from;
   };
