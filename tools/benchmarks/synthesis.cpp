@@ -64,8 +64,8 @@ void count(benchmark::State& state, double seconds, double vertices) {
   state.counters["vertices"] = vertices;
 }
 
-void firstFrame(benchmark::State& state, int points) {
-  texture::Synthesizer made = synthesizer(256, {});
+void firstFrame(benchmark::State& state, int points, int size) {
+  texture::Synthesizer made = synthesizer(size, {});
   const texture::Surface surface = sphere(points, kLevels);
   for ([[maybe_unused]] auto _ : state) {
     const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
@@ -124,8 +124,8 @@ class StretchedSheet {
   texture::TexturedSurface m_last;
 };
 
-void laterFrames(benchmark::State& state, int points) {
-  texture::Synthesizer made = synthesizer(256, {});
+void laterFrames(benchmark::State& state, int points, int size) {
+  texture::Synthesizer made = synthesizer(size, {});
   made.options.firstIterations = {1, 1, 1};  // the first frame is not what is timed
   StretchedSheet sheet(points);
   texture::SynthesisStats stats;
@@ -153,10 +153,13 @@ void registerSynthesis() {
   };
   for (const int size : {256, 1024})
     add("synthesis_prepare/" + std::to_string(size), [=](benchmark::State& s) { prepare(s, size); });
-  for (const int points : {20000, 200000}) {
-    add("synthesis_first/" + std::to_string(points), [=](benchmark::State& s) { firstFrame(s, points); });
-    add("synthesis_later/" + std::to_string(points), [=](benchmark::State& s) { laterFrames(s, points); });
-  }
+  const auto addFrames = [&](const std::string& name, int points, int size) {
+    add("synthesis_first" + name, [=](benchmark::State& s) { firstFrame(s, points, size); });
+    add("synthesis_later" + name, [=](benchmark::State& s) { laterFrames(s, points, size); });
+  };
+  for (const int points : {20000, 200000, 1000000}) addFrames("/" + std::to_string(points), points, 256);
+  for (const int size : {64, 128, 512, 1024})
+    addFrames("/20000/exemplar:" + std::to_string(size), 20000, size);
 }
 
 }  // namespace fluidtex::benchmarks
