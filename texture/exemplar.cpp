@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace fluidtex::texture {
@@ -69,44 +70,88 @@ void check(const Image& color, bool toroidal, const SynthesisOptions& synthesis,
   if (!visible) throw ExemplarError(name + " is fully transparent, so there is no texture to take from it.");
 }
 
-Exemplar prepare(Image color, Image guidance, bool toroidal, const SynthesisOptions& synthesis, int levels,
-                 const std::string& name) {
-  check(color, toroidal, synthesis, name);
-  Exemplar exemplar;
-  exemplar.toroidal = toroidal;
-
+// Exemplar::match, from straight colours.
+std::vector<Image> matchImages(const Image& color, int colorChannels, Image guidance, bool toroidal,
+                               const SynthesisOptions& synthesis, int levels) {
   Image premultiplied = color;
-  float least = color.data[3], most = color.data[3];
-  for (std::size_t i = 0; i < premultiplied.data.size(); i += 4) {
-    const float alpha = premultiplied.data[i + 3];
-    for (std::size_t c = 0; c < 3; ++c) premultiplied.data[i + c] *= alpha;
-    least = std::min(least, alpha), most = std::max(most, alpha);
-  }
-  exemplar.colorChannels = least < most ? 4 : 3;
-  exemplar.color = std::move(color);
+  for (std::size_t i = 0; i < premultiplied.data.size(); i += 4)
+    for (std::size_t c = 0; c < 3; ++c) premultiplied.data[i + c] *= premultiplied.data[i + 3];
 
   // The channels are made at full size and reduced with the colours, each in its own space.
   std::vector<std::pair<Image, float>> channels;
-  Image encoded = encodedColors(premultiplied, exemplar.colorChannels);
+  Image encoded = encodedColors(premultiplied, colorChannels);
   const Image luminance = featureLuminance(encoded);
-  exemplar.guided = !guidance.data.empty();
-  exemplar.guidanceWeight = float(synthesis.guidanceWeight);
-  if (exemplar.guided) channels.emplace_back(std::move(guidance), float(std::sqrt(synthesis.guidanceWeight)));
+  if (!guidance.data.empty())
+    channels.emplace_back(std::move(guidance), float(std::sqrt(synthesis.guidanceWeight)));
   if (synthesis.featureWeight > 0.0)
     channels.emplace_back(featureDistance(luminance, toroidal), float(std::sqrt(synthesis.featureWeight)));
   if (synthesis.gradientWeight > 0.0)
     channels.emplace_back(gradientEnergy(luminance, toroidal), float(std::sqrt(synthesis.gradientWeight)));
 
-  for (int level = 0; level < std::max(levels, 1); ++level) {
+  std::vector<Image> images;
+  for (int level = 0; level < levels; ++level) {
     if (level > 0) {
       premultiplied = halve(premultiplied, toroidal);
-      encoded = encodedColors(premultiplied, exemplar.colorChannels);
+      encoded = encodedColors(premultiplied, colorChannels);
       for (auto& channel : channels) channel.first = halve(channel.first, toroidal);
     }
     Image match = std::move(encoded);
     for (const auto& [channel, scale] : channels) match = withChannel(match, channel, scale);
-    exemplar.match.push_back(std::move(match));
+    images.push_back(std::move(match));
   }
+  return images;
+}
+
+// The same, or what an earlier run has kept.
+std::vector<Image> keptMatchImages(const Image& color, int colorChannels, Image guidance, bool toroidal,
+                                   const SynthesisOptions& synthesis, int levels, const CacheFolder& cache) {
+  // To be raised whenever the images are made in another way.
+  constexpr std::int64_t kVersion = 1;
+  const auto made = [&] {
+    return matchImages(color, colorChannels, std::move(guidance), toroidal, synthesis, levels);
+  };
+  if (cache.path.empty()) return made();
+  const auto bits = [](double value) { return std::bit_cast<std::int64_t>(value); };
+  const std::int64_t settings[] = {kVersion,
+                                   color.width,
+                                   color.height,
+                                   colorChannels,
+                                   toroidal,
+                                   levels,
+                                   bits(synthesis.featureWeight),
+                                   bits(synthesis.gradientWeight),
+                                   bits(synthesis.guidanceWeight)};
+  const std::string name = keptName(".match", settings, {color.data, guidance.data});
+  const auto eachPart = [](auto& image, const auto& visit) {
+    visit(image.width), visit(image.height), visit(image.channels), visit(image.data);
+  };
+  if (const auto kept = readKept(cache, name)) {
+    std::vector<Image> images(static_cast<std::size_t>(levels));
+    const char* at = kept->data.get();
+    for (Image& image : images) eachPart(image, ByteReader{at});
+    return images;
+  }
+  std::vector<Image> images = made();
+  std::vector<char> bytes;
+  for (const Image& image : images) eachPart(image, ByteWriter{bytes});
+  writeKept(cache, name, std::move(bytes));
+  return images;
+}
+
+Exemplar prepare(Image color, Image guidance, bool toroidal, const SynthesisOptions& synthesis, int levels,
+                 const std::string& name, const CacheFolder& cache) {
+  check(color, toroidal, synthesis, name);
+  Exemplar exemplar;
+  exemplar.toroidal = toroidal;
+  float least = color.data[3], most = color.data[3];
+  for (std::size_t i = 3; i < color.data.size(); i += 4)
+    least = std::min(least, color.data[i]), most = std::max(most, color.data[i]);
+  exemplar.colorChannels = least < most ? 4 : 3;
+  exemplar.guided = !guidance.data.empty();
+  exemplar.guidanceWeight = float(synthesis.guidanceWeight);
+  exemplar.match = keptMatchImages(color, exemplar.colorChannels, std::move(guidance), toroidal, synthesis,
+                                   std::max(levels, 1), cache);
+  exemplar.color = std::move(color);
   return exemplar;
 }
 
@@ -148,7 +193,11 @@ void sampleBilinear(const Image& image, bool toroidal, const Vec2f& texel, float
   }
 }
 
-void sampleCubic(const Image& image, bool toroidal, const Vec2f& texel, float* out) {
+namespace {
+
+// read(texel, k) is what is interpolated in channel k.
+template <typename Read>
+void cubic(const Image& image, bool toroidal, const Vec2f& texel, const Read& read, float* out) {
   const float x = inside(texel[0], image.width, toroidal), y = inside(texel[1], image.height, toroidal);
   const int x0 = int(x), y0 = int(y);
   const std::array<float, 4> across = cubicWeights(x - float(x0)), down = cubicWeights(y - float(y0));
@@ -159,24 +208,39 @@ void sampleCubic(const Image& image, bool toroidal, const Vec2f& texel, float* o
     row[i] = image.at(0, neighbor(y0 - 1 + i, image.height, toroidal));
   }
   for (int k = 0; k < image.channels; ++k) {
+    const auto value = [&](int j, int i) { return read(row[j] + column[i], k); };
     float sum = 0.0f;
     for (int j = 0; j < 4; ++j) {
       float along = 0.0f;
-      for (int i = 0; i < 4; ++i) along += across[i] * row[j][column[i] + k];
+      for (int i = 0; i < 4; ++i) along += across[i] * value(j, i);
       sum += down[j] * along;
     }
-    const auto [least, most] = std::minmax({row[1][column[1] + k], row[1][column[2] + k],
-                                            row[2][column[1] + k], row[2][column[2] + k]});
+    const auto [least, most] = std::minmax({value(1, 1), value(1, 2), value(2, 1), value(2, 2)});
     out[k] = std::clamp(sum, least, most);
   }
 }
 
-Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
-                      Image guidance) {
-  return prepare(std::move(color), std::move(guidance), toroidal, synthesis, levels, "the image");
+}  // namespace
+
+void sampleCubic(const Image& image, bool toroidal, const Vec2f& texel, float* out) {
+  cubic(image, toroidal, texel, [](const float* at, int k) { return at[k]; }, out);
 }
 
-Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels) {
+Vec4f samplePremultiplied(const Image& color, bool toroidal, const Vec2f& texel) {
+  Vec4f result;
+  cubic(
+      color, toroidal, texel, [](const float* at, int k) { return k < 3 ? at[k] * at[3] : at[3]; },
+      result.asPointer());
+  return result;
+}
+
+Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
+                      Image guidance, const CacheFolder& cache) {
+  return prepare(std::move(color), std::move(guidance), toroidal, synthesis, levels, "the image", cache);
+}
+
+Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels,
+                      const CacheFolder& cache) {
   Image color = readImage(options.file), guidance;
   if (!options.guidance.empty()) {
     guidance = readMap(options.guidance, 1);
@@ -186,7 +250,7 @@ Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& sy
                           "; a guidance map must be of the same size.");
   }
   Exemplar exemplar = prepare(std::move(color), std::move(guidance), options.toroidal, synthesis, levels,
-                              options.file.string());
+                              options.file.string(), cache);
   for (const MapOptions& map : options.maps)
     exemplar.maps[map.name] = loadMap(map, exemplar.color.width, options.toroidal);
   return exemplar;

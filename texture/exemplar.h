@@ -1,6 +1,7 @@
 // The example image, prepared once: levels of detail, channels to match by, colours to look up.
 #pragma once
 
+#include "texture/kept.h"
 #include "texture/options.h"
 #include "texture/surface.h"
 
@@ -29,6 +30,14 @@ struct ExemplarMap {
   Image image;
   MapHolds holds = MapHolds::values;
 };
+// The same of RGBA with straight alpha, premultiplied before it is interpolated, so that it does not matter what
+// colour a transparent texel has; straight() takes alpha out again, and leaves black where there is none.
+Vec4f samplePremultiplied(const Image& color, bool toroidal, const Vec2f& texel);
+inline Vec4f straight(const Vec4f& premultiplied) {
+  const float alpha = premultiplied[3];
+  if (!(alpha > 1e-6f)) return Vec4f(0.0f);
+  return {premultiplied[0] / alpha, premultiplied[1] / alpha, premultiplied[2] / alpha, alpha};
+}
 
 struct Exemplar {
   bool toroidal = false;
@@ -56,10 +65,12 @@ struct ExemplarError : std::runtime_error {
 // Throws ExemplarError: missing, not an image, smaller than the largest window (which is shortened at any
 // level whose image leaves it no choice of places, see fittingWindow), too small for any window, fully
 // transparent, values that are not finite; a guidance map of another size.
-Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels);
+// `match` is kept in `cache` from run to run, by all that it is made from.
+Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels,
+                      const CacheFolder& cache = {});
 
 // The same from pixels in memory (linear RGBA); guidance: one channel, 0..1, of the same size, or empty.
 Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
-                      Image guidance = {});
+                      Image guidance = {}, const CacheFolder& cache = {});
 
 }  // namespace fluidtex::texture

@@ -49,11 +49,24 @@ Histogram shares(std::size_t count, int channels, const BinsAt& binsAt) {
 
 HistogramTarget makeHistogramTarget(const TexelImage& image) {
   HistogramTarget target;
-  Float8 low = image.data.front(), high = low;
-  for (const Float8& texel : image.data) {
-    low = texel < low ? texel : low;
-    high = texel > high ? texel : high;
-  }
+  struct Range {
+    Float8 low, high;
+    void take(const Float8& least, const Float8& most) {
+      low = least < low ? least : low;
+      high = most > high ? most : high;
+    }
+  };
+  const Range first{image.data.front(), image.data.front()};
+  const auto [low, high] = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, image.data.size(), 4096), first,
+      [&](const tbb::blocked_range<std::size_t>& range, Range result) {
+        for (std::size_t i = range.begin(); i != range.end(); ++i) result.take(image.data[i], image.data[i]);
+        return result;
+      },
+      [](Range a, const Range& b) {
+        a.take(b.low, b.high);
+        return a;
+      });
   target.low = low;
   for (int c = 0; c < kMaxChannels; ++c)
     target.scale[c] = high[c] > low[c] ? float(kHistogramBins) / (high[c] - low[c]) : 0.0f;

@@ -62,13 +62,22 @@ Proposal broughtToCenter(const Label& label, const Vec2f& l, const Complexf& tur
            {j[0] * c + j[1] * s, j[1] * c - j[0] * s, j[2] * c + j[3] * s, j[3] * c - j[2] * s}}};
 }
 
+// Of an edge: where neither end takes what is proposed, the second does, or the first does.
+struct SeamCosts {
+  float keepKeep = 0.0f, keepTake = 0.0f, takeKeep = 0.0f;
+};
+
 // What one thread keeps from disc to disc.
 struct Workspace {
   explicit Workspace(std::size_t vertexCount) : slot(vertexCount, kNone) {}
   std::vector<std::uint32_t> slot;   // of the present disc's free members; reset after each disc
   std::vector<std::uint32_t> entry;  // the members' entries of the neighbourhood
   Labels proposed;
-  std::vector<float> ownNow, ownThen;
+  Values value;                            // the image at the proposed labels
+  std::vector<float> present;              // seams of all edges of members, as they are, in their order
+  std::vector<float> labelNow, labelThen;  // own costs of the members
+  std::vector<float> ownNow, ownThen;      // the same with those of seams that they alone decide about
+  std::vector<SeamCosts> seams;            // of the edges that may change, in the members' order
   std::vector<std::uint8_t> differs;
   MinCut cut;
 };
@@ -86,6 +95,7 @@ class Expansion {
         m_free(free),
         m_seed(seed),
         m_labels(labels),
+        m_value(lookUp(model.image, labels)),
         m_usage(model.image, std::max(8, std::min(model.image.width, model.image.height) / 12), labels.size(),
                 demandOn(model.image, model.view.mesh)),
         m_workspaces([count = labels.size()] { return Workspace(count); }) {
@@ -155,9 +165,12 @@ class Expansion {
     for (std::uint32_t i = 0; i < work.entry.size(); ++i) work.slot[m_discs.vertex[work.entry[i]]] = i;
     std::array<Proposal, kProposals> proposals;
     const std::size_t count = propose(p, proposals);
+    bool changed = true;
     for (std::size_t i = 0; i < count; ++i) {
+      if (changed) countPresent(work);
+      changed = cut(proposals[i], work, changes);
       ++counts[0];
-      counts[1] += cut(proposals[i], work, changes);
+      counts[1] += changed;
     }
     for (const std::uint32_t entry : work.entry) work.slot[m_discs.vertex[entry]] = kNone;
     return counts;
@@ -198,15 +211,26 @@ class Expansion {
     return count;
   }
 
-  float ownCost(const Label& label, std::uint32_t v) const {
-    return labelCost(m_model, m_terms, label, v) + m_terms.usage * (m_usage.at(label.texel) - 1.0f);
+  float ownCost(const Label& label, const Float8& value, std::uint32_t v) const {
+    return labelCost(m_model, m_terms, label, value, v) + m_terms.usage * (m_usage.at(label.texel) - 1.0f);
+  }
+
+  // What the disc costs as it is.
+  void countPresent(Workspace& work) const {
+    work.labelNow.clear(), work.present.clear();
+    for (const std::uint32_t entry : work.entry) {
+      const std::uint32_t v = m_discs.vertex[entry];
+      work.labelNow.push_back(ownCost(m_labels[v], m_value[v], v));
+    }
+    forEachEdge(work, [&](std::uint32_t, std::uint32_t, std::uint32_t v, std::uint32_t u, std::uint32_t h) {
+      work.present.push_back(seamCost(m_model, m_labels[v], m_value[v], m_labels[u], m_value[u], h));
+    });
   }
 
   bool cut(const Proposal& proposal, Workspace& work, std::vector<Change>& changes) {
     const TexelImage& image = m_model.image;
-    const VertexGraph& graph = m_model.view.graph;
     const std::size_t count = work.entry.size();
-    work.proposed.resize(count), work.ownNow.resize(count), work.ownThen.resize(count);
+    work.proposed.resize(count);
     work.differs.assign(count, 0);
     bool any = false;
     for (std::size_t i = 0; i < count; ++i) {
@@ -223,34 +247,36 @@ class Expansion {
     if (!any) return false;
 
     work.cut.reset(count);
+    work.value.resize(count);
+    work.labelThen.assign(count, 0.0f);
     double now = 0.0;
     for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t v = m_discs.vertex[work.entry[i]];
-      work.ownNow[i] = work.differs[i] ? ownCost(m_labels[v], v) : 0.0f;
-      work.ownThen[i] = work.differs[i] ? ownCost(work.proposed[i], v) : 0.0f;
-      now += double(work.ownNow[i]);
+      if (!work.differs[i]) continue;
+      work.value[i] = image.sample(work.proposed[i].texel);
+      work.labelThen[i] = ownCost(work.proposed[i], work.value[i], m_discs.vertex[work.entry[i]]);
+      now += double(work.labelNow[i]);
     }
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t v = m_discs.vertex[work.entry[i]];
-      for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
-        const std::uint32_t u = graph.neighbor[h], j = work.slot[u];
-        const bool member = j != kNone;
-        if (member && j < i) continue;
-        if (!work.differs[i] && !(member && work.differs[j])) continue;
-        const float keepKeep = seamCost(m_model, m_labels[v], m_labels[u], h);
-        now += double(keepKeep);
-        if (!member || !work.differs[j]) {
-          work.ownNow[i] += keepKeep;
-          work.ownThen[i] += seamCost(m_model, work.proposed[i], m_labels[u], h);
-        } else if (!work.differs[i]) {
-          work.ownNow[j] += keepKeep;
-          work.ownThen[j] += seamCost(m_model, m_labels[v], work.proposed[j], h);
-        } else {
-          addPair(i, j, keepKeep, seamCost(m_model, m_labels[v], work.proposed[j], h),
-                  seamCost(m_model, work.proposed[i], m_labels[u], h), work);
-        }
-      }
-    }
+    work.ownNow = work.labelNow, work.ownThen = work.labelThen;
+    work.seams.clear();
+    const float* present = work.present.data();
+    forEachEdge(
+        work, [&](std::uint32_t i, std::uint32_t j, std::uint32_t v, std::uint32_t u, std::uint32_t h) {
+          SeamCosts costs{*present++, 0.0f, 0.0f};
+          const bool first = work.differs[i], second = j != kNone && work.differs[j];
+          if (!first && !second) return;
+          if (first)
+            costs.takeKeep = seamCost(m_model, work.proposed[i], work.value[i], m_labels[u], m_value[u], h);
+          if (second)
+            costs.keepTake = seamCost(m_model, m_labels[v], m_value[v], work.proposed[j], work.value[j], h);
+          now += double(costs.keepKeep);
+          if (first && second)
+            addPair(i, j, costs, work);
+          else if (first)
+            work.ownNow[i] += costs.keepKeep, work.ownThen[i] += costs.takeKeep;
+          else
+            work.ownNow[j] += costs.keepKeep, work.ownThen[j] += costs.keepTake;
+          work.seams.push_back(costs);
+        });
     for (std::uint32_t i = 0; i < count; ++i) {
       const float least = std::min(work.ownNow[i], work.ownThen[i]);
       if (work.differs[i]) work.cut.addOwn(i, work.ownNow[i] - least, work.ownThen[i] - least);
@@ -262,44 +288,58 @@ class Expansion {
   // A pair's four costs as what own costs and a cut can express. Where both take there is no seam: they get
   // one label, continued. Seam costs are a metric but for what coherence forgives; where the triangle
   // inequality fails, the mixed cases count for more than they cost, which at worst leaves a label as it is.
-  static void addPair(std::uint32_t i, std::uint32_t j, float keepKeep, float keepTake, float takeKeep,
-                      Workspace& work) {
+  static void addPair(std::uint32_t i, std::uint32_t j, const SeamCosts& costs, Workspace& work) {
     // With x = 1 where an end takes: keepKeep + x_i (takeKeep - keepKeep) - x_j takeKeep + (1 - x_i) x_j
     // mixed.
-    work.ownNow[i] += keepKeep;
-    work.ownThen[i] += takeKeep;
-    work.ownNow[j] += takeKeep;
-    const float mixed = keepTake + takeKeep - keepKeep;
+    work.ownNow[i] += costs.keepKeep;
+    work.ownThen[i] += costs.takeKeep;
+    work.ownNow[j] += costs.takeKeep;
+    const float mixed = costs.keepTake + costs.takeKeep - costs.keepKeep;
     if (mixed > 0.0f) work.cut.addPair(i, j, mixed, 0.0f);
   }
 
-  // Makes the change if the cost, counted anew, falls by enough.
-  bool settleCut(double now, Workspace& work, std::vector<Change>& changes) {
+  // Calls body(i, j, v, u, h) for the edges h, from v to u, that a member is an end of, once each: i is v's
+  // place among the members, j that of u or kNone.
+  template <typename Body>
+  void forEachEdge(const Workspace& work, const Body& body) const {
     const VertexGraph& graph = m_model.view.graph;
+    for (std::uint32_t i = 0; i < work.entry.size(); ++i) {
+      const std::uint32_t v = m_discs.vertex[work.entry[i]];
+      for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
+        const std::uint32_t u = graph.neighbor[h], j = work.slot[u];
+        if (j == kNone || j >= i) body(i, j, v, u, h);
+      }
+    }
+  }
+
+  // Makes the change if the cost falls by enough; the seams between two that take are counted now.
+  bool settleCut(double now, Workspace& work, std::vector<Change>& changes) {
     const auto takes = [&](std::uint32_t i) { return work.differs[i] && work.cut.takes(i); };
-    const auto labelOf = [&](std::uint32_t i, std::uint32_t v) -> const Label& {
-      return takes(i) ? work.proposed[i] : m_labels[v];
-    };
     bool any = false;
     double then = 0.0;
     for (std::uint32_t i = 0; i < work.entry.size(); ++i) {
-      const std::uint32_t v = m_discs.vertex[work.entry[i]];
       any = any || takes(i);
-      if (work.differs[i]) then += double(ownCost(labelOf(i, v), v));
-      for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
-        const std::uint32_t u = graph.neighbor[h], j = work.slot[u];
-        const bool member = j != kNone;
-        if (member && j < i) continue;
-        if (!work.differs[i] && !(member && work.differs[j])) continue;
-        then += double(seamCost(m_model, labelOf(i, v), member ? labelOf(j, u) : m_labels[u], h));
-      }
+      if (work.differs[i]) then += double(takes(i) ? work.labelThen[i] : work.labelNow[i]);
     }
-    if (!any || then > now - double(kLeastGain)) return false;
+    if (!any) return false;
+    const SeamCosts* costs = work.seams.data();
+    forEachEdge(work, [&](std::uint32_t i, std::uint32_t j, std::uint32_t, std::uint32_t, std::uint32_t h) {
+      if (!work.differs[i] && !(j != kNone && work.differs[j])) return;
+      const bool first = takes(i), second = j != kNone && takes(j);
+      then += double(first && second ? seamCost(m_model, work.proposed[i], work.value[i], work.proposed[j],
+                                                work.value[j], h)
+                     : first         ? costs->takeKeep
+                     : second        ? costs->keepTake
+                                     : costs->keepKeep);
+      ++costs;
+    });
+    if (then > now - double(kLeastGain)) return false;
     for (std::uint32_t i = 0; i < work.entry.size(); ++i) {
       if (!takes(i)) continue;
-      Label& label = m_labels[m_discs.vertex[work.entry[i]]];
-      changes.push_back({label.texel, work.proposed[i].texel});
-      label = work.proposed[i];
+      const std::uint32_t v = m_discs.vertex[work.entry[i]];
+      changes.push_back({m_labels[v].texel, work.proposed[i].texel});
+      m_labels[v] = work.proposed[i];
+      m_value[v] = work.value[i];
     }
     return true;
   }
@@ -309,6 +349,7 @@ class Expansion {
   const std::vector<std::uint8_t>& m_free;
   std::uint64_t m_seed;
   Labels& m_labels;
+  Values m_value;  // the image at the labels
   Usage m_usage;
   Neighborhoods m_discs;  // of the present chunk
   tbb::enumerable_thread_specific<Workspace> m_workspaces;

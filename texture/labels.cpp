@@ -155,15 +155,6 @@ Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const Surfa
   return result;
 }
 
-Vec2f texelDifference(const TexelImage& image, const Vec2f& a, const Vec2f& b) {
-  Vec2f d = a - b;
-  if (image.toroidal) {
-    d[0] -= float(image.width) * std::round(d[0] / float(image.width));
-    d[1] -= float(image.height) * std::round(d[1] / float(image.height));
-  }
-  return d;
-}
-
 Label continued(const TexelImage& image, const Label& label, const Complexf& edge, const Complexf& rotation) {
   // In the label's own axes the edge is conj(rotation) * edge; the way to the neighbour is its negative.
   Label result;

@@ -6,6 +6,7 @@
 #include "texture/texel_image.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -49,7 +50,13 @@ Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const Surfa
                     const TexelImage& fineImage);
 
 // a - b; on an exemplar that wraps, positions differ by whole turns without meaning it.
-Vec2f texelDifference(const TexelImage& image, const Vec2f& a, const Vec2f& b);
+inline Vec2f texelDifference(const TexelImage& image, const Vec2f& a, const Vec2f& b) {
+  const auto shortest = [](float d, float size) {
+    return std::abs(d) <= 0.5f * size ? d : d - size * std::floor(d / size + 0.5f);
+  };
+  const Vec2f d = a - b;
+  return image.toroidal ? Vec2f(shortest(d[0], float(image.width)), shortest(d[1], float(image.height))) : d;
+}
 
 // A label continued to a neighbouring vertex; `edge` and `rotation` are that vertex's, towards the label's
 // own.

@@ -1,7 +1,8 @@
-// Eight floats at once, for inner loops. Compiled for a processor without such registers it
-// works as well, only slower.
+// Eight floats, or sixteen small numbers, at once, for inner loops. Compiled for a processor
+// without such registers it works as well, only slower.
 #pragma once
 
+#include <cstdint>
 #include <cstring>
 
 #ifdef __AVX__
@@ -51,6 +52,20 @@ inline unsigned below8(const Float8& v, float bound) {
 #else
   unsigned bits = 0;
   for (unsigned k = 0; k < 8; ++k) bits |= unsigned(v[k] < bound) << k;
+  return bits;
+#endif
+}
+
+using Short16 = std::int16_t __attribute__((vector_size(32)));
+
+// Bit k is set where lane k is at most `bound`.
+inline unsigned atMost16(const Short16& v, std::int16_t bound) {
+#ifdef __AVX2__
+  const __m256i above = _mm256_cmpgt_epi16(__m256i(v), _mm256_set1_epi16(bound));
+  return _pext_u32(~unsigned(_mm256_movemask_epi8(above)), 0x55555555u);
+#else
+  unsigned bits = 0;
+  for (unsigned k = 0; k < 16; ++k) bits |= unsigned(v[k] <= bound) << k;
   return bits;
 #endif
 }

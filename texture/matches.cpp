@@ -64,18 +64,6 @@ float distanceAt(const TexelImage& image, const Gathered& gathered, const Vec2f&
   return total / gathered.mass;
 }
 
-void fillQuery(const Windows& windows, std::size_t p, const Values& value, WindowQuery& query, int channels) {
-  const std::size_t area = query.mask.size();
-  const PixelSource* pixels = windows.pixels.data() + p * area;
-  for (std::size_t i = 0; i < area; ++i) {
-    const PixelSource& pixel = pixels[i];
-    query.mask[i] = pixel.missing() ? 0.0f : 1.0f;
-    const Float8 sum = pixel.weight[0] * value[pixel.vertex[0]] + pixel.weight[1] * value[pixel.vertex[1]] +
-                       pixel.weight[2] * value[pixel.vertex[2]];
-    for (int c = 0; c < channels; ++c) query.pixels[i * std::size_t(channels) + std::size_t(c)] = sum[c];
-  }
-}
-
 // What the threads keep while they search.
 struct Searcher {
   explicit Searcher(const SearchTable* table) {
@@ -94,6 +82,18 @@ int searchWindows(const Windows& windows, std::size_t p, const Pass& pass, const
 }
 
 }  // namespace
+
+void fillQuery(const Windows& windows, std::size_t p, const Values& value, WindowQuery& query, int channels) {
+  const std::size_t area = query.mask.size();
+  const PixelSource* pixels = windows.pixels.data() + p * area;
+  for (std::size_t i = 0; i < area; ++i) {
+    const PixelSource& pixel = pixels[i];
+    query.mask[i] = pixel.missing() ? 0.0f : 1.0f;
+    const Float8 sum = pixel.weight[0] * value[pixel.vertex[0]] + pixel.weight[1] * value[pixel.vertex[1]] +
+                       pixel.weight[2] * value[pixel.vertex[2]];
+    for (int c = 0; c < channels; ++c) query.pixels[i * std::size_t(channels) + std::size_t(c)] = sum[c];
+  }
+}
 
 Windows makeWindows(const Level& level, const Pass& pass) {
   Windows windows;

@@ -22,6 +22,9 @@ struct Windows {
 
 Windows makeWindows(const Level& level, const Pass& pass);
 
+// Fills query.pixels and query.mask with neighbourhood p; makeWindows() must have had a pass with a tree.
+void fillQuery(const Windows& windows, std::size_t p, const Values& value, WindowQuery& query, int channels);
+
 // Distances of the present matches.
 void measureMatches(const TexelImage& image, const Values& value, Windows& windows);
 

@@ -1,5 +1,5 @@
-// How good the texture of a run is, in figures. Colours are sRGB-encoded and lie in 0..1, lengths are in
-// texels: one is the surface's spacing. Ratios to the exemplar are taken to the exemplar laid on the same
+// How good the texture of a run is, in figures. Colours are sRGB-encoded and lie in 0..1, what is see-through is
+// seen before mid grey; lengths are in texels: one is the surface's spacing. Ratios to the exemplar are taken to the exemplar laid on the same
 // vertices and read back the same way, so that they do not depend on the mesh.
 #pragma once
 

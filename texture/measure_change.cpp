@@ -3,7 +3,6 @@
 #include "texture/measure_tiles.h"
 #include "texture/parallel.h"
 #include "texture/point_grid.h"
-#include "texture/srgb.h"
 
 #include <algorithm>
 #include <cmath>
@@ -120,7 +119,7 @@ class LastSurface {
 class Picture {
  public:
   Picture(const TexturedSurface& surface, const Image& color, bool toroidal)
-      : shown(encodedColors(surface)), m_color(color), m_toroidal(toroidal) {
+      : shown(seenColors(surface)), m_color(color), m_toroidal(toroidal) {
     beside.resize(shown.size());
     forEachIndex(shown.size(), [&](std::uint32_t v) {
       beside[v] = shown[v] - exemplar(surface.coordinate[v]);
@@ -130,9 +129,7 @@ class Picture {
   }
 
   Vec3f exemplar(const Vec2f& texel) const {
-    float linear[4];
-    sampleCubic(m_color, m_toroidal, texel, linear);
-    return {encodeSrgb(linear[0]), encodeSrgb(linear[1]), encodeSrgb(linear[2])};
+    return seenColor(straight(samplePremultiplied(m_color, m_toroidal, texel)));
   }
 
   std::vector<Vec3f> shown, beside;

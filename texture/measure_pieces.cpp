@@ -52,7 +52,7 @@ std::optional<Pieces> measurePieces(const TexturedSurface& surface, const Image&
   const bool allNew = std::none_of(surface.trust.begin(), surface.trust.end(),
                                    [](float trust) { return trust >= kNewSurface; });
   const auto counts = [&](std::uint32_t v) { return allNew || surface.trust[v] >= kNewSurface; };
-  const std::vector<Vec3f> shown = encodedColors(surface);
+  const std::vector<Vec3f> shown = seenColors(surface);
 
   Joined joined(count);
   std::vector<int> coherent(count, 0);
@@ -92,7 +92,7 @@ std::optional<Pieces> measurePieces(const TexturedSurface& surface, const Image&
   result.chips = double(inChips) / double(measured);
   result.joints = edges > 0 ? double(joints) / double(edges) : 0.0;
   if (joints > 0)
-    result.seams = std::sqrt(across / std::max(lengths * neighborContrast(encodedPicture(color)), 1e-12));
+    result.seams = std::sqrt(across / std::max(lengths * neighborContrast(seenPicture(color)), 1e-12));
   result.shape = percentile(distortions, 0.95);
   return result;
 }

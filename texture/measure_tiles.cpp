@@ -12,6 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
+constexpr float kMidGrey = 0.5f;  // sRGB-encoded, behind what is see-through
 constexpr int kSlides = 3;      // onto the surface along the tile's normal
 constexpr double kBend = 40.0;  // degrees a tile may bend
 constexpr double kReach = 1.6;  // spacings: farther from all vertices a texel is off the surface
@@ -236,11 +237,25 @@ std::vector<Tile> flatTiles(const TileGround& ground, int size, int count, Dice&
   return tiles;
 }
 
-std::vector<Vec3f> encodedColors(const TexturedSurface& surface) {
+Vec3f seenColor(const Vec4f& color) {
+  Vec3f seen;
+  for (int c = 0; c < 3; ++c) seen[c] = encodeSrgb(color[c]) * color[3] + kMidGrey * (1.0f - color[3]);
+  return seen;
+}
+
+std::vector<Vec3f> seenColors(const TexturedSurface& surface) {
   std::vector<Vec3f> colors(surface.color.size());
-  for (std::size_t v = 0; v < colors.size(); ++v)
-    for (int c = 0; c < 3; ++c) colors[v][c] = encodeSrgb(surface.color[v][c]);
+  std::transform(surface.color.begin(), surface.color.end(), colors.begin(), seenColor);
   return colors;
+}
+
+Image seenPicture(const Image& color) {
+  Image picture{color.width, color.height, 3, {}};
+  for (std::size_t i = 0; i < color.data.size(); i += 4) {
+    const Vec3f seen = seenColor(Vec4f(color.data.data() + i));
+    picture.data.insert(picture.data.end(), seen.asPointer(), seen.asPointer() + 3);
+  }
+  return picture;
 }
 
 double percentile(std::vector<float> values, double share) {
@@ -308,7 +323,7 @@ Stack exemplarTiles(const Image& picture, const std::vector<Tile>& tiles, int si
 void toPerceptual(float* color, int channels) {
   float linear[3];
   for (int c = 0; c < 3; ++c) {
-    const float over = channels == 4 ? color[c] * color[3] + 0.5f * (1.0f - color[3]) : color[c];
+    const float over = channels == 4 ? color[c] * color[3] + kMidGrey * (1.0f - color[3]) : color[c];
     linear[c] = decodeSrgb(std::clamp(over, 0.0f, 1.0f));
   }
   const float xyz[3] = {

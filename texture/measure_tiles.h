@@ -77,8 +77,12 @@ std::vector<Tile> flatTiles(const TileGround& ground, int size, int count, Dice&
 // sRGB-encoded picture of the exemplar: 3 channels, or 4 where alpha varies.
 Image encodedPicture(const Image& color);
 
-// The surface's colours, sRGB-encoded.
-std::vector<Vec3f> encodedColors(const TexturedSurface& surface);
+// Linear RGBA as it is seen before mid grey, sRGB-encoded.
+Vec3f seenColor(const Vec4f& color);
+
+// All of a surface's, or of an image's, which has three channels then.
+std::vector<Vec3f> seenColors(const TexturedSurface& surface);
+Image seenPicture(const Image& color);
 
 // The value that a share of them is at most, 0 of none.
 double percentile(std::vector<float> values, double share);

@@ -35,6 +35,14 @@ bool continues(const SeamModel& model, const Label& atV, const Label& atU, const
   return here + there < 2.0f * kCoherent;
 }
 
+// Where they do not.
+float seamCost(const SeamModel& model, const Across& across, const Float8& valueV, const Float8& valueU) {
+  const Float8 atEnd = model.image.sample(across.vThere) - valueU;
+  const Float8 atStart = model.image.sample(across.uHere) - valueV;
+  return kSeamLength +
+         (length(atEnd, model.channelWeight) + length(atStart, model.channelWeight)) / model.unit;
+}
+
 // The free vertices by colour, no two neighbours in one.
 std::vector<std::vector<std::uint32_t>> colored(const VertexGraph& graph,
                                                 const std::vector<std::uint8_t>& free) {
@@ -58,12 +66,11 @@ std::vector<std::vector<std::uint32_t>> colored(const VertexGraph& graph,
 
 }  // namespace
 
-float labelCost(const SeamModel& model, const LabelTerms& terms, const Label& label, std::uint32_t v) {
+float labelCost(const SeamModel& model, const LabelTerms& terms, const Label& label, const Float8& value,
+                std::uint32_t v) {
   float cost =
       terms.stretch * std::log(stretch(label)) + guidanceCost(model.image, model.view.mesh, label.texel, v);
-  if (terms.wanted)
-    cost += terms.data * length(model.image.sample(label.texel) - (*terms.wanted)[v], model.channelWeight) /
-            model.unit;
+  if (terms.wanted) cost += terms.data * length(value - (*terms.wanted)[v], model.channelWeight) / model.unit;
   return cost;
 }
 
@@ -82,10 +89,13 @@ bool continues(const SeamModel& model, const Label& atV, const Label& atU, std::
 float seamCost(const SeamModel& model, const Label& atV, const Label& atU, std::uint32_t h) {
   const Across across = acrossEdge(model, atV, atU, h);
   if (continues(model, atV, atU, across)) return 0.0f;
-  const Float8 atEnd = model.image.sample(across.vThere) - model.image.sample(atU.texel);
-  const Float8 atStart = model.image.sample(across.uHere) - model.image.sample(atV.texel);
-  return kSeamLength +
-         (length(atEnd, model.channelWeight) + length(atStart, model.channelWeight)) / model.unit;
+  return seamCost(model, across, model.image.sample(atV.texel), model.image.sample(atU.texel));
+}
+
+float seamCost(const SeamModel& model, const Label& atV, const Float8& valueV, const Label& atU,
+               const Float8& valueU, std::uint32_t h) {
+  const Across across = acrossEdge(model, atV, atU, h);
+  return continues(model, atV, atU, across) ? 0.0f : seamCost(model, across, valueV, valueU);
 }
 
 std::vector<float> seamCosts(const SeamModel& model, const Labels& labels) {
@@ -116,7 +126,8 @@ void straightenSeams(const SeamModel& model, const LabelTerms& terms, const std:
             if (!active[v]) return;
             const std::uint32_t begin = graph.first[v], end = graph.first[v + 1];
             const auto costOf = [&](const Label& label, float bound) {
-              float cost = labelCost(model, terms, label, v);
+              const Float8 value = model.image.sample(label.texel);
+              float cost = labelCost(model, terms, label, value, v);
               for (std::uint32_t h = begin; h < end && cost < bound; ++h)
                 cost += seamCost(model, label, labels[graph.neighbor[h]], h);
               return cost;

@@ -26,6 +26,9 @@ bool continues(const SeamModel& model, const Label& atV, const Label& atU, std::
 // |A(v) - B(v)| + |A(u) - B(u)|, A and B being what the two put at a place; differences are not squared, so
 // that this is a metric in the labels [Kwatra03].
 float seamCost(const SeamModel& model, const Label& atV, const Label& atU, std::uint32_t h);
+// The same where each label's texel has been read already.
+float seamCost(const SeamModel& model, const Label& atV, const Float8& valueV, const Label& atU,
+               const Float8& valueU, std::uint32_t h);
 inline constexpr float kSeamLength = 0.1f;
 
 // The mean of seamCost() over each vertex's edges.
@@ -40,8 +43,9 @@ struct LabelTerms {
       0.0f;  // times how much more than the mean its part of the exemplar is used; label expansion only
 };
 
-// A label's own cost at v, without usage, with that of guidance.
-float labelCost(const SeamModel& model, const LabelTerms& terms, const Label& label, std::uint32_t v);
+// A label's own cost at v, without usage, with that of guidance. value: the image at its texel.
+float labelCost(const SeamModel& model, const LabelTerms& terms, const Label& label, const Float8& value,
+                std::uint32_t v);
 
 // Straightens seams and moves them to where they show least: each free vertex (free empty: all) takes, of its
 // own label, its neighbours' continued ones and `alternative`'s (null: none), the one of least cost: its

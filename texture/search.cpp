@@ -71,8 +71,8 @@ void findSimilar(const SearchTable& table, const float* descriptor, std::uint32_
   const Vec2i center = treeCenter(table, self);
   visitNearest(
       table.tree, descriptor, kSimilarProbes, search,
-      [&] { return best.size() == count ? best.back().distance : std::numeric_limits<float>::infinity(); },
       [&](const Found& found) {
+        if (best.size() == count && !(found < best.back())) return;
         const Vec2i at = treeCenter(table, found.index);
         if (apart(table, at, center) < least) return;
         const auto near = [&](const Found& other) {

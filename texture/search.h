@@ -3,7 +3,7 @@
 // k-coherence].
 //
 // One SearchTable serves one level of the exemplar and one window width. It is read-only once built: any
-// number of threads may search it, each with a WindowQuery of its own, and no search allocates memory.
+// number of threads may search it, each with a WindowQuery of its own, whose memory is used again and again.
 #pragma once
 
 #include "texture/exemplar.h"

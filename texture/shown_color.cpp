@@ -17,10 +17,6 @@ float luminance(const Vec4f& c) {
   return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
 }
 
-Vec4f premultiplied(const Vec4f& c) {
-  return {c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]};
-}
-
 // What is shown at a place, and the mean around it; premultiplied.
 struct Reading {
   Vec4f color, mean;
@@ -28,9 +24,7 @@ struct Reading {
 
 Reading readAt(const Image& colors, const Image& around, bool toroidal, const Vec2f& texel) {
   constexpr float kScale = 1.0f / float(1 << kHalvings), kShift = 0.5f * float((1 << kHalvings) - 1);
-  Vec4f color;
-  sampleCubic(colors, toroidal, texel, color.asPointer());
-  Reading result{premultiplied(color), Vec4f(0.0f)};
+  Reading result{samplePremultiplied(colors, toroidal, texel), Vec4f(0.0f)};
   sampleBilinear(around, toroidal, (texel - Vec2f(kShift, kShift)) * kScale,
                  result.mean.asPointer());
   return result;
@@ -48,11 +42,7 @@ Image meansAround(const Image& color, bool toroidal) {
 
 Vec4f shownColor(const Image& colors, const Image& around, bool toroidal, const Vec2f& present,
                  const Vec2f& former, float weight) {
-  if (weight == 0.0f) {
-    Vec4f color;
-    sampleCubic(colors, toroidal, present, color.asPointer());
-    return color;
-  }
+  if (weight == 0.0f) return straight(samplePremultiplied(colors, toroidal, present));
   const Reading now = readAt(colors, around, toroidal, present),
                 old = readAt(colors, around, toroidal, former);
   const float angle = 0.5f * std::numbers::pi_v<float> * weight, a = std::cos(angle), b = std::sin(angle);
@@ -63,10 +53,7 @@ Vec4f shownColor(const Image& colors, const Image& around, bool toroidal, const 
   // The colour on the way from one to the other that is as bright; where both are, the way's own share.
   const float way = one - other;
   const float share = ((wanted - other) * way + kSame * (1.0f - weight)) / (way * way + kSame);
-  const Vec4f mixed = old.color + (now.color - old.color) * share;
-  const float alpha = mixed[3];
-  if (!(alpha > 1e-6f)) return {now.color[0], now.color[1], now.color[2], 0.0f};
-  return {mixed[0] / alpha, mixed[1] / alpha, mixed[2] / alpha, alpha};
+  return straight(old.color + (now.color - old.color) * share);
 }
 
 }  // namespace fluidtex::texture

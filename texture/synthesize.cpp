@@ -87,7 +87,7 @@ Fading fadingAfter(const Carried& carried, const LaterFrame& later, double secon
 
 }  // namespace
 
-Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options, std::filesystem::path cache) {
+Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options, CacheFolder cache) {
   Synthesizer synthesizer{std::move(exemplar), options, std::make_shared<SearchTables>(), std::move(cache), {}};
   synthesizer.around = meansAround(synthesizer.exemplar.color, synthesizer.exemplar.toroidal);
   const int colors = synthesizer.exemplar.colorChannels;

@@ -5,7 +5,6 @@
 #include "texture/options.h"
 #include "texture/surface.h"
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 
@@ -18,15 +17,14 @@ struct Synthesizer {
   Exemplar exemplar;
   SynthesisOptions options;
   std::shared_ptr<SearchTables> tables;
-  std::filesystem::path
-      cache;  // folder in which search tables are kept from run to run (texture/table_cache.h)
+  CacheFolder cache;  // in which search tables are kept from run to run (texture/table_cache.h)
   Image around;  // meansAround(exemplar)
 };
 
 // Throws std::invalid_argument if no window fits the exemplar, or options.windows is empty. cache: empty for
 // none.
 Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options,
-                            std::filesystem::path cache = {});
+                            CacheFolder cache = {});
 
 // Makes the tables of all levels and windows now, not when they are first asked for.
 void prepareTables(Synthesizer& synthesizer);

@@ -1,6 +1,9 @@
 #include "texture/texel_image.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -20,7 +23,7 @@ float clamped(float x, float low, float high) {
 
 }  // namespace
 
-Vec2f TexelImage::brought(const Vec2f& texel) const {
+Vec2f TexelImage::broughtFromOutside(const Vec2f& texel) const {
   if (toroidal) return Vec2f(wrapped(texel[0], float(width)), wrapped(texel[1], float(height)));
   return Vec2f(clamped(texel[0], 0.0f, float(width - 1)), clamped(texel[1], 0.0f, float(height - 1)));
 }
@@ -46,30 +49,36 @@ TexelImage makeTexelImage(const Image& image, bool toroidal, int margin) {
   const auto source = [&](int i, int size) {
     return toroidal ? ((i % size) + size) % size : std::clamp(i, 0, size - 1);
   };
-  for (int y = -margin; y < image.height + margin; ++y) {
+  tbb::parallel_for(-margin, image.height + margin, [&](int y) {
     for (int x = -margin; x < image.width + margin; ++x) {
       const float* from = image.at(source(x, image.width), source(y, image.height));
       Float8 texel{};
       for (int c = 0; c < image.channels; ++c) texel[c] = from[c];
       result.data[std::size_t(y + margin) * result.stride + std::size_t(x + margin)] = texel;
     }
-  }
+  });
   return result;
 }
 
 float randomDifference(const TexelImage& image, const Float8& channelWeight) {
-  double variance = 0.0;
-  for (int c = 0; c < image.channels; ++c) {
-    double sum = 0.0, squares = 0.0;
-    for (int y = 0; y < image.height; ++y) {
-      for (int x = 0; x < image.width; ++x) {
-        const double value =
-            image.data[std::size_t(y + image.margin) * image.stride + std::size_t(x + image.margin)][c];
-        sum += value;
-        squares += value * value;
+  struct Sums {
+    std::array<double, kMaxChannels> values{}, squares{};
+  };
+  std::vector<Sums> rows(std::size_t(image.height));  // then added in order: the same on any number of threads
+  tbb::parallel_for(0, image.height, [&](int y) {
+    const Float8* row = image.data.data() + std::size_t(y + image.margin) * image.stride + image.margin;
+    for (int x = 0; x < image.width; ++x)
+      for (std::size_t c = 0; c < kMaxChannels; ++c) {
+        const double value = row[x][c];
+        rows[std::size_t(y)].values[c] += value;
+        rows[std::size_t(y)].squares[c] += value * value;
       }
-    }
-    const double count = double(image.width) * image.height;
+  });
+  double variance = 0.0;
+  const double count = double(image.width) * image.height;
+  for (std::size_t c = 0; c < std::size_t(image.channels); ++c) {
+    double sum = 0.0, squares = 0.0;
+    for (const Sums& row : rows) sum += row.values[c], squares += row.squares[c];
     variance += channelWeight[c] * std::max(0.0, squares / count - (sum / count) * (sum / count));
   }
   return float(std::sqrt(2.0 * variance));

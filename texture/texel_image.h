@@ -41,7 +41,12 @@ struct TexelImage {
   }
 
   // The nearest position inside the image: clamped to texel centres, or wrapped to 0 <= x < width.
-  Vec2f brought(const Vec2f& texel) const;
+  Vec2f brought(const Vec2f& texel) const {
+    const bool inside = texel[0] >= 0.0f && texel[1] >= 0.0f && texel[0] <= float(width - 1) &&
+                        texel[1] <= float(height - 1);
+    return inside ? texel : broughtFromOutside(texel);
+  }
+  Vec2f broughtFromOutside(const Vec2f& texel) const;
 
   // The nearest centre of a window that reaches `reach` texels to every side.
   Vec2f centerFor(const Vec2f& texel, float reach) const;

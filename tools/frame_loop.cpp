@@ -73,8 +73,8 @@ class FrameLoop {
         m_last(options.lastFrame > 0 ? options.lastFrame : scene.frames),
         m_synthesizer(
             texture::makeSynthesizer(texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis,
-                                                           scene.texture.surface.levels),
-                                     scene.texture.synthesis, cacheFolder())),
+                                                           scene.texture.surface.levels, kept()),
+                                     scene.texture.synthesis, kept())),
         m_guide(orientationGuide(scene)),
         m_scale(textureScale(scene)),
         m_guidance(textureGuidance(scene)),
@@ -90,10 +90,7 @@ class FrameLoop {
       m_motion = sim::makeMotion(m_scene.sim, m_scene.motion);
       clearEarlierRun(m_options.out, m_scene.name);
     }
-    for (const std::string& warning : sim::warningsOf(*m_motion)) {
-      spdlog::warn("{}", warning);
-      if (!m_options.quiet) fmt::print(stderr, "warning: {}\n", warning);
-    }
+    for (const std::string& warning : sim::warningsOf(*m_motion)) warn(warning);
     const int first = sim::stateOf(*m_motion).frame + 1;
     spdlog::info("{}: frames {} to {}, {} threads", m_scene.name, first, m_last, m_options.threads);
     Progress progress(first, m_last, m_options.quiet);
@@ -104,6 +101,15 @@ class FrameLoop {
   }
 
  private:
+  void warn(const std::string& warning) const {
+    spdlog::warn("{}", warning);
+    if (!m_options.quiet) fmt::print(stderr, "warning: {}\n", warning);
+  }
+
+  texture::CacheFolder kept() const {
+    return {cacheFolder(), [this](const std::string& warning) { warn(warning); }};
+  }
+
   void oneFrame() {
     FrameResult result = computeFrame();
     sim::Frame& motion = result.motion;

@@ -20,7 +20,7 @@ double wholeCost(const SeamModel& model, const LabelTerms& terms, const Labels& 
   const VertexGraph& graph = model.view.graph;
   double sum = 0.0;
   for (std::uint32_t v = 0; v < labels.size(); ++v) {
-    sum += double(labelCost(model, terms, labels[v], v));
+    sum += double(labelCost(model, terms, labels[v], model.image.sample(labels[v].texel), v));
     for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h)
       if (graph.neighbor[h] > v) sum += double(seamCost(model, labels[v], labels[graph.neighbor[h]], h));
   }

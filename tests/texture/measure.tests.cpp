@@ -263,6 +263,22 @@ TEST_CASE("measure: renewed surface changes by what is shown instead", "[texture
   CHECK(ended->renewed == 0.0);
 }
 
+TEST_CASE("measure: a change of what nobody sees is none", "[texture]") {
+  Image picture = clouds(64);
+  for (std::size_t i = 0; i < picture.data.size(); i += 4) picture.data[i + 3] = i % 32 < 16 ? 0.0f : 1.0f;
+  TexturedSurface before = sheet(picture, asItIs), after = before;
+  for (std::size_t v = 0; v < after.color.size(); ++v) {
+    before.color[v] = after.color[v] = straight(before.color[v]);
+    if (after.color[v][3] < 0.01f) after.color[v] = Vec4f(1.0f, 0.0f, 1.0f, 0.0f);
+  }
+  const auto hidden = measureChange(before, after, picture, true);
+  REQUIRE(hidden);
+  CHECK(hidden->pop == 0.0);
+  // A hole that closes is seen.
+  for (Vec4f& color : after.color) color[3] = 1.0f;
+  CHECK(measureChange(before, after, picture, true)->pop > 0.3);
+}
+
 TEST_CASE("measure: surface that is new is left out of what changes", "[texture]") {
   const Image picture = stripes(64);
   const TexturedSurface before = sheet(picture, asItIs);

@@ -327,7 +327,6 @@ TEST_CASE("search: the same table on one thread and on several", "[texture]") {
   CHECK(one.basis.component == several.basis.component);
   CHECK(one.basis.offset == several.basis.offset);
   CHECK(one.tree.index == several.tree.index);
-  CHECK(one.tree.descriptor.first == several.tree.descriptor.first);
-  CHECK(one.tree.descriptor.rest == several.tree.descriptor.rest);
+  CHECK(one.tree.codes.fine == several.tree.codes.fine);
   CHECK(one.similar == several.similar);
 }

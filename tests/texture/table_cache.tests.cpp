@@ -37,10 +37,11 @@ void checkSame(const SearchTable& a, const SearchTable& b) {
   CHECK(a.basis.mean == b.basis.mean);
   CHECK(a.tree.firstBlock == b.tree.firstBlock);
   CHECK(a.tree.index == b.tree.index);
-  CHECK(a.tree.descriptor.first == b.tree.descriptor.first);
-  CHECK(a.tree.descriptor.rest == b.tree.descriptor.rest);
-  CHECK(a.tree.leafMean.first == b.tree.leafMean.first);
-  CHECK(a.tree.leafMean.rest == b.tree.leafMean.rest);
+  CHECK(a.tree.codes.low == b.tree.codes.low);
+  CHECK(a.tree.codes.step == b.tree.codes.step);
+  CHECK(a.tree.codes.fine == b.tree.codes.fine);
+  CHECK(a.tree.codes.coarse == b.tree.codes.coarse);
+  CHECK(a.tree.leafMean == b.tree.leafMean);
   CHECK(a.similarCount == b.similarCount);
   CHECK(a.similar == b.similar);
 }
@@ -91,14 +92,19 @@ TEST_CASE("table cache: a damaged file is ignored and replaced, cut short anywhe
   const std::string whole = readBytes(file);
   const std::size_t step = whole.size() / 23;
   for (std::size_t i = 0; i < whole.size(); i += step) {
-    write(file, whole.substr(0, i));
-    checkSame(cachedSearchTable(image, false, 7, 1, 2, scratch.path), built);
-    CHECK(readBytes(file) == whole);
     std::string changed = whole;
     changed[i] = char(changed[i] ^ 1);
-    write(file, changed);
-    checkSame(cachedSearchTable(image, false, 7, 1, 2, scratch.path), built);
-    CHECK(readBytes(file) == whole);
+    for (const std::string& bytes : {whole.substr(0, i), changed}) {
+      write(file, bytes);
+      std::vector<std::string> warnings;
+      const CacheFolder folder(scratch.path, [&](const std::string& text) { warnings.push_back(text); });
+      checkSame(cachedSearchTable(image, false, 7, 1, 2, folder), built);
+      REQUIRE(warnings.size() == 1);
+      CHECK_THAT(warnings[0], Catch::Matchers::StartsWith(file.string()));
+      CHECK(readBytes(file) == whole);
+      checkSame(cachedSearchTable(image, false, 7, 1, 2, folder), built);
+      CHECK(warnings.size() == 1);
+    }
   }
 }
 
@@ -108,4 +114,56 @@ TEST_CASE("table cache: where nothing can be written nothing is kept, and nothin
   const Image image = blobImage(24, 24, 3, 8.0, 1);
   checkSame(cachedSearchTable(image, false, 7, 1, 0, scratch.path / "file" / "in"),
             cachedSearchTable(image, false, 7, 1, 0, {}));
+}
+
+TEST_CASE(
+    "table cache: what windows are matched by is kept too, and made anew from what differs or is damaged") {
+  const Scratch scratch;
+  const auto side = [](bool alpha) {
+    Image image{40, 40, 4, blobImage(40, 40, 4, 8.0, 1).data};
+    for (std::size_t i = 3; i < image.data.size(); i += 4)
+      image.data[i] = alpha && i % 64 == 3 ? 0.25f : 1.0f;
+    return image;
+  };
+  const SynthesisOptions options;
+  SynthesisOptions other = options;
+  other.featureWeight = 0.1;
+  const Image map = blobImage(40, 40, 1, 8.0, 2);
+  std::size_t files = 0;
+  for (const bool alpha : {false, true})
+    for (const bool toroidal : {false, true})
+      for (const int levels : {1, 3})
+        for (const SynthesisOptions& synthesis : {options, other})
+          for (const Image& guidance : {Image{}, map}) {
+            const Image image = side(alpha);
+            const Exemplar plain = makeExemplar(image, toroidal, synthesis, levels, guidance);
+            for (int call = 0; call < 2; ++call) {
+              const Exemplar kept = makeExemplar(image, toroidal, synthesis, levels, guidance, scratch.path);
+              REQUIRE(kept.match.size() == plain.match.size());
+              for (std::size_t l = 0; l < plain.match.size(); ++l) {
+                CHECK(kept.match[l].width == plain.match[l].width);
+                CHECK(kept.match[l].channels == plain.match[l].channels);
+                CHECK(kept.match[l].data == plain.match[l].data);
+              }
+              CHECK(kept.colorChannels == plain.colorChannels);
+              CHECK(kept.guided == plain.guided);
+              CHECK(kept.color.data == plain.color.data);
+            }
+            CHECK(tablesIn(scratch.path).size() == ++files);
+          }
+  const fs::path file = tablesIn(scratch.path)[0];
+  for (const fs::path& each : tablesIn(scratch.path))
+    if (each != file) fs::remove(each);
+  const std::string whole = readBytes(file);
+  write(file, "something else");
+  int warnings = 0;
+  const CacheFolder folder(scratch.path, [&](const std::string&) { ++warnings; });
+  for (const bool alpha : {false, true})
+    for (const bool toroidal : {false, true})
+      for (const int levels : {1, 3})
+        for (const SynthesisOptions& synthesis : {options, other})
+          for (const Image& guidance : {Image{}, map})
+            makeExemplar(side(alpha), toroidal, synthesis, levels, guidance, folder);
+  CHECK(warnings == 1);
+  CHECK(readBytes(file) == whole);
 }

@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   registerSurface();
   registerSynthesis();
   registerTransport();
+  registerWindowSearch();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

@@ -43,5 +43,6 @@ void registerScaling();
 void registerSurface();
 void registerSynthesis();
 void registerTransport();
+void registerWindowSearch();
 
 }  // namespace fluidtex::benchmarks

@@ -1,14 +1,12 @@
 // Synthesis: what an exemplar costs before its first window is matched, without and with what an earlier run
 // has kept; a first frame; and later frames of a texture that is drawn out evenly, neighbourhoods included.
 // Processor time of one thread, but for the preparation, which is wall time on all.
-#include "scenes/exemplars/scales.h"
 #include "sim/motion.h"
 #include "texture/orient.h"
 #include "texture/prepare.h"
-#include "texture/srgb.h"
 #include "texture/synthesize.h"
 #include "tools/benchmarks/measure.h"
-#include "tools/benchmarks/moving_surfaces.h"
+#include "tools/benchmarks/textured_samples.h"
 #include "transport/carry.h"
 
 #include <tbb/global_control.h>
@@ -27,22 +25,6 @@ constexpr double kFrame = 1.0 / 24.0;  // s
 // A texture as it is laid has nothing to renew: these bring it to where as much is renewed as is stretched.
 constexpr int kFramesBefore = 12, kFramesTimed = 6;
 
-// Green scales of so many pixels' width, each scale of the same size in pixels.
-texture::Image scales(int size) {
-  exemplars::Scales options;
-  options.columns = options.columns * size / options.size;
-  options.rows = options.rows * size / options.size;
-  options.size = size;
-  texture::Image image{size, size, 4, {}};
-  const std::vector<std::uint8_t> pixels = exemplars::makeGreenScales(options);
-  for (std::size_t i = 0; i < pixels.size(); i += 3) {
-    for (std::size_t c = 0; c < 3; ++c)
-      image.data.push_back(texture::decodeSrgb(float(pixels[i + c]) / 255.0f));
-    image.data.push_back(1.0f);
-  }
-  return image;
-}
-
 texture::Synthesizer synthesizer(int size, const fs::path& cache) {
   const texture::SynthesisOptions options;
   texture::Synthesizer result =
@@ -57,8 +39,8 @@ void prepare(benchmark::State& state, int size) {
   const texture::SynthesisOptions options;
   const auto seconds = [&] {
     const double from = wallSeconds();
-    texture::Synthesizer made =
-        texture::makeSynthesizer(texture::makeExemplar(image, true, options, kLevels), options, cache);
+    texture::Synthesizer made = texture::makeSynthesizer(
+        texture::makeExemplar(image, true, options, kLevels, {}, cache), options, cache);
     texture::prepareTables(made);
     return wallSeconds() - from;
   };
@@ -76,22 +58,14 @@ void prepare(benchmark::State& state, int size) {
   }
 }
 
-texture::Surface sphere(int points, int levels) {
-  const MovingSurface moving = movingSurface("sphere", points);
-  texture::Surface surface =
-      texture::prepareSurface(*moving.before, moving.spacing, texture::Seeds{}, levels, {});
-  texture::orient(surface, {});
-  return surface;
-}
-
 void count(benchmark::State& state, double seconds, double vertices) {
   state.SetIterationTime(seconds);
   state.counters["per_vertex_ns"] = 1e9 * seconds / vertices;
   state.counters["vertices"] = vertices;
 }
 
-void firstFrame(benchmark::State& state, int points) {
-  texture::Synthesizer made = synthesizer(256, {});
+void firstFrame(benchmark::State& state, int points, int size) {
+  texture::Synthesizer made = synthesizer(size, {});
   const texture::Surface surface = sphere(points, kLevels);
   for ([[maybe_unused]] auto _ : state) {
     const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
@@ -150,8 +124,8 @@ class StretchedSheet {
   texture::TexturedSurface m_last;
 };
 
-void laterFrames(benchmark::State& state, int points) {
-  texture::Synthesizer made = synthesizer(256, {});
+void laterFrames(benchmark::State& state, int points, int size) {
+  texture::Synthesizer made = synthesizer(size, {});
   made.options.firstIterations = {1, 1, 1};  // the first frame is not what is timed
   StretchedSheet sheet(points);
   texture::SynthesisStats stats;
@@ -179,10 +153,13 @@ void registerSynthesis() {
   };
   for (const int size : {256, 1024})
     add("synthesis_prepare/" + std::to_string(size), [=](benchmark::State& s) { prepare(s, size); });
-  for (const int points : {20000, 200000}) {
-    add("synthesis_first/" + std::to_string(points), [=](benchmark::State& s) { firstFrame(s, points); });
-    add("synthesis_later/" + std::to_string(points), [=](benchmark::State& s) { laterFrames(s, points); });
-  }
+  const auto addFrames = [&](const std::string& name, int points, int size) {
+    add("synthesis_first" + name, [=](benchmark::State& s) { firstFrame(s, points, size); });
+    add("synthesis_later" + name, [=](benchmark::State& s) { laterFrames(s, points, size); });
+  };
+  for (const int points : {20000, 200000, 1000000}) addFrames("/" + std::to_string(points), points, 256);
+  for (const int size : {64, 128, 512, 1024})
+    addFrames("/20000/exemplar:" + std::to_string(size), 20000, size);
 }
 
 }  // namespace fluidtex::benchmarks

@@ -1,0 +1,34 @@
+#include "tools/benchmarks/textured_samples.h"
+
+#include "scenes/exemplars/scales.h"
+#include "texture/orient.h"
+#include "texture/prepare.h"
+#include "texture/srgb.h"
+#include "tools/benchmarks/moving_surfaces.h"
+
+namespace fluidtex::benchmarks {
+
+texture::Image scales(int size) {
+  exemplars::Scales options;
+  options.columns = options.columns * size / options.size;
+  options.rows = options.rows * size / options.size;
+  options.size = size;
+  texture::Image image{size, size, 4, {}};
+  const std::vector<std::uint8_t> pixels = exemplars::makeGreenScales(options);
+  for (std::size_t i = 0; i < pixels.size(); i += 3) {
+    for (std::size_t c = 0; c < 3; ++c)
+      image.data.push_back(texture::decodeSrgb(float(pixels[i + c]) / 255.0f));
+    image.data.push_back(1.0f);
+  }
+  return image;
+}
+
+texture::Surface sphere(int points, int levels) {
+  const MovingSurface moving = movingSurface("sphere", points);
+  texture::Surface surface =
+      texture::prepareSurface(*moving.before, moving.spacing, texture::Seeds{}, levels, {});
+  texture::orient(surface, {});
+  return surface;
+}
+
+}  // namespace fluidtex::benchmarks
