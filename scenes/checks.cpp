@@ -323,7 +323,7 @@ void checkGuidance(const Scene& scene, Reader& reader) {
 const std::set<std::string> kVertexNames = {
     "x",  "y",     "z",   "nx",      "ny",       "nz",     "red",    "green", "blue", "alpha",
     "s",  "t",     "dx",  "dy",      "dz",       "bx",     "by",     "bz",    "vx",   "vy",
-    "vz", "trust", "age", "contact", "guidance", "fade_s", "fade_t", "fade"};
+    "vz", "trust", "age", "contact", "guidance", "fade_s", "fade_t", "fade", "scale"};
 
 // Of all properties that the maps before have; a map of vectors has three.
 void checkMapName(const texture::MapOptions& map, std::set<std::string>& names, Reader& reader,

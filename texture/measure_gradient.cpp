@@ -62,7 +62,7 @@ Vec2f Coordinates::difference(const Vec2f& a, const Vec2f& b) const {
 }
 
 Vec2f Coordinates::local(std::uint32_t v, const Vec3f& x) const {
-  const Vec3f from = (x - surface.positions[v]) / float(surface.spacing);
+  const Vec3f from = (x - surface.positions[v]) / float(surface.spacingAt(v));
   const Vec3f& d = surface.orientation[v];
   return {from.dot(d), from.dot(rowAxis(d, surface.normals[v]))};
 }

@@ -103,6 +103,7 @@ struct TexturedSurface {
   int exemplarWidth = 0, exemplarHeight = 0;       // texels
   std::vector<float> scale;             // of the spacing, as in SurfaceMesh; may be empty
   bool empty() const { return positions.empty(); }
+  double spacingAt(std::uint32_t v) const { return scale.empty() ? spacing : spacing * double(scale[v]); }
 };
 
 }  // namespace fluidtex::texture

@@ -27,8 +27,10 @@ Vec3f directionAt(const Vec3f& n, const TexelGradient& gradient, const Vec3f& st
   return along * length + n * stored.z();
 }
 
+// 0 cannot be written in whole numbers: the middle of 8 bits is off by 1/255 in each part.
 Vec3f unitOrZero(Vec3f v) {
-  return v.normalize(1e-6f) ? v : Vec3f(0.0f);
+  constexpr float kNothing = 0.02f;
+  return v.normalize(kNothing) ? v : Vec3f(0.0f);
 }
 
 // Of a surface's coordinates, in its vertices' own axes, made rows in space.
@@ -37,7 +39,7 @@ std::vector<TexelGradient> shownGradients(const TexturedSurface& surface, const 
   const std::vector<std::optional<Jacobian>> fitted = fittedGradients({surface, graph, toroidal});
   std::vector<TexelGradient> result(fitted.size());
   forEachIndex(fitted.size(), [&](std::uint32_t v) {
-    const Vec3f d = surface.orientation[v] / float(surface.spacing), b = rowAxis(d, surface.normals[v]);
+    const Vec3f d = surface.orientation[v] / float(surface.spacingAt(v)), b = rowAxis(d, surface.normals[v]);
     const Jacobian j = fitted[v].value_or(Jacobian{1.0f, 0.0f, 0.0f, 1.0f});
     result[v] = {d * j[0] + b * j[1], d * j[2] + b * j[3]};
   });
@@ -59,9 +61,8 @@ void lookUpVectors(const std::string& name, const ExemplarMap& map, bool toroida
       float c[3];
       sampleCubic(map.image, toroidal, toMap(coordinate), c);
       const Vec3f stored(2.0f * c[0] - 1.0f, 2.0f * c[1] - 1.0f, 2.0f * c[2] - 1.0f);
-      const float scale = surface.scale.empty() ? 1.0f : surface.scale[v];
       return unitOrZero(map.holds == MapHolds::normals
-                            ? normalAt(n, gradient, float(surface.spacing) * scale, stored)
+                            ? normalAt(n, gradient, float(surface.spacingAt(v)), stored)
                             : directionAt(n, gradient, stored));
     };
     const Vec3f now = lying(surface.coordinate[v], surface.gradient[v]);

@@ -55,8 +55,17 @@ texture::MapOptions parseMap(const std::string& text) {
 }
 
 void applyMaps(const ApplyWishes& wishes) {
-  for (const texture::MapOptions& map : wishes.maps)
+  std::set<std::string> names;
+  for (const texture::MapOptions& map : wishes.maps) {
     if (map.name != kColor) checkName(map.name);
+    std::vector<std::string> own{map.name};
+    if (map.holds != texture::MapHolds::values) own = texture::vectorNames(map.name);
+    for (const std::string& name : own) {
+      if (!names.insert(name).second)
+        throw UsageError(
+            fmt::format("{}: is the name of an earlier map too; give each a name of its own", name));
+    }
+  }
   const FinishedRun run = openRun(wishes.out, wishes.exemplar);
   const int width = run.color.width, height = run.color.height;
   std::vector<std::pair<std::string, texture::ExemplarMap>> maps;

@@ -222,7 +222,7 @@ class FrameLoop {
     writeAtomically(m_options.out / "surface" / (name + ".ply"),
                     [&](const fs::path& file) { writePly(m_surface, file); });
     if (m_scene.onto.files.empty()) return;
-    const texture::TexturedSurface other = ontoMesh(m_surface, m_scene.onto, motion.index);
+    const texture::TexturedSurface other = ontoMesh(m_surface, m_scene.onto, motion.index, m_guide.options.symmetry);
     writeAtomically(m_options.out / "onto" / (name + ".ply"),
                     [&](const fs::path& file) { writePly(other, file); });
   }

@@ -6,7 +6,7 @@
 namespace fluidtex::tools {
 
 texture::TexturedSurface ontoMesh(const texture::TexturedSurface& surface, const sim::MeshSequence& meshes,
-                                  int frame) {
+                                  int frame, int symmetry) {
   const sim::MeshSoup soup = sim::readSoup(meshes.fileOf(frame - 1));
   std::vector<texture::Vec3f> positions;
   positions.reserve(soup.points.size());
@@ -17,7 +17,7 @@ texture::TexturedSurface ontoMesh(const texture::TexturedSurface& surface, const
       triangles.emplace_back(std::uint32_t(polygon[0]), std::uint32_t(polygon[i - 1]),
                              std::uint32_t(polygon[i]));
   }
-  return transport::onto(surface, std::move(positions), std::move(triangles));
+  return transport::onto(surface, std::move(positions), std::move(triangles), symmetry);
 }
 
 }  // namespace fluidtex::tools

@@ -7,8 +7,9 @@
 namespace fluidtex::tools {
 
 // Reads the frame's file (frames count from 1) and brings the surface's maps onto it. Polygons are cut into
-// triangles from their first corner; vertices keep their order. Throws sim::MeshError.
+// triangles from their first corner; vertices keep their order. `symmetry` is that of the exemplar. Throws
+// sim::MeshError.
 texture::TexturedSurface ontoMesh(const texture::TexturedSurface& surface, const sim::MeshSequence& meshes,
-                                  int frame);
+                                  int frame, int symmetry);
 
 }  // namespace fluidtex::tools

@@ -32,6 +32,7 @@ std::string header(const texture::TexturedSurface& surface) {
     text += std::string("property float ") + name + "\n";
   text += "property uchar contact\n";
   for (const char* name : {"fade_s", "fade_t", "fade"}) text += std::string("property float ") + name + "\n";
+  if (!surface.scale.empty()) text += "property float scale\n";
   for (const auto& [name, values] : surface.maps) text += "property float " + name + "\n";
   for (const auto& [name, values] : surface.vectors) {
     for (const std::string& part : texture::vectorNames(name)) text += "property float " + part + "\n";
@@ -77,14 +78,15 @@ float share(float x, float size) {
 
 bool isPlyProperty(const std::string& name) {
   static const std::set<std::string> kNames = {
-      "x",  "y",  "z",  "nx", "ny", "nz", "red", "green", "blue", "alpha",   "s",      "t",      "dx",  "dy",
-      "dz", "bx", "by", "bz", "vx", "vy", "vz",  "trust", "age",  "contact", "fade_s", "fade_t", "fade"};
+      "x",  "y",     "z",   "nx",      "ny",     "nz",     "red",  "green", "blue", "alpha",
+      "s",  "t",     "dx",  "dy",      "dz",     "bx",     "by",   "bz",    "vx",   "vy",
+      "vz", "trust", "age", "contact", "fade_s", "fade_t", "fade", "scale"};
   return kNames.contains(name);
 }
 
 void writePly(const texture::TexturedSurface& surface, const std::filesystem::path& file) {
-  Bytes bytes(surface.positions.size() *
-                  (kVertexBytes + 4 * surface.maps.size() + 12 * surface.vectors.size()) +
+  Bytes bytes(surface.positions.size() * (kVertexBytes + (surface.scale.empty() ? 0 : 4) +
+                                          4 * surface.maps.size() + 12 * surface.vectors.size()) +
               surface.triangles.size() * kFaceBytes);
   const float width = static_cast<float>(std::max(surface.exemplarWidth, 1));
   const float height = static_cast<float>(std::max(surface.exemplarHeight, 1));
@@ -107,6 +109,7 @@ void writePly(const texture::TexturedSurface& surface, const std::filesystem::pa
     bytes.put(share(former.x(), width));
     bytes.put(share(former.y(), height));
     bytes.put(fade);
+    if (!surface.scale.empty()) bytes.put(surface.scale[v]);
     for (const auto& [name, values] : surface.maps) bytes.put(values[v]);
     for (const auto& [name, values] : surface.vectors) bytes.put(values[v]);
   }

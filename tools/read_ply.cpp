@@ -103,6 +103,7 @@ texture::TexturedSurface readPly(const std::filesystem::path& file, int exemplar
   surface.fading = texture::noFading(header.vertices);
   each("fade_s", surface.fading.coordinate, texel);
   each("fade", surface.fading.weight, number);
+  if (header.offset.contains("scale")) each("scale", surface.scale, number);
   for (const auto& [name, offset] : header.offset)
     if (!isPlyProperty(name)) each(name.c_str(), surface.maps[name], number);
   surface.gradient.resize(header.vertices);

@@ -23,7 +23,8 @@ constexpr double kCellsPerStep = 1.0;
 constexpr double kStrainPerStep = 0.5;
 // Of one substep; a velocity that asks for more is not a velocity of the simulation.
 constexpr int kMaxSteps = 64;
-// Laying values side by side costs about as much as this many of them being read one by one.
+// Velocities are laid side by side where the paths' box has no more cells than this for each of them: reading
+// a path's values one by one costs about as much as copying these.
 constexpr double kCellsPerPath = 40.0;
 constexpr double kMargin = 0.25;  // cells around them
 constexpr std::size_t kGroupsPerTask = 16;
@@ -123,7 +124,9 @@ struct Key {
 std::vector<Key> keysByLeaf(const std::vector<Vec3f>& positions, double voxelSize) {
   std::vector<Key> keys(positions.size());
   const double scale = voxelSize > 0.0 ? 1.0 / (8.0 * voxelSize) : 1.0;
-  const auto part = [&](float x) { return std::int64_t(std::floor(x * scale)); };
+  const auto part = [&](float x) {
+    return std::int64_t(std::max(-1e15, std::min(1e15, std::floor(x * scale))));
+  };
   texture::forEachIndex(keys.size(), [&](std::uint32_t v) {
     const Vec3f& x = positions[v];
     keys[v] = {texture::mortonCode(part(x.x()), part(x.y()), part(x.z())), v};

@@ -21,7 +21,7 @@ struct Backtrace {
 // Follows positions at the end of the frame back to its start: third-order Runge-Kutta through each substep's
 // velocity, constant in time, the last substep first. B follows the velocity's gradient along that path,
 // taken over a voxel (VelocitySample): the slope of the interpolated velocity itself jumps from cell to cell.
-// One inner step moves a point by about one cell at most.
+// One inner step moves a point by about one cell at most, unless a substep would need more than 64 of them.
 Backtrace traceBack(const std::vector<Vec3f>& positions, const sim::Frame& frame);
 
 // Positions at the start of the frame, followed forward to its end.

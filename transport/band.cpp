@@ -12,6 +12,8 @@ namespace {
 
 using openvdb::Coord;
 
+// A face that asks for more cells a substep than the trace follows has no velocity of the simulation.
+constexpr double kFastest = 64.0;
 constexpr double kMostCells = 0.9;  // that a part of a substep moves, summed over the axes
 
 const sim::FloatGrid::ConstPtr& component(const sim::Substep& substep, int axis) {
@@ -73,12 +75,15 @@ Band bandOf(const sim::Frame& frame) {
 
 std::vector<Vec3d> velocityAtCells(const Band& band, const sim::Substep& substep) {
   std::vector<Vec3d> velocity(band.cells.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, velocity.size(), texture::kGrain),
-                    [&](const auto& range) {
-                      VelocitySampler sampler(substep);
-                      for (std::size_t cell = range.begin(); cell != range.end(); ++cell)
-                        velocity[cell] = sampler.velocity(band.center(cell)).velocity;
-                    });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, velocity.size(), texture::kGrain), [&](const auto& range) {
+        VelocitySampler sampler(substep);
+        for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
+          const Vec3d u = sampler.velocity(band.center(cell)).velocity;
+          const double cells = substep.dt * (std::abs(u[0]) + std::abs(u[1]) + std::abs(u[2])) / band.h;
+          velocity[cell] = cells < kFastest ? u : Vec3d(0.0);
+        }
+      });
   return velocity;
 }
 

@@ -33,7 +33,7 @@ struct Band {
 // No substeps: a band without cells.
 Band bandOf(const sim::Frame& frame);
 
-// Velocity at the cells' centres in one substep, m/s.
+// Velocity at the cells' centres in one substep, m/s; 0 where it would be more than 64 cells a substep.
 std::vector<Vec3d> velocityAtCells(const Band& band, const sim::Substep& substep);
 
 // Gradient[i][j] = d u_i / d x_j of the cells' velocities by central differences, one-sided at the band's

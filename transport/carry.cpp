@@ -184,7 +184,8 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   });
   const std::vector<float> neighbors = neighborTrust(next, carried.previousPosition, trace.map);
   texture::forEachIndex(count, [&](std::uint32_t v) {
-    carried.trust[v] = std::min(carried.trust[v] * neighbors[v], stretched[v]);
+    const float trust = carried.trust[v] * neighbors[v];
+    carried.trust[v] = std::isfinite(trust) ? std::min(trust, stretched[v]) : 0.0f;
   });
   return carried;
 }

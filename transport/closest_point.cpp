@@ -62,8 +62,8 @@ struct ClosestPoint::Search {
 };
 
 inline openvdb::Coord ClosestPoint::cellOf(const Vec3d& x) const {
-  // Far outside all cells the number of the cell no longer matters, only that it exists. In this order minimum
-  // and maximum are one instruction each.
+  // Far outside all cells the number of the cell no longer matters, only that it exists. In this order
+  // minimum and maximum are one instruction each.
   const auto part = [&](double value) {
     return int(std::max(-1e9, std::min(1e9, std::floor(value * m_cellsPerMetre))));
   };

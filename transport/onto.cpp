@@ -32,19 +32,26 @@ std::vector<Vec3f> normalsOf(const std::vector<Vec3f>& positions, const std::vec
   return normals;
 }
 
-// A vector that goes with the surface, from where its normal is `from` to where it is `to`; of length 1, or
-// 0.
-Vec3f turned(const Vec3f& x, const Vec3f& from, const Vec3f& to) {
-  if (from.dot(to) <= -0.9f) return x;
-  const Vec3f tangent = x - from * from.dot(x);
-  Vec3f result = texture::turnedTangent(tangent, from, to) + to * from.dot(x);
+// A vector that goes with the surface: the mean of the corners' that point about as the nearest one's does,
+// since others belong to another piece, turned to where the normal is `to`. Of length 1, or 0.
+Vec3f vectorAt(const std::vector<Vec3f>& values, const Landing& landing, const Vec3f& to) {
+  const Vec3f &nearest = values[landing.nearestVertex()], &from = landing.normal;
+  Vec3f mean(0.0f);
+  for (int i = 0; i < 3; ++i) {
+    const Vec3f& value = values[landing.corners[i]];
+    if (value.dot(nearest) > 0.5f) mean += value * landing.point.weight[i];
+  }
+  if (!mean.normalize(1e-6f)) mean = nearest;
+  if (from.dot(to) <= -0.9f) return mean;
+  const float up = from.dot(mean);
+  Vec3f result = texture::turnedTangent(mean - from * up, from, to) + to * up;
   return result.normalize(1e-6f) ? result : Vec3f(0.0f);
 }
 
 }  // namespace
 
 TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> positions,
-                     std::vector<Vec3I> triangles) {
+                     std::vector<Vec3I> triangles, int symmetry) {
   TexturedSurface result;
   result.normals = normalsOf(positions, triangles);
   result.positions = std::move(positions);
@@ -68,7 +75,7 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
   if (surface.empty() || surface.triangles.empty()) return result;
 
   const ClosestPoint closest(surface.positions, surface.triangles);
-  const std::vector<Vec3f> slopes = angleSlopes(surface, 1);
+  const std::vector<Vec3f> slopes = angleSlopes(surface, symmetry);
   std::vector<Landing> landings(count);
   forEachIndex(count, [&](std::uint32_t v) {
     const Vec3f& normal = result.normals[v];
@@ -80,7 +87,7 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
     result.gradient[v] = texel.gradient;
     result.color[v] = colorAt(surface, landing);
     result.orientation[v] =
-        texture::tangentUnit(directionAt(surface, slopes, landing, 1), normal, result.orientation[v]);
+        texture::tangentUnit(directionAt(surface, slopes, landing, symmetry), normal, result.orientation[v]);
     result.age[v] = valueAt(surface.age, landing);
     result.trust[v] = valueAt(surface.trust, landing) * landingTrust(landing, surface.spacing, normal);
     // What the place moved by, so that a vertex off the surface keeps its distance.
@@ -96,7 +103,7 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
   for (auto& [name, values] : result.vectors) {
     const std::vector<Vec3f>& from = surface.vectors.at(name);
     forEachIndex(count, [&, &to = values](std::uint32_t v) {
-      to[v] = turned(valueAt(from, landings[v]), landings[v].normal, result.normals[v]);
+      to[v] = vectorAt(from, landings[v], result.normals[v]);
     });
   }
   return result;

@@ -17,6 +17,12 @@ using Leaf = sim::FloatTree::LeafNodeType;
 constexpr int kSide = int(Leaf::DIM);
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
+// Whether a voxel of that number can be; also false where it is no number.
+inline bool withinReach(const Vec3d& index) {
+  constexpr double kReach = 1 << 30;
+  return std::abs(index.x()) < kReach && std::abs(index.y()) < kReach && std::abs(index.z()) < kReach;
+}
+
 // Between four values, [2 dFirst + dSecond].
 [[gnu::always_inline]] inline double bilinear(const std::array<double, 4>& v, double first, double second) {
   const double v0 = v[0] + second * (v[1] - v[0]), v1 = v[2] + second * (v[3] - v[2]);
@@ -115,6 +121,10 @@ void VelocitySampler::focus(const Vec3d& lower, const Vec3d& upper) {
   for (Component& component : m_components) {
     if (!component.grid) continue;
     const Vec3d a = component.scale * lower + component.shift, b = component.scale * upper + component.shift;
+    if (!withinReach(a) || !withinReach(b)) {
+      component.window.size = Coord(0);
+      continue;
+    }
     // One voxel more below and two above: what a cell and its slopes read. Along z by whole leaves, so that
     // every row of a leaf is copied by one instruction.
     Coord first = Coord::floor(openvdb::math::minComponent(a, b)).offsetBy(-1);
@@ -168,6 +178,7 @@ double VelocitySampler::sampleComponent(Component& component, const Vec3d& x, do
                                         Vec3d& gradient) {
   if (!component.grid) return 0.0;
   const Vec3d index = component.scale * x + component.shift;
+  if (!withinReach(index)) return 0.0;
   const Vec3d floor(std::floor(index.x()), std::floor(index.y()), std::floor(index.z()));
   const Coord lower(int(floor.x()), int(floor.y()), int(floor.z()));
   const Vec3d t = index - floor;

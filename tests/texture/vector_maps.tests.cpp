@@ -65,7 +65,17 @@ TEST_CASE("vector maps: drawn-out bumps are flatter, drawn-out directions lie al
   near(lookedUp(everywhere(Vec3f(1.0f, 1.0f, 0.0f) * float(M_SQRT1_2), MapHolds::directions),
                 oneVertex(0.0f, stretch)),
        Vec3f(stretch, 1.0f, 0.0f).unit());
-  near(lookedUp(everywhere(Vec3f(0.0f), MapHolds::directions), oneVertex(0.0f, stretch)), Vec3f(0.0f));
+  // The middle of eight bits stands for none.
+  const float middle = 2.0f * 128.0f / 255.0f - 1.0f;
+  near(lookedUp(everywhere(Vec3f(middle), MapHolds::directions), oneVertex(0.0f, stretch)), Vec3f(0.0f));
+}
+
+TEST_CASE("vector maps: bumps of a larger texture are as steep") {
+  TexturedSurface surface = oneVertex(0.0f, 3.0f);
+  surface.gradient[0].t = surface.gradient[0].t / 3.0f;
+  surface.scale = {3.0f};
+  const Vec3f stored = Vec3f(0.3f, 0.6f, 0.7f).unit();
+  near(lookedUp(everywhere(stored, MapHolds::normals), surface), stored);
 }
 
 TEST_CASE("vector maps: what fades is mixed in as it lies itself") {

@@ -107,6 +107,9 @@ TEST_CASE("fluidtex apply: what is no map is refused in one sentence", "[tools]"
   refused("=a.png", "is no map; write NAME=FILE");
   refused("a b=a.png", "a b: cannot be the name of a vertex's property");
   refused("trust=a.png", "trust: is what every vertex has anyway");
+  const Finished twice = runProgram({"apply", scratch.path.string(), "bump:normals=a.png", "bump_x=a.png"});
+  CHECK(twice.exitCode == 1);
+  CHECK_THAT(twice.err, Catch::Contains("bump_x: is the name of an earlier map too"));
   refused("bump:bumps=a.png", "a map of bumps is not known");
   refused("height=a.png", "run.json: cannot be read");
 }

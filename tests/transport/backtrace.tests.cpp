@@ -109,6 +109,50 @@ TEST_CASE("velocity sampler: constant tiles are read like leaves", "[transport]"
   CHECK(largestDifference(sample.gradient, Mat3d::zero()) == 0.0);
 }
 
+TEST_CASE("velocity sampler: what is laid side by side changes no sample by a bit", "[transport]") {
+  const Flow wavy = [](const Vec3d& x) {
+    return Vec3d(std::sin(3 * x.y()) + x.z(), std::cos(2 * x.x() * x.z()), x.x() * x.y());
+  };
+  sim::Substep step = substep({0.1, -11, 11}, 1.0, wavy);
+  // Holes, and a tile.
+  const auto thinned = std::const_pointer_cast<sim::FloatGrid>(step.v);
+  for (auto value = thinned->beginValueOn(); value; ++value) {
+    const openvdb::Coord c = value.getCoord();
+    if ((c.x() * 7 + c.y() * 3 + c.z() * 5) % 11 == 0) value.setValueOff();
+  }
+  std::const_pointer_cast<sim::FloatGrid>(step.w)->tree().addTile(1, openvdb::Coord(0), 2.5f, true);
+  VelocitySampler plain(step), focused(step);
+  const Vec3d lower(-0.5, -0.93, 0.17), upper(1.6, 0.4, 0.9);
+  focused.focus(lower, upper);
+  const auto same = [](const VelocitySample& a, const VelocitySample& b) {
+    return a.velocity == b.velocity && a.gradient == b.gradient && a.known == b.known;
+  };
+  int within = 0, whole = 0;
+  for (const Vec3f& point : scattered(4000, 1.5)) {
+    const Vec3d x(point);
+    const VelocitySample sample = plain.velocityAndGradient(x);
+    REQUIRE(same(sample, focused.velocityAndGradient(x)));
+    REQUIRE(plain.velocity(x).velocity == focused.velocity(x).velocity);
+    bool inside = true;
+    for (int axis = 0; axis < 3; ++axis) inside &= x[axis] > lower[axis] && x[axis] < upper[axis];
+    within += inside;
+    whole += inside && sample.known == 1.0;
+  }
+  CHECK(within > 200);
+  CHECK(whole > 20);
+  CHECK(whole < within);
+}
+
+TEST_CASE("velocity sampler: beyond any grid nothing is known", "[transport]") {
+  VelocitySampler sampler(substep({0.1, -4, 4}, 1.0, [](const Vec3d&) { return Vec3d(1.0); }));
+  for (const double far : {1e12, -1e30, std::numeric_limits<double>::infinity()}) {
+    sampler.focus(Vec3d(-0.1), Vec3d(0.1));
+    sampler.focus(Vec3d(0.0), Vec3d(far, 0.0, 0.0));
+    CHECK(sampler.velocity(Vec3d(far, 0.0, 0.0)).known == 0.0);
+    CHECK(sampler.velocity(Vec3d(0.01)).known == 1.0);
+  }
+}
+
 TEST_CASE("velocity sampler: transforms that turn are refused", "[transport]") {
   sim::Substep step = substep({0.1, -2, 2}, 1.0, [](const Vec3d&) { return Vec3d(1.0); });
   auto turned = sim::FloatGrid::create(0.0f);

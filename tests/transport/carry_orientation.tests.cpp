@@ -2,6 +2,7 @@
 
 #include "tests/transport/orientation_flows.h"
 #include "texture/orient.h"
+#include "transport/backtrace.h"
 
 #include <algorithm>
 #include <numbers>
@@ -60,6 +61,37 @@ TEST_CASE("carry: orientation follows closed forms over 200 frames", "[transport
     CHECK(sum / start.positions.size() < 0.02 * kDegree);
     CHECK(worst < 0.1 * kDegree);
     CHECK(worstGradient < 0.01 * kTexelsPerMeter);
+  }
+}
+
+TEST_CASE("carry: a uniform stream leaves the orientation as it is, over 200 frames", "[transport]") {
+  constexpr int kFrames = 200;
+  const Vec3d velocity(0.6, -0.3, 0.2);
+  const SurfaceMesh start = sphereMesh(7, 0.4);
+  const TexturedSurface first = texturedMesh(start, constantDirection({0.3, 0.5, 0.8}));
+  const sim::Frame frame = steadyFrame({0.1, -20, 20}, 0.01, 1, [&](const Vec3d&) { return velocity; });
+  TexturedSurface surface = first;
+  for (int step = 1; step <= kFrames; ++step) {
+    SurfaceMesh next = start;
+    for (Vec3f& x : next.positions) x = Vec3f(Vec3d(x) + velocity * (0.01 * step));
+    surface = continued(carry(surface, frame, next), next);
+  }
+  for (std::size_t v = 0; v < start.positions.size(); ++v)
+    REQUIRE(angleBetween(Vec3d(first.orientation[v]), Vec3d(surface.orientation[v])) < 0.05 * kDegree);
+}
+
+TEST_CASE("carry: what is tangent stays so without being projected", "[transport]") {
+  // l . grad(phi) is conserved: the traced map turns tangents into tangents of the moved surface.
+  for (const auto& [name, a, time, direction] : linearCases()) {
+    INFO(name);
+    const Mat3d f = exponential(a * time);
+    const SurfaceMesh start = sphereMesh(7, 0.4), next = mappedMesh(start, f);
+    const TexturedSurface first = texturedMesh(start, constantDirection(direction));
+    const Backtrace trace = traceBack(next.positions, steadyFrame({0.1, -30, 30}, time, 200, linearFlow(a)));
+    for (std::size_t v = 0; v < start.positions.size(); ++v) {
+      const Vec3d carried = trace.map[v].inverse() * Vec3d(first.orientation[v]);
+      REQUIRE(std::abs(carried.unit().dot(Vec3d(next.normals[v]))) < 1e-4);
+    }
   }
 }
 
