@@ -157,13 +157,13 @@ TEST_CASE("orientation: opposite singularities near each other meet, and what is
   SurfaceMesh& mesh = surface.levels[0];
   for (const double spacings : {4.3, 6.7}) {
     // Around an axis, and on one side turned by the difference of the angles seen from two points.
-    const double half = 0.5 * spacings * mesh.spacing;
+    const double halfLength = 0.5 * spacings * mesh.spacing;
     const auto set = [&](bool pair) {
       setField(mesh, [&](const Vec3f& x) {
         const Vec3f around = Vec3f(-x.y(), x.x(), 1e-4f).unit();
         if (!pair || x.x() < 0.0f) return around;
         const double y = x.y() - 0.003, z = x.z() - 0.004;
-        const auto angle = static_cast<float>(std::atan2(z, y - half) - std::atan2(z, y + half));
+        const auto angle = static_cast<float>(std::atan2(z, y - halfLength) - std::atan2(z, y + halfLength));
         return around * std::cos(angle) + x.cross(around) * std::sin(angle);
       });
       return singularities(mesh).size();
