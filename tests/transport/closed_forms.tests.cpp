@@ -29,27 +29,50 @@ TEST_CASE("closed forms: the single vortex of T = 2 in 100 frames", "[transport]
   CHECK(planarErrors(singleVortex(2.0), {Method::trace, Turning::vector}, 128, 100).mean < 0.4);
 }
 
-TEST_CASE("transport table: orientation by every way, in degrees", "[.table]") {
+namespace {
+
+// Mean and worst error by every way, in degrees.
+template <typename ErrorsOf>
+void printRow(const std::string& name, const ErrorsOf& errorsOf) {
+  std::printf("%-28s", name.c_str());
+  for (const Way& way : kWays) {
+    const AngleErrors e = errorsOf(way.options);
+    std::printf("%11.5f /%9.4f", e.mean, e.worst);
+    std::fflush(stdout);
+  }
+  std::printf("\n");
+}
+
+void printHead() {
   std::printf("%-28s", "mean / worst");
   for (const Way& way : kWays) std::printf("%22s", way.name);
   std::printf("\n");
-  const auto row = [](const std::string& name, const auto& errorsOf) {
-    std::printf("%-28s", name.c_str());
-    for (const Way& way : kWays) {
-      const AngleErrors e = errorsOf(way.options);
-      std::printf("%11.5f /%9.4f", e.mean, e.worst);
-      std::fflush(stdout);
-    }
-    std::printf("\n");
-  };
+}
+
+}  // namespace
+
+TEST_CASE("transport table: linear flows", "[.table]") {
+  printHead();
   for (const LinearCase& c : linearCases())
-    row(std::string(c.name) + ", 200 steps", [&](const Options& o) { return linearErrors(c, o, 200); });
+    printRow(std::string(c.name) + ", 200 steps", [&](const Options& o) { return linearErrors(c, o, 200); });
+}
+
+TEST_CASE("transport table: swirl, 200 steps", "[.table]") {
+  printHead();
   for (const int cells : {64, 128}) {
-    row("swirl, 200, riding, " + std::to_string(cells),
-        [&](const Options& o) { return planarErrors(swirl(3.0), o, cells, 200, Points::ride); });
-    row("swirl, 200 steps, " + std::to_string(cells),
-        [&](const Options& o) { return planarErrors(swirl(3.0), o, cells, 200); });
-    row("vortex T = 2, 100, " + std::to_string(cells),
-        [&](const Options& o) { return planarErrors(singleVortex(2.0), o, cells, 100); });
+    for (const auto& [name, points] : {std::pair{"riding, ", Points::ride}, {"staying, ", Points::stay}})
+      printRow(name + std::to_string(cells), [&, points = points](const Options& o) {
+        return planarErrors(swirl(3.0), o, cells, 200, points);
+      });
+  }
+}
+
+TEST_CASE("transport table: vortex, T = 2, 100 steps", "[.table]") {
+  printHead();
+  for (const int cells : {64, 128}) {
+    for (const auto& [name, steps] : {std::pair{"in one frame, ", 100}, {"in 100 frames, ", 1}})
+      printRow(name + std::to_string(cells), [&, steps = steps](const Options& o) {
+        return planarErrors(singleVortex(2.0), o, cells, 100, Points::stay, steps);
+      });
   }
 }

@@ -131,8 +131,9 @@ inline PlanarCase swirl(double duration) {
 
 enum class Points { ride, stay };  // with the flow, or where they are, so that each frame reads between them
 
-inline AngleErrors planarErrors(const PlanarCase& c, const Options& options, int cells, int frames,
-                                Points points = Points::stay) {
+// `steps` steps of the velocity, so many of them a frame: the field is picked up once a frame.
+inline AngleErrors planarErrors(const PlanarCase& c, const Options& options, int cells, int steps,
+                                Points points = Points::stay, int stepsPerFrame = 1) {
   const double h = 1.0 / cells;
   // Cells reach one beyond the square on all sides, and a few above and below the surface.
   sim::Substep unit;
@@ -157,19 +158,22 @@ inline AngleErrors planarErrors(const PlanarCase& c, const Options& options, int
   const std::array<sim::FloatGrid::Ptr, 3> velocity{component(0), component(1), component(2)};
   SurfaceMesh mesh = boxMesh({0, 0, -3 * h}, {1, 1, 0}, {cells, cells, 3});
   TexturedSurface surface = texturedMesh(mesh, constantDirection({1, 0, 0}));
-  for (int step = 0; step < frames; ++step) {
-    const double strength = c.strength((step + 0.5) * c.time / frames);
+  sim::Frame frame;
+  frame.index = 1;
+  for (int step = 0; step < steps; ++step) {
+    const double strength = c.strength((step + 0.5) * c.time / steps);
     std::array<sim::FloatGrid::Ptr, 3> scaled;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       scaled[axis] = velocity[axis]->deepCopy();
       for (auto value = scaled[axis]->beginValueOn(); value; ++value)
         value.setValue(float(strength * *value));
     }
-    sim::Frame frame;
-    frame.index = step + 2;
-    frame.substeps = {{c.time / frames, scaled[0], scaled[1], scaled[2]}};
+    frame.substeps.push_back({c.time / steps, scaled[0], scaled[1], scaled[2]});
+    if ((step + 1) % stepsPerFrame != 0) continue;
+    ++frame.index;
     if (points == Points::ride) mesh.positions = transport::moved(mesh.positions, frame);
     surface = continued(carry(surface, frame, mesh, 1, options), mesh);
+    frame.substeps.clear();
   }
   std::vector<double> errors;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
