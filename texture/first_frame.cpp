@@ -1,5 +1,7 @@
 #include "texture/first_frame.h"
 
+#include "texture/slips.h"
+
 #include <algorithm>
 
 namespace fluidtex::texture {
@@ -46,9 +48,11 @@ State synthesizeFromNothing(Synthesizer& synthesizer, const Surface& surface, in
                 if (progress) progress(done + share * part);
               });
     done += share;
-    if (synthesizer.options.method == Method::coordinates)
-      joinLabels(seamModel(synthesizer, level.view, index), state, kData, level.wanted, nullptr,
-                 keyOf(synthesizer, frame, l, 1), state.labels);
+    if (synthesizer.options.method == Method::coordinates) {
+      const SeamModel seams = seamModel(synthesizer, level.view, index);
+      joinLabels(seams, state, kData, level.wanted, nullptr, keyOf(synthesizer, frame, l, 1), state.labels);
+      closeSlips(seams, level.wanted, state.labels);
+    }
   }
   return state;
 }

@@ -4,8 +4,6 @@
 #include "texture/fresh.h"
 #include "texture/parallel.h"
 
-#include <Eigen/Dense>
-
 #include <algorithm>
 #include <cmath>
 
@@ -22,26 +20,30 @@ struct Weighted {
   Complexf deviator{0.0f, 0.0f};
 };
 
-// The lengths before, squared and over those now, are n.C n for edges of direction n; the strain is -log(C) / 2.
+// The lengths before, squared and over those now, are n.C n for edges of direction n: m + d.q for q = n^2 as
+// numbers, m and d being C's mean and deviator. The strain is -log(C) / 2.
 Weighted fittedStrain(const MeshView& view, const std::vector<Vec3f>& previous, std::uint32_t v) {
   const std::vector<Vec3f>& now = view.mesh.positions;
-  Eigen::Matrix3f system = Eigen::Matrix3f::Zero();
-  Eigen::Vector3f right = Eigen::Vector3f::Zero();
+  float count = 0.0f, ratios = 0.0f, xx = 0.0f, xy = 0.0f, yy = 0.0f;
+  Complexf sum(0.0f), right(0.0f);
   for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
     const std::uint32_t u = view.graph.neighbor[h];
-    const Complexf edge = view.connection.edge[h];
-    const float length = std::abs(edge), length2 = (now[u] - now[v]).lengthSqr();
-    if (!(length > 0.0f) || !(length2 > 0.0f)) return {};
-    const Complexf n = edge / length;
-    const Eigen::Vector3f row(n.real() * n.real(), 2.0f * n.real() * n.imag(), n.imag() * n.imag());
-    system += row * row.transpose();
-    right += row * ((previous[u] - previous[v]).lengthSqr() / length2);
+    const Complexf& edge = view.connection.edge[h];
+    const float flat2 = std::norm(edge), length2 = (now[u] - now[v]).lengthSqr();
+    if (!(flat2 > 0.0f) || !(length2 > 0.0f)) return {};
+    const Complexf q = product(edge, edge) / flat2;
+    const float ratio = (previous[u] - previous[v]).lengthSqr() / length2;
+    count += 1.0f, ratios += ratio, sum += q, right += q * ratio;
+    xx += q.real() * q.real(), xy += q.real() * q.imag(), yy += q.imag() * q.imag();
   }
-  Eigen::LDLT<Eigen::Matrix3f> solver(system);
-  if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 1e-3f)) return {};
-  const Eigen::Vector3f c = solver.solve(right);
-  const float mean = 0.5f * (c[0] + c[2]);
-  const Complexf deviator(0.5f * (c[0] - c[2]), c[1]);
+  if (count < 3.0f) return {};
+  const Complexf center = sum / count;
+  xx -= center.real() * sum.real(), xy -= center.real() * sum.imag(), yy -= center.imag() * sum.imag();
+  right -= center * ratios;
+  const float det = xx * yy - xy * xy;
+  if (!(det > 1e-3f)) return {};  // all edges along two directions
+  const Complexf deviator((right.real() * yy - right.imag() * xy) / det, (right.imag() * xx - right.real() * xy) / det);
+  const float mean = ratios / count - center.real() * deviator.real() - center.imag() * deviator.imag();
   const float size = std::abs(deviator), least = mean - size, most = mean + size;
   if (!(least > std::exp(-2.0f * kMostPerFrame)) || !(most < std::exp(2.0f * kMostPerFrame))) return {};
   const float high = -0.5f * std::log(least), low = -0.5f * std::log(most);
@@ -69,25 +71,36 @@ std::vector<Weighted> blurred(const MeshView& view, std::vector<Weighted> value)
   return value;
 }
 
+// exp(strain): the linear map x -> same * x + mirrored * conj(x), a symmetric matrix.
+struct StretchMap {
+  float same = 1.0f;
+  Complexf mirrored{0.0f, 0.0f};
+
+  Complexf operator()(const Complexf& x) const { return same * x + product(mirrored, std::conj(x)); }
+};
+
+StretchMap mapOf(const Strain& strain) {
+  const float size = std::abs(strain.deviator), scale = std::exp(strain.mean);
+  const float along = size > 1e-6f ? std::sinh(size) / size : 1.0f;
+  return {scale * std::cosh(size), scale * along * strain.deviator};
+}
+
 Strain opposite(const Strain& strain) {
   return {-strain.mean, -strain.deviator};
 }
 
-// J exp(strain), column by column.
+// J exp(strain).
 Label multiplied(const Label& label, const Strain& strain) {
-  const Complexf x = strained(strain, {1.0f, 0.0f}), y = strained(strain, {0.0f, 1.0f});
+  const StretchMap map = mapOf(strain);
+  const float xx = map.same + map.mirrored.real(), xy = map.mirrored.imag(), yy = map.same - map.mirrored.real();
   const std::array<float, 4>& j = label.jacobian;
-  return {label.texel,
-          {j[0] * x.real() + j[1] * x.imag(), j[0] * y.real() + j[1] * y.imag(),
-           j[2] * x.real() + j[3] * x.imag(), j[2] * y.real() + j[3] * y.imag()}};
+  return {label.texel, {j[0] * xx + j[1] * xy, j[0] * xy + j[1] * yy, j[2] * xx + j[3] * xy, j[2] * xy + j[3] * yy}};
 }
 
 }  // namespace
 
 Complexf strained(const Strain& strain, const Complexf& x) {
-  const float size = std::abs(strain.deviator);
-  const float along = size > 1e-6f ? std::sinh(size) / size : 1.0f;
-  return std::exp(strain.mean) * (std::cosh(size) * x + along * product(strain.deviator, std::conj(x)));
+  return mapOf(strain)(x);
 }
 
 float largest(const Strain& strain) {
@@ -123,14 +136,15 @@ std::vector<Strain> strainAhead(std::vector<Strain> rates, double horizon, doubl
 }
 
 Connection strained(const MeshView& view, const std::vector<Strain>& strain) {
+  std::vector<StretchMap> maps(strain.size());
+  forEachIndex(strain.size(), [&](std::uint32_t v) { maps[v] = mapOf(strain[v]); });
   Connection result = view.connection;
   forEachIndex(strain.size(), [&](std::uint32_t v) {
     for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
-      const Strain& other = strain[view.graph.neighbor[h]];
+      const StretchMap& other = maps[view.graph.neighbor[h]];
       const Complexf turn = product(view.connection.rotation[h], view.connection.rotation[h]);
-      const Strain mean{0.5f * (strain[v].mean + other.mean),
-                        0.5f * (strain[v].deviator + product(turn, other.deviator))};
-      result.edge[h] = strained(mean, view.connection.edge[h]);
+      const StretchMap mean{0.5f * (maps[v].same + other.same), 0.5f * (maps[v].mirrored + product(turn, other.mirrored))};
+      result.edge[h] = mean(view.connection.edge[h]);
     }
   });
   return result;

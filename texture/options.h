@@ -109,7 +109,7 @@ struct SynthesisOptions {
   double featureWeight = 0.3;     // of the signed feature distance channel, squared distance, colour = 1
   double gradientWeight = 0.3;    // of the gradient energy channel
   double guidanceWeight = 1.0;    // of the guidance map, where the exemplar has one
-  double keepStretch = 1.25;      // carried texture that is coherent and stretched less than this is kept
+  double keepStretch = 1.22;      // carried texture that is coherent and stretched less than this is kept
   double renewalRadius = 36.0;    // exemplar pixels: texture is renewed in discs of this size, larger than its features
   double renewalRate = 2.4;       // of the whole surface, a second: no more is renewed, the worst places first
   double lookAhead = 0.5;         // s: new texture is laid for the surface that far ahead, as the flow strains it now

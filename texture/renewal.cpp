@@ -25,6 +25,8 @@ constexpr float kTooYoung =
 constexpr float kEarliest = 0.5f;
 // Where the log stretch is this many times what is kept, discs may cover more than the budget.
 constexpr float kUrgent = 1.5f;
+// How much further (log), of what is kept, texture may be drawn out while it fades.
+constexpr float kFadesWithin = 1.8f;
 
 bool lost(const TexelImage& image, const Label& label, float trust) {
   if (!believed(trust)) return true;
@@ -51,14 +53,16 @@ float noiseAt(const Vec2f& texel, std::uint64_t seed) {
   return above + (y - j) * (below - above);
 }
 
+float badnessAt(const SeamModel& model, const Labels& labels, float trust, std::uint32_t v) {
+  return kSeamWeight * seamCostAround(model, labels, v) + stretchBadness(model.image, labels[v], trust) +
+         guidanceCost(model.image, model.view.mesh, labels[v].texel, v);
+}
+
 }  // namespace
 
 std::vector<float> badness(const SeamModel& model, const Labels& labels, const std::vector<float>& trust) {
-  std::vector<float> result = seamCosts(model, labels);
-  forEachIndex(result.size(), [&](std::uint32_t v) {
-    result[v] = kSeamWeight * result[v] + stretchBadness(model.image, labels[v], trust[v]) +
-                guidanceCost(model.image, model.view.mesh, labels[v].texel, v);
-  });
+  std::vector<float> result(labels.size());
+  forEachIndex(result.size(), [&](std::uint32_t v) { result[v] = badnessAt(model, labels, trust[v], v); });
   return result;
 }
 
@@ -130,7 +134,7 @@ Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<
 }
 
 float fadingSpeed(float strainRate, double keepStretch, double fade) {
-  const double most = double(kUrgent) * std::log(std::max(keepStretch, 1.01));
+  const double most = double(kFadesWithin) * std::log(std::max(keepStretch, 1.01));
   return float(std::max(1.0 / std::max(fade, 1e-3), double(strainRate) / most));
 }
 
@@ -205,15 +209,13 @@ Labels settle(const SeamModel& model, const Labels& carried, const Labels& propo
     result[v] = proposed[v];
   });
 
-  const std::vector<float> before = badness(model, carried, trust);
-  const std::vector<float> trusted(count, 1.0f);  // what is proposed does not depend on what was carried
-  const std::vector<float> after = badness(model, result, trusted);
   // What renewing a vertex changes: its own badness, and its share of that of neighbours that stay.
   const VertexGraph& graph = model.view.graph;
   std::vector<float> change(count, 0.0f);
   forEachIndex(count, [&](std::uint32_t v) {
     if (!renewed[v]) return;
-    change[v] = after[v] - before[v];
+    // What is proposed does not depend on what was carried: it is trusted.
+    change[v] = badnessAt(model, result, 1.0f, v) - badnessAt(model, carried, trust[v], v);
     for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
       const std::uint32_t u = graph.neighbor[h];
       if (renewed[u]) continue;

@@ -10,7 +10,7 @@
 
 namespace fluidtex::texture {
 
-// How bad each vertex's label is: log stretch() + kSeamWeight * seamCosts() + guidanceCost(). A label beyond
+// How bad each vertex's label is: log stretch() + kSeamWeight * seamCostAround() + guidanceCost(). A label beyond
 // the edge of an exemplar that does not wrap, or whose `trust` is low, counts as stretched kLostStretch
 // times.
 std::vector<float> badness(const SeamModel& model, const Labels& labels, const std::vector<float>& trust);
@@ -51,8 +51,7 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
                              const DiscOptions& options, std::uint64_t seed);
 
 // 1/s, how fast the old texture gives way where it is renewed: in `fade` seconds, or in the time in which
-// texture is stretched half as much again (log) as keepStretch, if that is shorter. strainRate: 1/s,
-// logarithmic.
+// texture is stretched 1.8 times (log) what keepStretch says, if that is shorter. strainRate: 1/s, logarithmic.
 float fadingSpeed(float strainRate, double keepStretch, double fade);
 
 // 1 where labels must be renewed whatever else is: beyond the edge of an exemplar that does not wrap, or

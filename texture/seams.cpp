@@ -98,16 +98,12 @@ float seamCost(const SeamModel& model, const Label& atV, const Float8& valueV, c
   return continues(model, atV, atU, across) ? 0.0f : seamCost(model, across, valueV, valueU);
 }
 
-std::vector<float> seamCosts(const SeamModel& model, const Labels& labels) {
+float seamCostAround(const SeamModel& model, const Labels& labels, std::uint32_t v) {
   const VertexGraph& graph = model.view.graph;
-  std::vector<float> costs(labels.size());
-  forEachIndex(labels.size(), [&](std::uint32_t v) {
-    float sum = 0.0f;
-    for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h)
-      sum += seamCost(model, labels[v], labels[graph.neighbor[h]], h);
-    costs[v] = sum / float(graph.around(v).size());
-  });
-  return costs;
+  float sum = 0.0f;
+  for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h)
+    sum += seamCost(model, labels[v], labels[graph.neighbor[h]], h);
+  return sum / float(graph.around(v).size());
 }
 
 void straightenSeams(const SeamModel& model, const LabelTerms& terms, const std::vector<std::uint8_t>& free,

@@ -31,8 +31,8 @@ float seamCost(const SeamModel& model, const Label& atV, const Float8& valueV, c
                const Float8& valueU, std::uint32_t h);
 inline constexpr float kSeamLength = 0.1f;
 
-// The mean of seamCost() over each vertex's edges.
-std::vector<float> seamCosts(const SeamModel& model, const Labels& labels);
+// The mean of seamCost() over a vertex's edges.
+float seamCostAround(const SeamModel& model, const Labels& labels, std::uint32_t v);
 
 // Terms of a vertex's own cost.
 struct LabelTerms {
