@@ -89,7 +89,7 @@ TEST_CASE("slips: joints of more than a texel, and what is not free, stay as the
   closeSlips(model, free, labels);
   const Found found = judged(surface, image, labels, before);
   CHECK(found.edge < 0.3f);
-  CHECK(found.moved > 0.3f);  // all of it on the free side
+  CHECK(found.moved > 0.25f);  // all of it on the free side
   for (std::uint32_t v = 0; v < labels.size(); ++v)
     if (!free[v]) CHECK(labels[v].texel == before[v].texel);
 }

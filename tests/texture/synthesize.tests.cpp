@@ -3,6 +3,7 @@
 #include "tests/texture/closed_meshes.h"
 #include "tests/texture/test_images.h"
 #include "texture/labels.h"
+#include "texture/measure_tiles.h"
 #include "texture/orient.h"
 
 #include <tbb/global_control.h>
@@ -106,10 +107,11 @@ TEST_CASE("synthesize: a first frame takes its texels from the whole exemplar, u
   CHECK(stats.iterations == (3 + 3) * (1 + 3 + 3));
   CHECK(stats.energyEnd < stats.energyStart);
   std::set<std::pair<int, int>> used;
+  std::vector<float> stretched;
   for (std::size_t v = 0; v < count; ++v) {
     const Vec2f& q = result.coordinate[v];
     CHECK((q[0] >= 0 && q[0] <= (toroidal ? 96 : 95) && q[1] >= 0 && q[1] <= (toroidal ? 88 : 87)));
-    CHECK(stretchAt(result, v) < 1.01f);
+    stretched.push_back(stretchAt(result, v));
     float expected[4];
     sampleCubic(synthesizer.exemplar.color, toroidal, q, expected);
     CHECK(result.color[v] == Vec4f(expected));
@@ -119,6 +121,10 @@ TEST_CASE("synthesize: a first frame takes its texels from the whole exemplar, u
     used.insert({int(q[0]) / 12, int(q[1]) / 12});
   }
   CHECK(used.size() >= 45);  // of 8 x 8 cells
+  // All that there is comes from slips between pieces.
+  CHECK(percentile(stretched, 0.5) < 1.05f);
+  CHECK(percentile(stretched, 0.95) < 1.15f);
+  CHECK(percentile(stretched, 1.0) < 2.0f);
   const std::array<double, 6> surface = statistics(flat(result.color)),
                               exemplar = statistics(synthesizer.exemplar.color.data);
   for (int i = 0; i < 3; ++i) {
@@ -176,16 +182,16 @@ TEST_CASE("synthesize: stretched texture is renewed, the rest is kept") {
       makeSynthesizer(makeExemplar(blobImage(96, 88, 4, 12.0, 2), false, options, 2), options);
   SynthesisStats stats;
   TexturedSurface last = synthesize(synthesizer, sphere(28, 2), {}, 1, 0.0, stats);
-  for (int frame = 2; frame <= 4; ++frame)  // so that only the stretch is left to repair
+  for (int frame = 2; frame <= 8; ++frame)  // so that only the stretch is left to repair
     last = synthesize(synthesizer, surfaceOf(last), carriedFrom(last), frame, 0.04, stats);
   Carried carried = carriedFrom(last);
   carried.age.assign(carried.age.size(), 1.0f);  // all has rested
   const auto stretched = [&](std::size_t v) { return last.positions[v].x() > 0.2f; };
   for (std::size_t v = 0; v < last.positions.size(); ++v)
     if (stretched(v)) carried.gradient[v].s *= 0.5f;
-  TexturedSurface next = synthesize(synthesizer, surfaceOf(last), carried, 5, 0.04, stats);
+  TexturedSurface next = synthesize(synthesizer, surfaceOf(last), carried, 9, 0.04, stats);
   CHECK(stats.renewed < 0.6);  // not all at once
-  for (int frame = 6; frame <= 10; ++frame)
+  for (int frame = 10; frame <= 14; ++frame)
     next = synthesize(synthesizer, surfaceOf(next), carriedFrom(next), frame, 0.04, stats);
   std::size_t still = 0, touched = 0, whole = 0, parts = 0;
   for (std::size_t v = 0; v < next.positions.size(); ++v) {
