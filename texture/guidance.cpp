@@ -88,7 +88,7 @@ Demand demandOn(const TexelImage& image, const SurfaceMesh& mesh) {
     for (int y = y0; y < std::min(y0 + kCell, image.height); ++y)
       for (int x = x0; x < std::min(x0 + kCell, image.width); ++x)
         ++counts[cell]
-                [std::size_t(levelOf(scale * image.data[image.nearest(float(x), float(y))][image.guide]))];
+                [std::size_t(levelOf(scale * image.at(image.nearest(float(x), float(y)))[image.guide]))];
   });
   Shares available{};
   for (const auto& count : counts)

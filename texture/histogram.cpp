@@ -56,11 +56,14 @@ HistogramTarget makeHistogramTarget(const TexelImage& image) {
       high = most > high ? most : high;
     }
   };
-  const Range first{image.data.front(), image.data.front()};
+  const Range first{image.at(0), image.at(0)};
   const auto [low, high] = tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, image.data.size(), 4096), first,
       [&](const tbb::blocked_range<std::size_t>& range, Range result) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) result.take(image.data[i], image.data[i]);
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          const Float8 texel = image.at(i);
+          result.take(texel, texel);
+        }
         return result;
       },
       [](Range a, const Range& b) {
@@ -71,7 +74,7 @@ HistogramTarget makeHistogramTarget(const TexelImage& image) {
   for (int c = 0; c < kMaxChannels; ++c)
     target.scale[c] = high[c] > low[c] ? float(kHistogramBins) / (high[c] - low[c]) : 0.0f;
   target.bins.resize(image.data.size());
-  forEachIndex(target.bins.size(), [&](std::uint32_t i) { target.bins[i] = binsOf(target, image.data[i]); });
+  forEachIndex(target.bins.size(), [&](std::uint32_t i) { target.bins[i] = binsOf(target, image.at(i)); });
   const std::size_t width = std::size_t(image.width), count = width * std::size_t(image.height);
   target.exemplar = shares(count, image.channels, [&](std::size_t i) {
     return target.bins[(i / width + std::size_t(image.margin)) * std::size_t(image.stride) + i % width +

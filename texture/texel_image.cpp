@@ -54,7 +54,7 @@ TexelImage makeTexelImage(const Image& image, bool toroidal, int margin) {
       const float* from = image.at(source(x, image.width), source(y, image.height));
       Float8 texel{};
       for (int c = 0; c < image.channels; ++c) texel[c] = from[c];
-      result.data[std::size_t(y + margin) * result.stride + std::size_t(x + margin)] = texel;
+      result.data[std::size_t(y + margin) * result.stride + std::size_t(x + margin)] = narrowed(texel);
     }
   });
   return result;
@@ -66,13 +66,15 @@ float randomDifference(const TexelImage& image, const Float8& channelWeight) {
   };
   std::vector<Sums> rows(std::size_t(image.height));  // then added in order: the same on any number of threads
   tbb::parallel_for(0, image.height, [&](int y) {
-    const Float8* row = image.data.data() + std::size_t(y + image.margin) * image.stride + image.margin;
-    for (int x = 0; x < image.width; ++x)
+    const std::size_t row = std::size_t(y + image.margin) * std::size_t(image.stride) + std::size_t(image.margin);
+    for (int x = 0; x < image.width; ++x) {
+      const Float8 texel = image.at(row + std::size_t(x));
       for (std::size_t c = 0; c < kMaxChannels; ++c) {
-        const double value = row[x][c];
+        const double value = texel[c];
         rows[std::size_t(y)].values[c] += value;
         rows[std::size_t(y)].squares[c] += value * value;
       }
+    }
   });
   double variance = 0.0;
   const double count = double(image.width) * image.height;

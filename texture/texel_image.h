@@ -1,5 +1,6 @@
-// One level of the exemplar, laid out for the optimisation: every texel is eight floats, of which unused ones
+// One level of the exemplar, laid out for the optimisation: every texel is eight numbers, of which unused ones
 // are zero, and the image is continued on all sides, so that a window is read without a test for the edge.
+// Windows are read all over it, and a wide one does not fit into a cache: texels are of half precision.
 #pragma once
 
 #include "texture/exemplar.h"
@@ -20,7 +21,9 @@ struct TexelImage {
   bool toroidal = false;
   int guide = -1;               // the channel of the guidance map, where there is one
   float guidanceWeight = 1.0f;  // by whose root it is multiplied
-  Values data;  // rows from the top, margins included
+  std::vector<Half8> data;  // rows from the top, margins included
+
+  Float8 at(std::size_t texel) const { return widened(data[texel]); }
 
   // Bilinear. The position must not lie farther outside than margin - 1 texels.
   Float8 sampleInside(float x, float y) const {
@@ -28,10 +31,13 @@ struct TexelImage {
     y += float(margin);
     const int i = int(x), j = int(y);
     const float fx = x - float(i), fy = y - float(j);
-    const Float8* row = data.data() + std::size_t(j) * stride + i;
-    const Float8 above = row[0] + fx * (row[1] - row[0]);
-    const Float8 below = row[stride] + fx * (row[stride + 1] - row[stride]);
-    return above + fy * (below - above);
+    const Half8* row = data.data() + std::size_t(j) * stride + i;
+    const auto between = [&](const Half8* texel) {
+      const Float8 left = widened(texel[0]);
+      return left + fx * (widened(texel[1]) - left);
+    };
+    const Float8 above = between(row);
+    return above + fy * (between(row + stride) - above);
   }
 
   // Bilinear anywhere: clamped to the image, or wrapped around it.

@@ -21,7 +21,7 @@ TEST_CASE("texel image: reads what sampleBilinear reads") {
     float expected[5];
     sampleBilinear(image, toroidal, at, expected);
     const Float8 found = texels.sample(at);
-    for (int c = 0; c < 5; ++c) CHECK(found[c] == Approx(expected[c]).margin(1e-5));
+    for (int c = 0; c < 5; ++c) CHECK(found[c] == Approx(expected[c]).margin(3e-4));  // half precision
     for (int c = 5; c < 8; ++c) CHECK(found[c] == 0.0f);
   }
 }
