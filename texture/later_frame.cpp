@@ -8,7 +8,6 @@
 #include "texture/look_ahead.h"
 #include "texture/parallel.h"
 #include "texture/renewal.h"
-#include "texture/slips.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +19,9 @@ namespace {
 constexpr int kRim = 5;
 // How near joined labels stay to the last average.
 constexpr float kData = 0.4f;
-// New texture is compressed by at most this many times what is kept (log).
-constexpr float kMostAhead = 1.5f;
+// New texture is compressed by at most this many times what is kept (log), and never so much that flattening
+// takes the strained surface for a folded one.
+constexpr double kMostAhead = 1.45, kMostStrain = 0.45;
 // Vertices that stand for the surface at half its detail lie 1 to 2 of its pixels apart.
 constexpr float kHalfRadius = 0.8f;
 
@@ -120,7 +120,8 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   });
 
   // From here on the surface is that of a while ahead, and labels are what they will be there.
-  const std::vector<Strain> ahead = strainAhead(rates, options.lookAhead, double(kMostAhead) * std::log(options.keepStretch));
+  const double most = std::min(kMostAhead * std::log(options.keepStretch), kMostStrain);
+  const std::vector<Strain> ahead = strainAhead(rates, options.lookAhead, most);
   const Connection connection = strained(now, ahead);
   const MeshView view{now.mesh, now.graph, connection, now.pixel, now.members};
   const SeamModel seams = seamModel(synthesizer, view, 0);
@@ -160,9 +161,7 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
             {0, frame, options.laterIterations, 1, false, windows > 1 ? std::size_t(1) : 0}, state, stats,
             progress);
   joinLabels(seams, state, kData, level.wanted, &before, keyOf(synthesizer, frame, 0, 1), state.labels);
-  Labels settled = settle(seams, before, state.labels, carried.trust, result.renewed);
-  closeSlips(seams, result.renewed, settled);
-  result.labels = unstrained(std::move(settled), ahead);
+  result.labels = unstrained(settle(seams, before, state.labels, carried.trust, result.renewed), ahead);
   return result;
 }
 

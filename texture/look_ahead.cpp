@@ -42,7 +42,8 @@ Weighted fittedStrain(const MeshView& view, const std::vector<Vec3f>& previous, 
   right -= center * ratios;
   const float det = xx * yy - xy * xy;
   if (!(det > 1e-3f)) return {};  // all edges along two directions
-  const Complexf deviator((right.real() * yy - right.imag() * xy) / det, (right.imag() * xx - right.real() * xy) / det);
+  const Complexf deviator((right.real() * yy - right.imag() * xy) / det,
+                          (right.imag() * xx - right.real() * xy) / det);
   const float mean = ratios / count - center.real() * deviator.real() - center.imag() * deviator.imag();
   const float size = std::abs(deviator), least = mean - size, most = mean + size;
   if (!(least > std::exp(-2.0f * kMostPerFrame)) || !(most < std::exp(2.0f * kMostPerFrame))) return {};
@@ -92,9 +93,11 @@ Strain opposite(const Strain& strain) {
 // J exp(strain).
 Label multiplied(const Label& label, const Strain& strain) {
   const StretchMap map = mapOf(strain);
-  const float xx = map.same + map.mirrored.real(), xy = map.mirrored.imag(), yy = map.same - map.mirrored.real();
+  const float xx = map.same + map.mirrored.real(), xy = map.mirrored.imag(),
+              yy = map.same - map.mirrored.real();
   const std::array<float, 4>& j = label.jacobian;
-  return {label.texel, {j[0] * xx + j[1] * xy, j[0] * xy + j[1] * yy, j[2] * xx + j[3] * xy, j[2] * xy + j[3] * yy}};
+  return {label.texel,
+          {j[0] * xx + j[1] * xy, j[0] * xy + j[1] * yy, j[2] * xx + j[3] * xy, j[2] * xy + j[3] * yy}};
 }
 
 }  // namespace
@@ -143,7 +146,8 @@ Connection strained(const MeshView& view, const std::vector<Strain>& strain) {
     for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
       const StretchMap& other = maps[view.graph.neighbor[h]];
       const Complexf turn = product(view.connection.rotation[h], view.connection.rotation[h]);
-      const StretchMap mean{0.5f * (maps[v].same + other.same), 0.5f * (maps[v].mirrored + product(turn, other.mirrored))};
+      const StretchMap mean{0.5f * (maps[v].same + other.same),
+                            0.5f * (maps[v].mirrored + product(turn, other.mirrored))};
       result.edge[h] = mean(view.connection.edge[h]);
     }
   });
@@ -151,7 +155,8 @@ Connection strained(const MeshView& view, const std::vector<Strain>& strain) {
 }
 
 Labels strained(Labels labels, const std::vector<Strain>& strain) {
-  forEachIndex(labels.size(), [&](std::uint32_t v) { labels[v] = multiplied(labels[v], opposite(strain[v])); });
+  forEachIndex(labels.size(),
+               [&](std::uint32_t v) { labels[v] = multiplied(labels[v], opposite(strain[v])); });
   return labels;
 }
 

@@ -1,5 +1,5 @@
 // The surface as it will be a while from now: texture that is laid for it is compressed where the flow draws
-// it out, and lasts twice as long before it is stretched too much.
+// it out, and lasts more than twice as long before it is stretched too much.
 #pragma once
 
 #include "texture/labels.h"
@@ -17,9 +17,9 @@ struct Strain {
 // exp(strain) x.
 Complexf strained(const Strain& strain, const Complexf& x);
 
-// #V, 1/s, logarithmic: how the surface around each vertex was strained in the last `seconds`. Fitted to how the
-// lengths of the vertex's edges changed since `previous` (where the vertices were) and averaged over a small
-// window; where trust is low it is that of the surroundings. Zero where seconds are.
+// #V, 1/s, logarithmic: how the surface around each vertex was strained in the last `seconds`. Fitted to how
+// the lengths of the vertex's edges changed since `previous` (where the vertices were) and averaged over a
+// small window; where trust is low it is that of the surroundings. Zero where seconds are.
 std::vector<Strain> strainRates(const MeshView& view, const std::vector<Vec3f>& previous,
                                 const std::vector<float>& trust, double seconds);
 

@@ -31,8 +31,8 @@ enum class Points {
 
 struct SurfaceOptions {
   Points points = Points::seeds;
-  int levels = 3;                 // of the hierarchy on the first frame that has a surface
-  int repulsionSweeps = 16;       // on the first frame and for random points; seeds need a quarter of them
+  int levels = 3;            // of the hierarchy on the first frame that has a surface
+  int repulsionSweeps = 16;  // on the first frame and for random points; seeds need a quarter of them
   std::uint64_t seed = 1;
 };
 
@@ -47,12 +47,12 @@ enum class Align {
 };
 
 struct OrientationOptions {
-  int symmetry = 1;               // equal directions in a full turn: 1, 2 (bricks) or 4 (squares)
+  int symmetry = 1;  // equal directions in a full turn: 1, 2 (bricks) or 4 (squares)
   Align align = Align::none;
-  double weight = 0.2;            // 0 not at all, 0.5 as much as the neighbouring vertices, 1 whatever they are
-  double angle = 0.0;             // degrees from there to the columns, counter-clockwise seen from outside
+  double weight = 0.2;  // 0 not at all, 0.5 as much as the neighbouring vertices, 1 whatever they are
+  double angle = 0.0;   // degrees from there to the columns, counter-clockwise seen from outside
   openvdb::Vec3d direction{1.0, 0.0, 0.0};
-  std::filesystem::path field;    // OpenVDB; its first grid of float vectors
+  std::filesystem::path field;  // OpenVDB; its first grid of float vectors
 };
 
 // What makes the texture larger in some places than in others.
@@ -98,22 +98,25 @@ struct GuidanceOptions {
 
 struct SynthesisOptions {
   Method method = Method::coordinates;
-  std::vector<int> windows{33, 17, 9};       // exemplar pixels, odd, falling
+  std::vector<int> windows{33, 17, 9};        // exemplar pixels, odd, falling
   std::vector<int> firstIterations{4, 4, 5};  // a window, on the first frame
   std::vector<int> laterIterations{3, 3, 3};  // a window, on each later frame
-  double robustExponent = 0.8;    // r of |s_p - z_p|^r; 2 gives the plain squares of [Kwatra07]
-  double softConstraint = 0.1;    // f: weight of the carried colour where it has mean gradient, 1 = all windows together
-  double histogram = 3.0;         // strength of the histogram weights [Kopf07]
-  double usage = 0.4;             // penalty on parts of the exemplar used more than the mean
-  double core = 0.2;              // weight of a window's centre when its texels are copied
-  double featureWeight = 0.3;     // of the signed feature distance channel, squared distance, colour = 1
-  double gradientWeight = 0.3;    // of the gradient energy channel
-  double guidanceWeight = 1.0;    // of the guidance map, where the exemplar has one
-  double keepStretch = 1.22;      // carried texture that is coherent and stretched less than this is kept
-  double renewalRadius = 36.0;    // exemplar pixels: texture is renewed in discs of this size, larger than its features
-  double renewalRate = 2.4;       // of the whole surface, a second: no more is renewed, the worst places first
-  double lookAhead = 0.5;         // s: new texture is laid for the surface that far ahead, as the flow strains it now
-  double fade = 0.8;              // s, from old texture to new; as long rests what is new
+  double robustExponent = 0.8;                // r of |s_p - z_p|^r; 2 gives the plain squares of [Kwatra07]
+  double softConstraint =
+      0.1;  // f: weight of the carried colour where it has mean gradient, 1 = all windows together
+  double histogram = 3.0;       // strength of the histogram weights [Kopf07]
+  double usage = 0.4;           // penalty on parts of the exemplar used more than the mean
+  double core = 0.2;            // weight of a window's centre when its texels are copied
+  double featureWeight = 0.3;   // of the signed feature distance channel, squared distance, colour = 1
+  double gradientWeight = 0.3;  // of the gradient energy channel
+  double guidanceWeight = 1.0;  // of the guidance map, where the exemplar has one
+  double keepStretch = 1.22;    // carried texture that is coherent and stretched less than this is kept
+  double renewalRadius =
+      36.0;  // exemplar pixels: texture is renewed in discs of this size, larger than its features
+  double renewalRate = 2.4;  // of the whole surface, a second: no more is renewed, the worst places first
+  double lookAhead =
+      0.5;            // s: new texture is laid for the surface that far ahead, as the flow strains it now
+  double fade = 0.8;  // s, from old texture to new; as long rests what is new
   std::uint64_t seed = 1;
 };
 
@@ -122,26 +125,26 @@ enum class MapHolds { values, normals, directions };
 
 // A further map that lies over the exemplar, in any resolution: looked up wherever a colour is.
 struct MapOptions {
-  std::string name;               // of a vertex's property in the PLY
+  std::string name;  // of a vertex's property in the PLY
   std::filesystem::path file;
   MapHolds holds = MapHolds::values;
 };
 
 struct ExemplarOptions {
   std::filesystem::path file;
-  bool toroidal = false;          // its left edge continues at its right, its top at its bottom
+  bool toroidal = false;           // its left edge continues at its right, its top at its bottom
   std::filesystem::path guidance;  // an image of its size, read as numbers 0..1; empty: none
   std::vector<MapOptions> maps;
 };
 
 struct Options {
   ExemplarOptions exemplar;
-  // Distance of neighbouring points, metres: one exemplar pixel. 0: chosen so that the first frame that has a surface
-  // gets `points` points.
+  // Distance of neighbouring points, metres: one exemplar pixel. 0: chosen so that the first frame that has a
+  // surface gets `points` points.
   double spacing = 0.0;
   int points = 40000;
-  // 0 fresh on each frame to 1 kept until it breaks: what laterFrames, keepStretch, renewalRate and fade follow where
-  // a scene does not give them.
+  // 0 fresh on each frame to 1 kept until it breaks: what laterFrames, keepStretch, renewalRate and fade
+  // follow where a scene does not give them.
   double coherence = 0.5;
   LaterFrames laterFrames = LaterFrames::synthesize;
   SurfaceOptions surface;

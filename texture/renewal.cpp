@@ -5,6 +5,7 @@
 #include "texture/guidance.h"
 #include "texture/parallel.h"
 #include "texture/random.h"
+#include "texture/slips.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,16 +15,20 @@ namespace {
 
 constexpr float kSeamWeight = 0.75f;
 constexpr float kLostStretch = 4.0f;
-constexpr float kSameTexel = 0.7f;   // a proposal this near to the carried texel says the same
-constexpr float kLeastGain = 0.05f;  // a piece is renewed if its badness falls by this on average
-constexpr int kBlurSweeps = 16;      // badness is averaged over about this many edges' reach in all
+constexpr float kSameTexel = 0.7f;     // a proposal this near to the carried texel says the same
+constexpr float kSlipStretch = 1.15f;  // closing slips leaves as much: no reason to renew the same texel
+constexpr float kLeastGain = 0.05f;    // a piece is renewed if its badness falls by this on average
+constexpr int kBlurSweeps = 16;        // badness is averaged over about this many edges' reach in all
 constexpr float kDiscShare = 0.8f, kDiscsApart = 1.6f;  // of a disc's nominal radius
 constexpr float kMostYoung = 0.35f;                     // share of a disc
 constexpr float kTooYoung =
     0.3f;  // around a centre with more of it none is tried again, of the nominal radius
-// Of what is kept (log): the earliest that texture is renewed. Far from one, for neighbours were laid together.
+// Of what is kept (log): the earliest that texture is renewed. Far from one, for neighbours were laid
+// together.
 constexpr float kEarliest = 0.5f;
-// Where the log stretch is this many times what is kept, discs may cover more than the budget.
+// Where the log stretch is this many times what is kept, discs may cover more than the budget. More than what
+// is laid ahead is compressed by (later_frame's kMostAhead), or that would be renewed at once where a flow
+// stops.
 constexpr float kUrgent = 1.5f;
 // How much further (log), of what is kept, texture may be drawn out while it fades.
 constexpr float kFadesWithin = 1.8f;
@@ -146,7 +151,8 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
   const auto young = [&](std::uint32_t v) { return fading[v] > 0.0f && believed(trust[v]); };
   const auto kept = float(std::log(options.keepStretch));
   std::vector<std::uint32_t> candidates = gathered<std::uint32_t>(count, [&](std::uint32_t v, auto& list) {
-    if (!young(v) && bad[v] > kept * (kEarliest + (1.0f - kEarliest) * noiseAt(labels[v].texel, seed))) list.push_back(v);
+    if (!young(v) && bad[v] > kept * (kEarliest + (1.0f - kEarliest) * noiseAt(labels[v].texel, seed)))
+      list.push_back(v);
   });
   std::sort(candidates.begin(), candidates.end(),
             [&](std::uint32_t a, std::uint32_t b) { return bad[a] > bad[b] || (bad[a] == bad[b] && a < b); });
@@ -203,11 +209,12 @@ Labels settle(const SeamModel& model, const Labels& carried, const Labels& propo
   forEachIndex(count, [&](std::uint32_t v) {
     const Vec2f difference = texelDifference(model.image, proposed[v].texel, carried[v].texel);
     if (difference.lengthSqr() <= kSameTexel * kSameTexel &&
-        stretch(carried[v]) <= stretch(proposed[v]) + 0.05f)
+        stretch(carried[v]) <= std::max(kSlipStretch, stretch(proposed[v]) + 0.05f))
       return;
     renewed[v] = 1;
     result[v] = proposed[v];
   });
+  closeSlips(model, renewed, result);  // what is judged is what comes of it
 
   // What renewing a vertex changes: its own badness, and its share of that of neighbours that stay.
   const VertexGraph& graph = model.view.graph;

@@ -10,9 +10,9 @@
 
 namespace fluidtex::texture {
 
-// How bad each vertex's label is: log stretch() + kSeamWeight * seamCostAround() + guidanceCost(). A label beyond
-// the edge of an exemplar that does not wrap, or whose `trust` is low, counts as stretched kLostStretch
-// times.
+// How bad each vertex's label is: log stretch() + kSeamWeight * seamCostAround() + guidanceCost(). A label
+// beyond the edge of an exemplar that does not wrap, or whose `trust` is low, counts as stretched
+// kLostStretch times.
 std::vector<float> badness(const SeamModel& model, const Labels& labels, const std::vector<float>& trust);
 
 // Whether a carried label means anything: where trust is low, nothing was there before.
@@ -43,15 +43,16 @@ struct Wear {
 Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<float>& trust);
 
 // Discs around the worst places, worst first, until the budget is used: where wear is worse than that of
-// texture stretched by keepStretch. The threshold varies from half of that (log), smoothly over the exemplar, so that
-// neighbours do not renew at once. What still takes the place of older texture (`fading`, its weight) is no
-// member, and discs that hold much of it are left for later.
+// texture stretched by keepStretch. The threshold varies from half of that (log), smoothly over the exemplar,
+// so that neighbours do not renew at once. What still takes the place of older texture (`fading`, its weight)
+// is no member, and discs that hold much of it are left for later.
 std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,
                              const std::vector<float>& trust, const std::vector<float>& fading,
                              const DiscOptions& options, std::uint64_t seed);
 
 // 1/s, how fast the old texture gives way where it is renewed: in `fade` seconds, or in the time in which
-// texture is stretched 1.8 times (log) what keepStretch says, if that is shorter. strainRate: 1/s, logarithmic.
+// texture is stretched 1.8 times (log) what keepStretch says, if that is shorter. strainRate: 1/s,
+// logarithmic.
 float fadingSpeed(float strainRate, double keepStretch, double fade);
 
 // 1 where labels must be renewed whatever else is: beyond the edge of an exemplar that does not wrap, or
@@ -62,10 +63,11 @@ std::vector<std::uint8_t> lostLabels(const SeamModel& model, const Labels& label
 // The mask grown by `rings` rings of neighbours.
 std::vector<std::uint8_t> grown(const VertexGraph& graph, std::vector<std::uint8_t> mask, int rings);
 
-// Merges proposed labels into carried ones. Where they continue each other the carried one stays. The others
-// form connected pieces, and a piece is renewed if that lowers the summed badness of the surface: the piece's
-// own and that of the vertices around it, whose seams change with it. renewed[v] says where. A surface at
-// rest therefore comes to rest: every renewal lowers a sum that has a bound.
+// Merges proposed labels into carried ones. Where they continue each other the carried one stays. Of the
+// others, slips are closed; they form connected pieces, and a piece is renewed if that lowers the summed
+// badness of the surface: the piece's own and that of the vertices around it, whose seams change with it.
+// renewed[v] says where. A surface at rest therefore comes to rest: every renewal lowers a sum that has a
+// bound.
 Labels settle(const SeamModel& model, const Labels& carried, const Labels& proposed,
               const std::vector<float>& trust, std::vector<std::uint8_t>& renewed);
 

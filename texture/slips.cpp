@@ -3,11 +3,13 @@
 #include "texture/complex.h"
 #include "texture/parallel.h"
 
+#include <array>
+
 namespace fluidtex::texture {
 namespace {
 
-// A slip of half a texel is spread over about two rings to each side. 16 sweeps, four rings: the same share of texture is drawn out
-// by more than 1.4, and windows are farther from the exemplar (docs/synthesis.md).
+// A slip of half a texel is spread over about two rings to each side. With 16 sweeps and four rings as much
+// texture is drawn out by 1.4, and more windows are unlike the exemplar's (docs/synthesis.md).
 constexpr int kSweeps = 4;
 // The Jacobian before counts as much as this share of an edge of one pixel in each direction.
 constexpr float kInertia = 0.5f;
@@ -18,7 +20,8 @@ struct Slip {
   bool continues = false;
 };
 
-std::vector<Slip> slipsOf(const SeamModel& model, const std::vector<std::uint32_t>& members, const Labels& labels) {
+std::vector<Slip> slipsOf(const SeamModel& model, const std::vector<std::uint32_t>& members,
+                          const Labels& labels) {
   const MeshView& view = model.view;
   std::vector<Slip> slips(view.graph.neighbor.size());
   forEachIndex(members.size(), [&](std::uint32_t i) {

@@ -11,6 +11,8 @@
 namespace fluidtex::texture {
 namespace {
 
+constexpr float kMostHalf = 65504.0f;  // the largest number of half precision
+
 float wrapped(float x, float size) {
   x -= size * std::floor(x / size);
   return x < size ? x : 0.0f;  // a tiny negative number rounds up to size
@@ -53,7 +55,7 @@ TexelImage makeTexelImage(const Image& image, bool toroidal, int margin) {
     for (int x = -margin; x < image.width + margin; ++x) {
       const float* from = image.at(source(x, image.width), source(y, image.height));
       Float8 texel{};
-      for (int c = 0; c < image.channels; ++c) texel[c] = from[c];
+      for (int c = 0; c < image.channels; ++c) texel[c] = std::clamp(from[c], -kMostHalf, kMostHalf);
       result.data[std::size_t(y + margin) * result.stride + std::size_t(x + margin)] = narrowed(texel);
     }
   });
@@ -64,9 +66,11 @@ float randomDifference(const TexelImage& image, const Float8& channelWeight) {
   struct Sums {
     std::array<double, kMaxChannels> values{}, squares{};
   };
-  std::vector<Sums> rows(std::size_t(image.height));  // then added in order: the same on any number of threads
+  std::vector<Sums> rows(
+      std::size_t(image.height));  // then added in order: the same on any number of threads
   tbb::parallel_for(0, image.height, [&](int y) {
-    const std::size_t row = std::size_t(y + image.margin) * std::size_t(image.stride) + std::size_t(image.margin);
+    const std::size_t row =
+        std::size_t(y + image.margin) * std::size_t(image.stride) + std::size_t(image.margin);
     for (int x = 0; x < image.width; ++x) {
       const Float8 texel = image.at(row + std::size_t(x));
       for (std::size_t c = 0; c < kMaxChannels; ++c) {

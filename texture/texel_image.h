@@ -1,6 +1,6 @@
-// One level of the exemplar, laid out for the optimisation: every texel is eight numbers, of which unused ones
-// are zero, and the image is continued on all sides, so that a window is read without a test for the edge.
-// Windows are read all over it, and a wide one does not fit into a cache: texels are of half precision.
+// One level of the exemplar, laid out for the optimisation: every texel is eight numbers, of which unused
+// ones are zero, and the image is continued on all sides, so that a window is read without a test for the
+// edge. Windows are read all over it, and a wide one does not fit into a cache: texels are of half precision.
 #pragma once
 
 #include "texture/exemplar.h"
@@ -21,7 +21,7 @@ struct TexelImage {
   bool toroidal = false;
   int guide = -1;               // the channel of the guidance map, where there is one
   float guidanceWeight = 1.0f;  // by whose root it is multiplied
-  std::vector<Half8> data;  // rows from the top, margins included
+  std::vector<Half8> data;      // rows from the top, margins included
 
   Float8 at(std::size_t texel) const { return widened(data[texel]); }
 
@@ -48,8 +48,8 @@ struct TexelImage {
 
   // The nearest position inside the image: clamped to texel centres, or wrapped to 0 <= x < width.
   Vec2f brought(const Vec2f& texel) const {
-    const bool inside = texel[0] >= 0.0f && texel[1] >= 0.0f && texel[0] <= float(width - 1) &&
-                        texel[1] <= float(height - 1);
+    const bool inside =
+        texel[0] >= 0.0f && texel[1] >= 0.0f && texel[0] <= float(width - 1) && texel[1] <= float(height - 1);
     return inside ? texel : broughtFromOutside(texel);
   }
   Vec2f broughtFromOutside(const Vec2f& texel) const;

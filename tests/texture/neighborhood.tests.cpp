@@ -61,7 +61,8 @@ TEST_CASE("neighborhood: positions on a plane are exact whatever the orientation
       worstTurn = std::max(worstTurn, std::abs(std::complex<double>(result.turn[i]) -
                                                std::complex<double>(axis.dot(d), axis.dot(b))));
     }
-    // Offsets and the connection are floats: a unit in the last place of 16 is 2e-6.
+    // Offsets and the connection are floats: a unit in the last place of 8 is 1e-6, of 16 2e-6; small windows
+    // are off by one, since a single sweep averages rounding less than two do.
     CHECK(worst < (window < 33 ? 2e-6 : 4e-6));
     CHECK(worstTurn < 2e-6);
     // Nothing inside is missing, nothing outside is there.

@@ -130,7 +130,7 @@ TEST_CASE("renewal: where the stretch is urgent the budget does not count") {
 TEST_CASE("renewal: texture fades as fast as it gets bad, and never slower than it is told to") {
   const auto most = float(1.8 * std::log(1.35));
   CHECK(fadingSpeed(0.0f, 1.35, 0.4) == Approx(2.5));
-  CHECK(fadingSpeed(most, 1.35, 0.4) == Approx(2.5));          // in a second
+  CHECK(fadingSpeed(most, 1.35, 0.4) == Approx(2.5));           // in a second
   CHECK(fadingSpeed(10.0f * most, 1.35, 0.4) == Approx(10.0));  // in a tenth of one
 }
 

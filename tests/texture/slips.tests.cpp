@@ -3,6 +3,7 @@
 #include "tests/texture/oriented_mesh.h"
 #include "tests/texture/test_images.h"
 
+#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -18,20 +19,24 @@ bool inside(const Vec3f& x) {
   return x.z() > 1.9f && x.x() > 2 && x.x() < 30 && x.y() > 2 && x.y() < 30;
 }
 
-// On the upper side of a flat box of 32 pixels the picture texel = (40 + x, 60 - y), moved by `slip` beyond the middle.
+// On the upper side of a flat box of 32 pixels the picture texel = (40 + x, 60 - y), moved by `slip` beyond
+// the middle.
 Labels slipped(const OrientedMesh& surface, const Vec2f& slip) {
   Labels labels;
   for (const Vec3f& x : surface.mesh.positions)
-    labels.push_back(unstretched(Vec2f(40, 60) + Vec2f(x.x(), -x.y()) + (x.x() > 16 ? slip : Vec2f(0, 0)), Complexf(1.0f)));
+    labels.push_back(unstretched(Vec2f(40, 60) + Vec2f(x.x(), -x.y()) + (x.x() > 16 ? slip : Vec2f(0, 0)),
+                                 Complexf(1.0f)));
   return labels;
 }
 
-// The most that an edge inside is drawn out or squeezed, and the most that a label's texel lies from what is expected.
+// The most that an edge inside is drawn out or squeezed, and the most that a label's texel lies from what is
+// expected.
 struct Found {
   float edge = 0.0f, stretch = 1.0f, moved = 0.0f;
 };
 
-Found judged(const OrientedMesh& surface, const TexelImage& image, const Labels& labels, const Labels& before) {
+Found judged(const OrientedMesh& surface, const TexelImage& image, const Labels& labels,
+             const Labels& before) {
   Found found;
   for (std::uint32_t v = 0; v < labels.size(); ++v) {
     if (!inside(surface.mesh.positions[v])) continue;
@@ -41,7 +46,8 @@ Found judged(const OrientedMesh& surface, const TexelImage& image, const Labels&
       const Label straight = unstretched(labels[v].texel, Complexf(1.0f));
       const Label& other = labels[surface.graph.neighbor[h]];
       if (!inside(surface.mesh.positions[surface.graph.neighbor[h]])) continue;
-      found.edge = std::max(found.edge, texelDifference(image, other.texel, straight.at(surface.connection.edge[h])).length());
+      found.edge = std::max(
+          found.edge, texelDifference(image, other.texel, straight.at(surface.connection.edge[h])).length());
     }
   }
   return found;
@@ -67,7 +73,9 @@ TEST_CASE("slips: half a texel is spread over many edges, and gradients say what
     if (!inside(surface.mesh.positions[v])) continue;
     for (std::uint32_t h = surface.graph.first[v]; h < surface.graph.first[v + 1]; ++h)
       if (inside(surface.mesh.positions[surface.graph.neighbor[h]]))
-        CHECK(texelDifference(image, labels[surface.graph.neighbor[h]].texel, labels[v].at(surface.connection.edge[h])).length() < 0.1f);
+        CHECK(texelDifference(image, labels[surface.graph.neighbor[h]].texel,
+                              labels[v].at(surface.connection.edge[h]))
+                  .length() < 0.1f);
   }
 }
 
@@ -108,4 +116,49 @@ TEST_CASE("slips: texture without any stays where it is, drawn out or not") {
   const Found found = judged(surface, image, labels, before);
   CHECK(found.moved < 1e-3f);
   CHECK(found.stretch == Approx(1 / 0.7f).epsilon(1e-3));
+}
+
+TEST_CASE("slips: whatever the vertices' axes, across the exemplar's edges, on any number of threads") {
+  const bool toroidal = GENERATE(true, false);
+  SurfaceMesh mesh = boxMesh({0, 0, 0}, {32, 32, 2}, {32, 32, 2});
+  mesh.spacing = 1.0;
+  mesh.orientation = referenceVectors(mesh.normals);
+  std::vector<std::uint8_t> free;
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3f& x = mesh.positions[v];
+    free.push_back(inside(x));
+    const float angle = 0.1f * x.x() + 6.0f * float(randomUnit(7, v));
+    if (x.z() > 1.9f && x.x() > 0.5f && x.x() < 31.5f && x.y() > 0.5f && x.y() < 31.5f)
+      mesh.orientation[v] = Vec3f(std::cos(angle), std::sin(angle), 0.0f);
+  }
+  const OrientedMesh surface = orientedMesh(std::move(mesh));
+  const TexelImage image = makeTexelImage(noiseImage(48, 48, 3, 1), toroidal, 4);
+  const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
+  // The picture's edges cross the box where it wraps, and lie just outside it where it does not.
+  const Vec2f corner = toroidal ? Vec2f(30, 20) : Vec2f(8, 40);
+  Labels before;
+  for (std::uint32_t v = 0; v < surface.mesh.positions.size(); ++v) {
+    const Vec3f &x = surface.mesh.positions[v], &d = surface.mesh.orientation[v];
+    const Vec2f slip = x.x() > 16 ? Vec2f(0.4f, 0.3f) : Vec2f(0, 0);
+    before.push_back(
+        unstretched(image.brought(corner + Vec2f(x.x(), -x.y()) + slip), Complexf(d.x(), -d.y())));
+  }
+  Labels result[2] = {before, before};
+  for (int i = 0; i < 2; ++i) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, i == 0 ? 1 : 4);
+    closeSlips(model, free, result[i]);
+  }
+  for (std::uint32_t v = 0; v < before.size(); ++v) {
+    CHECK(result[0][v].texel == result[1][v].texel);
+    CHECK(result[0][v].jacobian == result[1][v].jacobian);
+    if (!inside(surface.mesh.positions[v])) continue;
+    CHECK(texelDifference(image, result[0][v].texel, before[v].texel).length() < 0.35f);
+    CHECK(stretch(result[0][v]) < 1.2f);
+    for (std::uint32_t h = surface.graph.first[v]; h < surface.graph.first[v + 1]; ++h) {
+      const std::uint32_t u = surface.graph.neighbor[h];
+      if (!inside(surface.mesh.positions[u])) continue;
+      const Vec2f there = result[0][v].at(surface.connection.edge[h]);
+      CHECK(texelDifference(image, result[0][u].texel, there).length() < 0.12f);
+    }
+  }
 }

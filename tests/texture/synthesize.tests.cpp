@@ -159,7 +159,7 @@ TEST_CASE("synthesize: a surface at rest comes to rest") {
       makeSynthesizer(makeExemplar(blobImage(96, 88, 4, 12.0, 2), false, options, 2), options);
   SynthesisStats stats;
   TexturedSurface last = synthesize(synthesizer, sphere(28, 2), {}, 1, 0.0, stats);
-  for (int frame = 2; frame <= 10; ++frame) {
+  for (int frame = 2; frame <= 48; ++frame) {  // longer than two fades
     const TexturedSurface next =
         synthesize(synthesizer, surfaceOf(last), carriedFrom(last), frame, 0.04, stats);
     std::size_t changed = 0;
@@ -185,7 +185,7 @@ TEST_CASE("synthesize: stretched texture is renewed, the rest is kept") {
   for (int frame = 2; frame <= 8; ++frame)  // so that only the stretch is left to repair
     last = synthesize(synthesizer, surfaceOf(last), carriedFrom(last), frame, 0.04, stats);
   Carried carried = carriedFrom(last);
-  carried.age.assign(carried.age.size(), 1.0f);  // all has rested
+  std::fill(carried.fading.weight.begin(), carried.fading.weight.end(), 0.0f);  // all has rested
   const auto stretched = [&](std::size_t v) { return last.positions[v].x() > 0.2f; };
   for (std::size_t v = 0; v < last.positions.size(); ++v)
     if (stretched(v)) carried.gradient[v].s *= 0.5f;
@@ -203,7 +203,8 @@ TEST_CASE("synthesize: stretched texture is renewed, the rest is kept") {
 
   const auto still = [&] {
     std::size_t parts = 0, found = 0;
-    for (std::size_t v = 0; v < next.positions.size(); ++v) parts += stretched(v), found += stretched(v) && stretchAt(next, v) > 1.4f;
+    for (std::size_t v = 0; v < next.positions.size(); ++v)
+      parts += stretched(v), found += stretched(v) && stretchAt(next, v) > 1.4f;
     return double(found) / double(parts);
   };
   CHECK(still() < 0.25);
