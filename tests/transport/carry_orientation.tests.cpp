@@ -33,6 +33,39 @@ TEST_CASE("carry: rigid rotation turns orientation and gradient with the surface
   }
 }
 
+TEST_CASE("carry: directions that symmetry makes equal are picked up as one", "[transport]") {
+  const int symmetry = GENERATE(2, 4);
+  const Vec3d axis(1, 2, 2);
+  const double angle = 0.4;
+  const sim::Frame frame = steadyFrame({0.1, -16, 16}, 1.0, 4, linearFlow(rotationAbout(axis, angle)));
+  const SurfaceMesh before = torusMesh(48, 24);
+  const SurfaceMesh after = mappedMesh(torusMesh(61, 31), exponential(rotationAbout(axis, angle)));
+  const TexturedSurface plain =
+      texturedMesh(before, [](const Vec3d& x) { return Vec3d(0.3 + x.z(), x.x(), 0.5); });
+  TexturedSurface turned = plain;
+  for (std::size_t v = 0; v < turned.orientation.size(); ++v) {
+    Vec3f& d = turned.orientation[v];
+    const std::size_t turns = v * 2654435761u >> 7;
+    for (std::size_t k = 0; k < turns % std::size_t(symmetry); ++k)
+      d = symmetry == 2 ? -d : before.normals[v].cross(d);
+  }
+  const Carried expected = carry(plain, frame, after, symmetry),
+                found = carry(turned, frame, after, symmetry);
+  const Carried asArrows = carry(turned, frame, after, 1);
+  std::size_t wrong = 0;
+  for (std::size_t v = 0; v < after.positions.size(); ++v) {
+    const auto off = [&](const Carried& carried) {  // degrees to the nearest of the equal directions
+      const double whole =
+          angleBetween(Vec3d(expected.orientation[v]), Vec3d(carried.orientation[v])) / kDegree;
+      const double period = 360.0 / symmetry;
+      return std::abs(whole - period * std::round(whole / period));
+    };
+    REQUIRE(off(found) < 0.05);
+    wrong += off(asArrows) > 1.0;
+  }
+  CHECK(wrong > after.positions.size() / 4);
+}
+
 TEST_CASE("carry: orientation follows closed forms over 200 frames", "[transport][slow]") {
   // d ~ F d0 for steady linear flow, F = exp(A t), on a surface that moves with the flow.
   constexpr int kFrames = 200;
