@@ -223,7 +223,7 @@ TEST_CASE("guidance: texture that no longer fits is renewed over time; what fits
   const auto turned = [](const Vec3f& x) { return 1.0f - byHeight(x); };
   rest(turned, 12, 1);
   CHECK(stats.renewed > 0.02);
-  CHECK(stats.renewed < 0.6);
+  CHECK(stats.renewed < 0.75);  // not all at once
   CHECK(fitting(last, turned) < 0.6);
   rest(turned, 13, 24);
   CHECK(fitting(last, turned) > 0.9);
