@@ -122,7 +122,7 @@ TEST_CASE("lava: toroidal, mostly dark crust, and what glows is red before it is
   CHECK(bright > 0.02 * options.size * options.size);
 }
 
-TEST_CASE("cooling lava: the images that ship are the generator's; the higher the level, the more glows",
+TEST_CASE("cooling lava: the images that ship are the generator's, the higher the level, the more glows",
           "[scenes]") {
   const int size = kCooling.size;
   const CoolingLava lava = makeCoolingLava();

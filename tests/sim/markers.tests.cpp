@@ -206,7 +206,7 @@ TEST_CASE("markers: the same seed gives the same, another one others") {
   CHECK_FALSE(same(seedMarkers(*phi, *noSolid(), 5), seedMarkers(*phi, *noSolid(), 6)));
 }
 
-TEST_CASE("markers: none deep in solids; thinned ones are filled up again") {
+TEST_CASE("markers: none deep in solids, thinned ones are filled up again") {
   const auto phi = phiOf(ball);
   const auto floor = makePhi(kVoxel, 3 * kVoxel);
   unite(

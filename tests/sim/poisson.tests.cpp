@@ -107,7 +107,7 @@ TEST_CASE("poisson: the solution is the one that made the right-hand side", "[si
   CHECK(solvePoisson(system, {}, multiplied(system, exact), x, 1e-10, 200).iterations == 0);
 }
 
-TEST_CASE("poisson: zero in, zero out; too few iterations are reported", "[sim]") {
+TEST_CASE("poisson: zero in, zero out, too few iterations are reported", "[sim]") {
   const PoissonSystem system = systemOf(20, everywhere);
   std::vector<double> x(system.numbering.size(), 3.0);
   CHECK(solvePoisson(system, {}, std::vector<double>(x.size(), 0.0), x, 1e-6, 10).converged);

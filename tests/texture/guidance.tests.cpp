@@ -205,7 +205,7 @@ TEST_CASE("guidance: each part of a first frame shows what is wanted there, by e
   CHECK(fitting(synthesize(synthesizer, free, {}, 1, 0.0, stats), byHeight) < 0.8);
 }
 
-TEST_CASE("guidance: texture that no longer fits is renewed over time; what fits comes to rest") {
+TEST_CASE("guidance: texture that no longer fits is renewed over time, what fits comes to rest") {
   const SynthesisOptions options = smallOptions();
   Synthesizer synthesizer = twoKindsSynthesizer(options);
   SynthesisStats stats;
@@ -213,7 +213,7 @@ TEST_CASE("guidance: texture that no longer fits is renewed over time; what fits
   const auto rest = [&](const std::function<float(const Vec3f&)>& wanted, int first, int frames) {
     for (int frame = first; frame < first + frames; ++frame) {
       Start start = resting(last, wanted);
-      last = synthesize(synthesizer, std::move(start.surface), start.carried, frame, 0.1, stats);
+      last = synthesize(synthesizer, std::move(start.surface), start.carried, frame, 0.04, stats);
     }
   };
   rest(byHeight, 2, 10);
@@ -223,8 +223,10 @@ TEST_CASE("guidance: texture that no longer fits is renewed over time; what fits
   const auto turned = [](const Vec3f& x) { return 1.0f - byHeight(x); };
   rest(turned, 12, 1);
   CHECK(stats.renewed > 0.02);
-  CHECK(stats.renewed < 0.75);  // not all at once
-  CHECK(fitting(last, turned) < 0.6);
+  // Not all at once: 2.4 of the sphere a second is a tenth in discs, and their rims make that 2.6 times as
+  // much.
+  CHECK(stats.renewed < 0.35);
+  CHECK(fitting(last, turned) < 0.4);
   rest(turned, 13, 24);
   CHECK(fitting(last, turned) > 0.9);
 }

@@ -74,7 +74,7 @@ TEST_CASE("point scale: it rises nowhere faster than it may, and is the given on
     CHECK(gentle.scale(p) == Approx(linear(grid->indexToWorld(Vec3d(p)))).margin(1e-4));
 }
 
-TEST_CASE("point scale: factors are brought into their range; another number of them is refused") {
+TEST_CASE("point scale: factors are brought into their range, another number of them is refused") {
   const auto grid = sphereGrid(1.0, kVoxel);
   const auto scaleEverywhere = [&](double factor) {
     LevelSet phi(*grid);
@@ -155,7 +155,7 @@ TEST_CASE("point scale: at rest nothing moves, unless the scale does") {
   CHECK(variation(larger) <= 0.15);
 }
 
-TEST_CASE("point scale: the number of points for a spacing and back; coarser levels; any number of threads") {
+TEST_CASE("point scale: the number of points for a spacing and back, coarser levels, any number of threads") {
   const auto grid = sphereGrid(1.0, kVoxel);
   const double spacing = spacingForPoints(*grid, 4000, kRising);
   const auto run = [&](std::size_t threads) {

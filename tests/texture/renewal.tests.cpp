@@ -30,7 +30,7 @@ bool onTop(const Vec3f& x) {
 }  // namespace
 
 TEST_CASE(
-    "renewal: whole, unstretched texture is left alone; stretched texture gets discs, the lost is renewed at "
+    "renewal: whole, unstretched texture is left alone, stretched texture gets discs, the lost is renewed at "
     "once") {
   const OrientedMesh surface = flatBox(48);
   const TexelImage image = makeTexelImage(blobImage(100, 100, 3, 10.0, 1), false, 4);

@@ -333,7 +333,7 @@ TEST_CASE("synthesize: alpha is matched and looked up") {
   CHECK(mean == Approx(0.5).margin(0.12));
 }
 
-TEST_CASE("synthesize: no surface gives no texture; wrong sizes are refused") {
+TEST_CASE("synthesize: no surface gives no texture, wrong sizes are refused") {
   const SynthesisOptions options = smallOptions();
   Synthesizer synthesizer =
       makeSynthesizer(makeExemplar(blobImage(40, 40, 4, 12.0, 2), false, options, 1), options);

@@ -54,7 +54,7 @@ TEST_CASE("removeTemporaries: takes away what a killed run left, and only that",
   CHECK(filesIn(scratch.path) == std::vector<std::string>{"0001.png"});
 }
 
-TEST_CASE("removeFolderAtomically: the folder goes with all in it; one that is not there is no fault",
+TEST_CASE("removeFolderAtomically: the folder goes with all in it, one that is not there is no fault",
           "[tools]") {
   const Scratch scratch;
   writeTextAtomically(scratch.path / "0007" / "a" / "b", "x");

@@ -55,7 +55,7 @@ TEST_CASE("contact sheet: pictures in rows, scaled alike, with their names", "[t
   CHECK_THROWS_AS(writeContactSheet({}, 1, 100, file), std::runtime_error);
 }
 
-TEST_CASE("compare table: means over the frames after the first surface; what is not known stays unknown",
+TEST_CASE("compare table: means over the frames after the first surface, what is not known stays unknown",
           "[tools]") {
   const Scratch scratch;
   std::ofstream(scratch.path / "run.json") << R"({"frames": [

@@ -56,7 +56,7 @@ TEST_CASE("texture scale: by nothing, by height, by the distance from the neares
   CHECK(scaleIn(heat, hot)({Vec3f(1, 1, 1), Vec3f(50, 0, 0)}) == std::vector<float>{2.0f, 1.0f});
 }
 
-TEST_CASE("texture scale: from a painted volume; a file without one is refused") {
+TEST_CASE("texture scale: from a painted volume, a file without one is refused") {
   const Scratch folder;
   const std::filesystem::path file = folder.path / "paint.vdb";
   openvdb::initialize();
