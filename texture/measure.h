@@ -67,6 +67,17 @@ struct Change {
   double ratio = 0.0;  // the same less what that reading costs, over shuffled vertices': 0 carried, 1 fresh
 };
 
+// What the flow alone asks for in a frame, whatever the texture: by what `renewed` and `change` can be judged.
+struct FlowWear {
+  // Share of the texture that the frame wears out, if none is to be squeezed or drawn out by more than 1.4:
+  // mean over the vertices of min(1, e / (2 log 1.4)), e being the greater principal strain (logarithmic) of
+  // the surface since the last frame.
+  double worn = 0.0;
+  // `change` if all that is worn gives way over its whole life, evenly, to texture that has nothing to do
+  // with it: sqrt(2) times the deviation of the exemplar's luminance times the rms of the same share.
+  double change = 0.0;
+};
+
 inline constexpr float kNewSurface = 0.5f;
 
 // Judges frames against one exemplar; what belongs to the exemplar is made when first asked for, and kept.
@@ -91,5 +102,8 @@ std::optional<Pieces> measurePieces(const TexturedSurface& surface, const Image&
 // after.previousPosition lies on `before`. Nothing where no vertex was there before.
 std::optional<Change> measureChange(const TexturedSurface& before, const TexturedSurface& after,
                                     const Image& color, bool toroidal);
+
+// Nothing where no vertex was there before.
+std::optional<FlowWear> measureFlowWear(const TexturedSurface& surface, const Image& color);
 
 }  // namespace fluidtex::texture

@@ -17,10 +17,6 @@ constexpr float kStep = 1.0f / 255.0f;  // of a file's colours: a smaller differ
 // measured on sheets whose texture moved exactly.
 constexpr double kBetween = 0.57;
 
-double luminance(const Vec3f& color) {
-  return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
-}
-
 double meanDifference(const Vec3f& a, const Vec3f& b) {
   return (std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2])) / 3.0;
 }

@@ -18,15 +18,6 @@ constexpr double kBend = 40.0;  // degrees a tile may bend
 constexpr double kReach = 1.6;  // spacings: farther from all vertices a texel is off the surface
 constexpr double kOff = 0.02;   // share of a tile's texels that may be off or face the other way
 
-SurfaceMesh meshOf(const TexturedSurface& surface) {
-  SurfaceMesh mesh;
-  mesh.spacing = surface.spacing;
-  mesh.positions = surface.positions;
-  mesh.normals = surface.normals;
-  mesh.triangles = surface.triangles;
-  return mesh;
-}
-
 float distance2(const Vec3f& a, const Vec3f& b) {
   return (a - b).lengthSqr();
 }
@@ -162,6 +153,20 @@ void readTile(const Tile& tile, const std::vector<float>& values, int channels, 
 }
 
 }  // namespace
+
+SurfaceMesh meshOf(const TexturedSurface& surface) {
+  SurfaceMesh mesh;
+  mesh.spacing = surface.spacing;
+  mesh.positions = surface.positions;
+  mesh.normals = surface.normals;
+  mesh.orientation = surface.orientation;
+  mesh.triangles = surface.triangles;
+  return mesh;
+}
+
+double luminance(const Vec3f& color) {
+  return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
+}
 
 double Dice::unit() {
   return randomUnit(m_seed, m_counter++);

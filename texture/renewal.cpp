@@ -127,6 +127,28 @@ float growthOf(const Labels& labels, const std::vector<float>& trust,
   return float(double(members.size()) / texels);
 }
 
+// Round discs leave a third of a plane between them. What is wanted there joins the disc that reaches it
+// first, within `rings` rings: left for later, it would wait until all around it has faded in.
+template <typename Wanted>
+void fillBetween(const VertexGraph& graph, int rings, const Wanted& wanted, std::vector<Disc>& discs) {
+  std::vector<std::uint8_t> taken(graph.first.size() - 1, 0);
+  for (const Disc& disc : discs)
+    for (const std::uint32_t v : disc.members) taken[v] = 1;
+  std::vector<std::size_t> front(discs.size(), 0);  // where a disc's outermost members begin
+  for (int ring = 0; ring < rings; ++ring)
+    for (std::size_t d = 0; d < discs.size(); ++d) {
+      std::vector<std::uint32_t>& members = discs[d].members;
+      const std::size_t end = members.size();
+      for (std::size_t i = front[d]; i < end; ++i)
+        for (const std::uint32_t u : graph.around(members[i])) {
+          if (taken[u] || !wanted(u)) continue;
+          taken[u] = 1;
+          members.push_back(u);
+        }
+      front[d] = end;
+    }
+}
+
 }  // namespace
 
 Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<float>& trust) {
@@ -150,6 +172,7 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
   const std::vector<float>& bad = wear.bad;
   const auto young = [&](std::uint32_t v) { return fading[v] > 0.0f && believed(trust[v]); };
   const auto kept = float(std::log(options.keepStretch));
+  const auto urgent = [&](std::uint32_t v) { return wear.stretch[v] >= kUrgent * kept; };
   std::vector<std::uint32_t> candidates = gathered<std::uint32_t>(count, [&](std::uint32_t v, auto& list) {
     if (!young(v) && bad[v] > kept * (kEarliest + (1.0f - kEarliest) * noiseAt(labels[v].texel, seed)))
       list.push_back(v);
@@ -163,7 +186,7 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
   double covered = 0.0;
   for (const std::uint32_t center : candidates) {
     // A budget of less than a vertex is none.
-    if (wear.stretch[center] < kUrgent * kept && covered + 1.0 > options.budget * double(count)) continue;
+    if (!urgent(center) && covered + 1.0 > options.budget * double(count)) continue;
     if (near[center]) continue;
     Disc disc{center, surroundings.within(center, double(kDiscShare) * options.radius), 1.0f};
     const auto fresh = std::count_if(disc.members.begin(), disc.members.end(), young);
@@ -173,12 +196,15 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
       continue;
     }
     std::erase_if(disc.members, young);
-    disc.growth = growthOf(labels, trust, disc.members);
     covered += double(disc.members.size());
     for (const std::uint32_t v : surroundings.within(center, double(kDiscsApart) * options.radius))
       near[v] = 1;
     discs.push_back(std::move(disc));
   }
+  const auto reach = int(std::ceil(double(kDiscsApart - kDiscShare) * options.radius));
+  fillBetween(
+      model.view.graph, reach, [&](std::uint32_t v) { return urgent(v) && !young(v); }, discs);
+  for (Disc& disc : discs) disc.growth = growthOf(labels, trust, disc.members);
   return discs;
 }
 

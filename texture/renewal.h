@@ -45,7 +45,8 @@ Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<
 // Discs around the worst places, worst first, until the budget is used: where wear is worse than that of
 // texture stretched by keepStretch. The threshold varies from half of that (log), smoothly over the exemplar,
 // so that neighbours do not renew at once. What still takes the place of older texture (`fading`, its weight)
-// is no member, and discs that hold much of it are left for later.
+// is no member, and discs that hold much of it are left for later. What is stretched far more than that, and
+// lies between discs, joins the nearest.
 std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,
                              const std::vector<float>& trust, const std::vector<float>& fading,
                              const DiscOptions& options, std::uint64_t seed);

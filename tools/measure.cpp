@@ -19,11 +19,11 @@ namespace {
 
 // Keys of a frame, and heads of the columns that show them.
 constexpr std::pair<const char*, const char*> kColumns[] = {
-    {"likeness", "likeness"},  {"sharpness", "sharp"}, {"coverage", "coverage"},
-    {"repeats", "repeats"},    {"shape", "shape"},     {"seams", "seams"},
-    {"joints", "joints"},      {"chips", "chips"},     {"pop", "pop"},
-    {"change", "change"},      {"renewed", "renewed"}, {"change_along_flow", "along flow"},
-    {"coherence", "coherence"}};
+    {"likeness", "likeness"},   {"sharpness", "sharp"}, {"coverage", "coverage"},
+    {"repeats", "repeats"},     {"shape", "shape"},     {"seams", "seams"},
+    {"joints", "joints"},       {"chips", "chips"},     {"pop", "pop"},
+    {"change", "change"},       {"renewed", "renewed"}, {"change_along_flow", "along flow"},
+    {"coherence", "coherence"}, {"worn", "worn"},       {"least_change", "least"}};
 
 class Measurer {
  public:
@@ -46,8 +46,10 @@ class Measurer {
         addLikeness(row, judge(surface, n == 0 || n + 1 == frames.size()));
         addPieces(row, texture::measurePieces(surface, m_run.color, m_run.toroidal));
       }
-      if (n > 0 && frames[n - 1] == frame - 1)
+      if (n > 0 && frames[n - 1] == frame - 1) {
         addChange(row, texture::measureChange(before, surface, m_run.color, m_run.toroidal));
+        addFlowWear(row, texture::measureFlowWear(surface, m_run.color));
+      }
       if (!m_wishes.quiet && row.size() > 2) printRow(fmt::format("{}", frame), row);
       rows.push_back(std::move(row));
       before = std::move(surface);
@@ -96,6 +98,11 @@ class Measurer {
     row["renewed"] = found->renewed;
     row["change_along_flow"] = found->alongFlow;
     row["coherence"] = found->ratio;
+  }
+  static void addFlowWear(Json& row, const std::optional<texture::FlowWear>& found) {
+    if (!found) return;
+    row["worn"] = found->worn;
+    row["least_change"] = found->change;
   }
 
   // Of every key over the frames that have it.

@@ -222,6 +222,34 @@ TEST_CASE("measure: what is carried does not change", "[texture]") {
   CHECK(renewed->change > 10.0 * carried->change + 0.01);
 }
 
+TEST_CASE("measure: what the flow wears out follows from its strain, whatever the texture", "[texture]") {
+  const Image picture = paint(64, 64, [](float, float y, float* c) {
+    c[0] = c[1] = c[2] = int(y) % 16 < 8 ? 0.0f : 1.0f, c[3] = 1.0f;
+  });
+  const auto still = measureFlowWear(sheet(picture, asItIs), picture);
+  REQUIRE(still);
+  CHECK_THAT(still->worn, WithinAbs(0.0, 1e-5));
+  CHECK_THAT(still->change, WithinAbs(0.0, 1e-5));
+
+  // Drawn out along x by 5%, squeezed as much across.
+  const float strain = 0.05f;
+  const auto drawn = [&](const Layout& layout) {
+    TexturedSurface surface = sheet(picture, layout);
+    for (Vec3f& x : surface.previousPosition)
+      x = Vec3f(x.x() * std::exp(-strain), x.y() * std::exp(strain), x.z());
+    return measureFlowWear(surface, picture);
+  };
+  const auto found = drawn(asItIs);
+  REQUIRE(found);
+  const double worn = strain / (2.0 * std::log(1.4));
+  CHECK_THAT(found->worn, WithinAbs(worn, 0.02 * worn));
+  CHECK(drawn(turned)->worn == found->worn);
+  CHECK_THAT(found->change, WithinAbs(std::sqrt(2.0) * 0.5 * found->worn, 0.02 * found->worn));
+
+  TexturedSurface fresh = sheet(picture, asItIs, false);
+  CHECK_FALSE(measureFlowWear(fresh, picture));
+}
+
 TEST_CASE("measure: renewed surface changes by what is shown instead", "[texture]") {
   // Light above, dark below: a vertex that goes from one to the other changes by their difference.
   const Image picture = paint(64, 64, [](float, float y, float* c) {

@@ -1,0 +1,46 @@
+#include "texture/look_ahead.h"
+#include "texture/measure.h"
+#include "texture/measure_tiles.h"
+#include "texture/passes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::texture {
+namespace {
+
+// Laid squeezed by this, drawn out to as much.
+constexpr double kShape = 1.4;
+
+double deviationOfLuminance(const Image& picture) {
+  double sum = 0.0, squares = 0.0;
+  const double count = double(picture.width) * picture.height;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const double value = luminance(Vec3f(picture.at(x, y)));
+      sum += value, squares += value * value;
+    }
+  return std::sqrt(std::max(0.0, squares / count - sum / count * sum / count));
+}
+
+}  // namespace
+
+std::optional<FlowWear> measureFlowWear(const TexturedSurface& surface, const Image& color) {
+  const SurfaceMesh mesh = meshOf(surface);
+  const PreparedMesh prepared(mesh);
+  const std::vector<Strain> strain =
+      strainRates(prepared.view(), surface.previousPosition, surface.trust, 1.0);
+  double sum = 0.0, squares = 0.0;
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < strain.size(); ++v) {
+    if (surface.trust[v] < kNewSurface) continue;
+    const double worn = std::min(1.0, double(largest(strain[v])) / (2.0 * std::log(kShape)));
+    sum += worn, squares += worn * worn;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return FlowWear{sum / double(count),
+                  std::sqrt(2.0 * squares / double(count)) * deviationOfLuminance(seenPicture(color))};
+}
+
+}  // namespace fluidtex::texture
