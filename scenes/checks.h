@@ -1,5 +1,4 @@
-// What needs several keys of a scene at once: defaults that follow from other keys, and settings that do not
-// go together.
+// Settings that do not go together: what needs several keys of a scene at once.
 #pragma once
 
 #include "scenes/reader.h"
@@ -7,11 +6,15 @@
 
 namespace fluidtex::scenes {
 
-// Fills in what was not given and has no fixed default.
-void complete(Scene& scene, const Reader& reader);
-
 // Adds a fault for each combination that cannot work. Keys that have a fault of their own already are left
 // alone.
 void check(const Scene& scene, Reader& reader);
+
+// Its parts: a shape, and files that are one shape after the other, at `path`; domain, bodies, flows, heat;
+// the texture on them.
+void checkShape(const sim::Shape& shape, const std::string& path, Reader& reader);
+void checkSequence(const sim::MeshSequence& sequence, const std::string& path, Reader& reader);
+void checkLiquid(const Scene& scene, Reader& reader);
+void checkTexture(const Scene& scene, Reader& reader);
 
 }  // namespace fluidtex::scenes

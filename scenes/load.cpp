@@ -1,4 +1,5 @@
 #include "scenes/checks.h"
+#include "scenes/complete.h"
 #include "scenes/document.h"
 #include "scenes/faults.h"
 #include "scenes/reader.h"

@@ -1,0 +1,183 @@
+#include "scenes/checks.h"
+#include "scenes/format.h"
+#include "scenes/schema.h"
+
+#include <algorithm>
+#include <map>
+
+namespace fluidtex::scenes {
+namespace {
+
+// A grid needs some cells across to tell liquid, surface and wall apart.
+constexpr double kFewestCells = 4.0;
+
+const char* const kAxes[] = {"x", "y", "z"};
+
+void checkDomain(const Scene& scene, Reader& reader) {
+  if (!reader.clean("domain")) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double cells = scene.sim.size[axis] / scene.sim.voxelSize();
+    if (cells >= kFewestCells) continue;
+    reader.fault("domain.size", std::string(kAxes[axis]) + " is only " + written(cells) + " cells long",
+                 "give a longer side or a higher domain.resolution, so that it is " + written(kFewestCells) +
+                     " or more");
+  }
+}
+
+void checkTimes(double from, double until, const std::string& path, Reader& reader) {
+  if (!reader.clean(path + ".from") || !reader.clean(path + ".until") || from < until) return;
+  reader.fault(path + (reader.given(path + ".until") ? ".until" : ".from"),
+               "until " + written(until) + " s is not after from " + written(from) + " s",
+               "give an until that is greater than from");
+}
+
+// Keyframes and the points of a rate follow each other in time.
+template <class Point>
+void checkOrder(const std::vector<Point>& points, const std::string& path, Reader& reader) {
+  for (std::size_t i = 1; reader.clean(path) && i < points.size(); ++i) {
+    if (points[i - 1].time < points[i].time) continue;
+    reader.fault(
+        path + "." + std::to_string(i) + ".time",
+        written(points[i].time) + " s is not after the one before, at " + written(points[i - 1].time) + " s",
+        "give them in the order of time");
+  }
+}
+
+void checkMotion(const sim::Solid& solid, const std::string& path, Reader& reader) {
+  checkOrder(solid.keyframes, path + ".keyframe", reader);
+  if (reader.clean(path + ".axis") && solid.axis.length() == 0.0)
+    reader.fault(path + ".axis", "has no length", "give the direction it turns about, for example [0, 0, 1]");
+}
+
+void checkHeat(const sim::ViscosityLaw& law, Reader& reader) {
+  if (!reader.clean("heat.law") || !reader.clean("heat.point")) return;
+  const bool table = law.kind == sim::ViscosityLaw::Kind::table;
+  if (table && law.points.size() < 2)
+    reader.fault("heat.law", "\"table\" has fewer than two points",
+                 "give two [[heat.point]] or more, each with a temperature and a viscosity");
+  if (!table && !law.points.empty())
+    reader.fault("heat.point", "is of no use here", "give it together with law = \"table\"");
+  for (std::size_t i = 1; i < law.points.size(); ++i) {
+    if (law.points[i - 1].temperature < law.points[i].temperature) continue;
+    reader.fault("heat.point." + std::to_string(i) + ".temperature",
+                 written(law.points[i].temperature) + " K is not above the one before, " +
+                     written(law.points[i - 1].temperature) + " K",
+                 "give them by rising temperature");
+  }
+}
+
+void checkFlows(const Scene& scene, Reader& reader) {
+  const auto checkPlace = [&](const sim::Shape& shape, const std::string& path) {
+    checkShape(shape, path, reader);
+    if (reader.clean(path) && reader.clean("domain.size") && !reachesDomain(shape, scene.sim.size)) {
+      reader.fault(path, "lies wholly outside the domain",
+                   "put at least a part of it between [0, 0, 0] and " + written(scene.sim.size));
+    }
+  };
+  for (std::size_t i = 0; i < scene.sim.sources.size(); ++i) {
+    const std::string path = "source." + std::to_string(i);
+    checkPlace(scene.sim.sources[i].shape, path);
+    checkTimes(scene.sim.sources[i].from, scene.sim.sources[i].until, path, reader);
+    checkOrder(scene.sim.sources[i].rate, path + ".rate", reader);
+  }
+  for (std::size_t i = 0; i < scene.sim.drains.size(); ++i) {
+    const std::string path = "drain." + std::to_string(i);
+    checkPlace(scene.sim.drains[i].shape, path);
+    checkTimes(scene.sim.drains[i].from, scene.sim.drains[i].until, path, reader);
+  }
+}
+
+void checkWall(const sim::Wall& wall, const std::string& path, Reader& reader) {
+  if (!reader.clean(path + ".wall")) return;
+  if (wall.kind != sim::WallKind::friction && reader.given(path + ".slip_length"))
+    reader.fault(path + ".slip_length", "is of no use here", "give it together with wall = \"friction\"");
+  if (wall.kind == sim::WallKind::slip && reader.given(path + ".wall_velocity"))
+    reader.fault(path + ".wall_velocity", "a wall that slips drags nothing along",
+                 "give it together with wall = \"no_slip\" or \"friction\"");
+}
+
+void checkVolume(const Scene& scene, Reader& reader) {
+  const auto& sides = scene.sim.sides;
+  const bool closed =
+      scene.sim.sources.empty() && scene.sim.drains.empty() &&
+      std::all_of(sides.begin(), sides.end(), [](sim::Side side) { return side == sim::Side::wall; });
+  if (scene.sim.keepVolume && !closed && reader.clean("simulation.keep_volume")) {
+    reader.fault(
+        "simulation.keep_volume",
+        "is for scenes where no liquid comes or goes, and this one has a source, a drain or an open side",
+        "leave it out");
+  }
+}
+
+// A flow in closed form moves what is there from the start, and knows nothing else.
+void checkKnownFlow(const Scene& scene, Reader& reader) {
+  using sim::MotionKind;
+  const MotionKind flow = scene.motion.flow;
+  const auto ofUse = [&](const char* key, std::initializer_list<MotionKind> to, const char* names) {
+    const std::string path = std::string("motion.") + key;
+    if (!reader.given(path) || !reader.clean("motion.flow")) return;
+    if (std::find(to.begin(), to.end(), flow) == to.end())
+      reader.fault(path, "is of no use here", std::string("give it together with flow = ") + names);
+  };
+  ofUse("period", {MotionKind::vortex, MotionKind::deformation}, "\"vortex\" or \"deformation\"");
+  ofUse("rate", {MotionKind::rotation, MotionKind::vortex, MotionKind::stretch, MotionKind::sourceSink},
+        "\"rotation\", \"vortex\", \"stretch\" or \"source_sink\"");
+  if (flow == MotionKind::solver || !reader.clean("motion.flow")) return;
+  for (const char* key : {"solid", "source", "drain"})
+    if (reader.given(key))
+      reader.fault(key, "is of no use with a flow in closed form, which knows of no other bodies",
+                   "leave it out, or give motion.flow = \"solver\"");
+  for (std::size_t i = 0; i < scene.sim.liquid.size(); ++i) {
+    const std::string path = "liquid." + std::to_string(i) + ".from";
+    if (reader.clean(path) && scene.sim.liquid[i].from > 0.0)
+      reader.fault(path, "a flow in closed form moves what is there from the start", "leave it out");
+  }
+}
+
+void checkBodies(const Scene& scene, Reader& reader) {
+  if (scene.sim.liquid.empty() && scene.sim.sources.empty() && reader.clean("liquid") &&
+      reader.clean("source"))
+    reader.fault("liquid", reader.given("liquid") ? "an empty list" : "missing key",
+                 "give at least one [[liquid]] or one [[source]]");
+  for (std::size_t i = 0; i < scene.sim.liquid.size(); ++i) {
+    const std::string path = "liquid." + std::to_string(i);
+    checkShape(scene.sim.liquid[i].shape, path, reader);
+    if (reader.clean(path) && reader.clean("domain.size") &&
+        !reachesDomain(scene.sim.liquid[i].shape, scene.sim.size)) {
+      reader.fault(path, "lies wholly outside the domain",
+                   "put at least a part of it between [0, 0, 0] and " + written(scene.sim.size));
+    }
+  }
+  for (std::size_t i = 0; i < scene.sim.walls.size(); ++i)
+    checkWall(scene.sim.walls[i].wall, "wall." + std::to_string(i), reader);
+  std::map<std::string, std::string> firstOfName;
+  for (std::size_t i = 0; i < scene.sim.solids.size(); ++i) {
+    const sim::Solid& solid = scene.sim.solids[i];
+    const std::string path = "solid." + std::to_string(i);
+    if (const auto* sequence = std::get_if<sim::MeshSequence>(&solid.shape.kind))
+      checkSequence(*sequence, path + ".mesh_sequence", reader);
+    else
+      checkShape(solid.shape, path, reader);
+    checkTimes(solid.from, solid.until, path, reader);
+    checkWall(solid.wall, path, reader);
+    checkMotion(solid, path, reader);
+    if (!reader.clean(path + ".name")) continue;
+    const auto [first, isNew] = firstOfName.emplace(solid.name, path);
+    if (!isNew)
+      reader.fault(path + ".name", "\"" + solid.name + "\" is the name of " + first->second + " too",
+                   "give each solid a name of its own");
+  }
+}
+
+}  // namespace
+
+void checkLiquid(const Scene& scene, Reader& reader) {
+  checkDomain(scene, reader);
+  checkBodies(scene, reader);
+  checkKnownFlow(scene, reader);
+  checkHeat(scene.sim.heat.law, reader);
+  checkFlows(scene, reader);
+  checkVolume(scene, reader);
+}
+
+}  // namespace fluidtex::scenes

@@ -1,0 +1,167 @@
+#include "scenes/checks.h"
+#include "scenes/format.h"
+#include "texture/vector_maps.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+
+namespace fluidtex::scenes {
+namespace {
+
+// As many as texture.points may be.
+constexpr double kMostPoints = 50e6;
+
+// To two digits, as a length that can be recommended.
+double roundedUp(double length) {
+  const double step = std::pow(10.0, std::floor(std::log10(length)) - 1.0);
+  return std::ceil(length / step) * step;
+}
+
+void checkOrientation(const Scene& scene, Reader& reader) {
+  const texture::OrientationOptions& orientation = scene.texture.orientation;
+  const std::string path = "texture.orientation";
+  if (reader.clean(path + ".symmetry") && orientation.symmetry == 3)
+    reader.fault(path + ".symmetry", "3 is no symmetry of square pieces of a picture", "give 1, 2 or 4");
+  if (reader.clean(path + ".align") && orientation.align == texture::Align::curvature &&
+      orientation.symmetry == 1)
+    reader.fault(path + ".align", "the line in which a surface bends has no forward end",
+                 "give symmetry = 2 or 4 with it");
+  if (reader.clean(path + ".direction") && orientation.align == texture::Align::direction &&
+      orientation.direction.length() == 0.0)
+    reader.fault(path + ".direction", "has no length", "give a vector that points somewhere");
+  for (std::size_t i = 0; i < scene.keepClear.size(); ++i)
+    checkShape(scene.keepClear[i], path + ".keep_clear." + std::to_string(i), reader);
+}
+
+void checkCurve(const std::vector<texture::CurvePoint>& points, const std::string& path, Reader& reader) {
+  for (std::size_t i = 1; reader.clean(path) && i < points.size(); ++i) {
+    if (points[i - 1].value < points[i].value) continue;
+    reader.fault(path + "." + std::to_string(i) + ".value",
+                 written(points[i].value) + " is not above the one before, " + written(points[i - 1].value),
+                 "give them by rising value");
+  }
+}
+
+void checkScale(const Scene& scene, Reader& reader) {
+  const texture::ScaleOptions& scale = scene.texture.scale;
+  const std::string path = "texture.scale", by = path + ".by";
+  for (std::size_t i = 0; i < scene.scaleFrom.size(); ++i)
+    checkShape(scene.scaleFrom[i], path + ".from." + std::to_string(i), reader);
+  checkCurve(scale.points, path + ".point", reader);
+  if (!reader.clean(by) || scale.by == texture::ScaleBy::none) return;
+  if (scale.points.empty())
+    reader.fault(by, "is of no use without a factor",
+                 "give one [[texture.scale.point]] or more, each with a value and a factor");
+  if (scale.by == texture::ScaleBy::distance && scene.scaleFrom.empty())
+    reader.fault(by, "\"distance\" is from nothing", "give a shape or more as [[texture.scale.from]]");
+  if (scale.by == texture::ScaleBy::temperature && !scene.sim.heat.simulated)
+    reader.fault(by, "\"temperature\" is not computed", "give simulate = true in [heat] too");
+}
+
+void checkGuidance(const Scene& scene, Reader& reader) {
+  const texture::GuidanceOptions& guidance = scene.texture.guidance;
+  const std::string path = "texture.guidance", by = path + ".by";
+  checkCurve(guidance.points, path + ".point", reader);
+  if (!reader.clean(by) || guidance.by == texture::GuidanceBy::none) return;
+  if (guidance.points.empty())
+    reader.fault(by, "is of no use without a level",
+                 "give two [[texture.guidance.point]] or more, each with a value and a level");
+  if (guidance.by == texture::GuidanceBy::temperature && !scene.sim.heat.simulated)
+    reader.fault(by, "\"temperature\" is not computed", "give simulate = true in [heat] too");
+}
+
+// Names that the vertices of a PLY have anyway.
+const std::set<std::string> kVertexNames = {
+    "x",  "y",     "z",   "nx",      "ny",       "nz",     "red",    "green", "blue", "alpha",
+    "s",  "t",     "dx",  "dy",      "dz",       "bx",     "by",     "bz",    "vx",   "vy",
+    "vz", "trust", "age", "contact", "guidance", "fade_s", "fade_t", "fade",  "scale"};
+
+// Of all properties that the maps before have; a map of vectors has three.
+void checkMapName(const texture::MapOptions& map, std::set<std::string>& names, Reader& reader,
+                  const std::string& key) {
+  std::vector<std::string> own{map.name};
+  if (map.holds != texture::MapHolds::values) {
+    for (const std::string& part : texture::vectorNames(map.name)) own.push_back(part);
+  }
+  bool free = true;
+  for (const std::string& name : own) free &= names.insert(name).second;
+  if (!free)
+    reader.fault(key, "\"" + map.name + "\" is the name of an earlier map too",
+                 "give each map a name of its own");
+}
+
+void checkMaps(const Scene& scene, Reader& reader) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < scene.texture.exemplar.maps.size(); ++i) {
+    const texture::MapOptions& map = scene.texture.exemplar.maps[i];
+    const std::string& name = map.name;
+    const std::string path = "texture.map." + std::to_string(i), key = path + ".name";
+    if (!reader.clean(key)) continue;
+    const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    if (!reader.given(key))
+      reader.fault(path, "has no name", "give name = \"height\" or whatever it holds");
+    else if (!std::all_of(name.begin(), name.end(), fits) ||
+             std::isdigit(static_cast<unsigned char>(name.front())))
+      reader.fault(key, "\"" + name + "\" cannot be the name of a vertex's property",
+                   "give letters, digits and _, a letter first");
+    else if (kVertexNames.contains(name))
+      reader.fault(key, "\"" + name + "\" is what every vertex has anyway", "give another name");
+    else
+      checkMapName(map, names, reader, key);
+  }
+}
+
+}  // namespace
+
+void checkTexture(const Scene& scene, Reader& reader) {
+  checkScale(scene, reader);
+  checkGuidance(scene, reader);
+  checkMaps(scene, reader);
+  checkOrientation(scene, reader);
+  if (!scene.onto.files.empty() && reader.clean("frames")) checkSequence(scene.onto, "texture.onto", reader);
+  const texture::SynthesisOptions& synthesis = scene.texture.synthesis;
+  const std::vector<int>& windows = synthesis.windows;
+  if (reader.clean("texture.windows")) {
+    const auto even =
+        std::find_if(windows.begin(), windows.end(), [](int window) { return window % 2 == 0; });
+    if (even != windows.end()) {
+      reader.fault("texture.windows", std::to_string(*even) + " is even",
+                   "give odd widths, for example " + std::to_string(*even + 1));
+    }
+    const auto notFalling = std::adjacent_find(windows.begin(), windows.end(), std::less_equal<>());
+    if (notFalling != windows.end()) {
+      reader.fault(
+          "texture.windows",
+          std::to_string(*(notFalling + 1)) + " after " + std::to_string(*notFalling) + " does not fall",
+          "give widths from large to small, for example [33, 17, 9]");
+    }
+    const auto checkCount = [&](const std::string& path, const std::vector<int>& iterations) {
+      if (!reader.clean(path) || iterations.size() == windows.size()) return;
+      reader.fault(path,
+                   "a list of " + std::to_string(iterations.size()) + " for " +
+                       std::to_string(windows.size()) + (windows.size() == 1 ? " window" : " windows"),
+                   "give one number for each of texture.windows");
+    };
+    checkCount("texture.first_iterations", synthesis.firstIterations);
+    checkCount("texture.later_iterations", synthesis.laterIterations);
+  }
+  if (!reader.clean("texture.spacing") || !reader.clean("domain.size")) return;
+  const Vec3d& size = scene.sim.size;
+  const double spacing = scene.texture.spacing, shortest = std::min({size[0], size[1], size[2]});
+  if (spacing >= shortest) {
+    reader.fault("texture.spacing",
+                 written(spacing) + " m is as long as the domain's shortest side or longer",
+                 "give less than " + written(shortest) + " m");
+  }
+  const double faces = 2.0 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
+  if (spacing > 0.0 && faces / spacing / spacing > kMostPoints) {
+    reader.fault("texture.spacing",
+                 written(spacing) + " m would put more than " + written(kMostPoints) +
+                     " points on the domain's six faces",
+                 "give " + written(roundedUp(std::sqrt(faces / kMostPoints))) + " m or more");
+  }
+}
+
+}  // namespace fluidtex::scenes
