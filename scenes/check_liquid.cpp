@@ -11,8 +11,6 @@ namespace {
 // A grid needs some cells across to tell liquid, surface and wall apart.
 constexpr double kFewestCells = 4.0;
 
-const char* const kAxes[] = {"x", "y", "z"};
-
 void checkDomain(const Scene& scene, Reader& reader) {
   if (!reader.clean("domain")) return;
   for (int axis = 0; axis < 3; ++axis) {
@@ -66,23 +64,24 @@ void checkHeat(const sim::ViscosityLaw& law, Reader& reader) {
   }
 }
 
+void checkPlace(const sim::Shape& shape, const std::string& path, const Scene& scene, Reader& reader) {
+  checkShape(shape, path, reader);
+  if (reader.clean(path) && reader.clean("domain.size") && !reachesDomain(shape, scene.sim.size)) {
+    reader.fault(path, "lies wholly outside the domain",
+                 "put at least a part of it between [0, 0, 0] and " + written(scene.sim.size));
+  }
+}
+
 void checkFlows(const Scene& scene, Reader& reader) {
-  const auto checkPlace = [&](const sim::Shape& shape, const std::string& path) {
-    checkShape(shape, path, reader);
-    if (reader.clean(path) && reader.clean("domain.size") && !reachesDomain(shape, scene.sim.size)) {
-      reader.fault(path, "lies wholly outside the domain",
-                   "put at least a part of it between [0, 0, 0] and " + written(scene.sim.size));
-    }
-  };
   for (std::size_t i = 0; i < scene.sim.sources.size(); ++i) {
     const std::string path = "source." + std::to_string(i);
-    checkPlace(scene.sim.sources[i].shape, path);
+    checkPlace(scene.sim.sources[i].shape, path, scene, reader);
     checkTimes(scene.sim.sources[i].from, scene.sim.sources[i].until, path, reader);
     checkOrder(scene.sim.sources[i].rate, path + ".rate", reader);
   }
   for (std::size_t i = 0; i < scene.sim.drains.size(); ++i) {
     const std::string path = "drain." + std::to_string(i);
-    checkPlace(scene.sim.drains[i].shape, path);
+    checkPlace(scene.sim.drains[i].shape, path, scene, reader);
     checkTimes(scene.sim.drains[i].from, scene.sim.drains[i].until, path, reader);
   }
 }
@@ -139,15 +138,8 @@ void checkBodies(const Scene& scene, Reader& reader) {
       reader.clean("source"))
     reader.fault("liquid", reader.given("liquid") ? "an empty list" : "missing key",
                  "give at least one [[liquid]] or one [[source]]");
-  for (std::size_t i = 0; i < scene.sim.liquid.size(); ++i) {
-    const std::string path = "liquid." + std::to_string(i);
-    checkShape(scene.sim.liquid[i].shape, path, reader);
-    if (reader.clean(path) && reader.clean("domain.size") &&
-        !reachesDomain(scene.sim.liquid[i].shape, scene.sim.size)) {
-      reader.fault(path, "lies wholly outside the domain",
-                   "put at least a part of it between [0, 0, 0] and " + written(scene.sim.size));
-    }
-  }
+  for (std::size_t i = 0; i < scene.sim.liquid.size(); ++i)
+    checkPlace(scene.sim.liquid[i].shape, "liquid." + std::to_string(i), scene, reader);
   for (std::size_t i = 0; i < scene.sim.walls.size(); ++i)
     checkWall(scene.sim.walls[i].wall, "wall." + std::to_string(i), reader);
   std::map<std::string, std::string> firstOfName;

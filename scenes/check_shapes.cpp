@@ -2,11 +2,7 @@
 #include "scenes/format.h"
 
 namespace fluidtex::scenes {
-namespace {
-
-const char* const kAxes[] = {"x", "y", "z"};
-
-}  // namespace
+namespace {}  // namespace
 
 void checkSequence(const sim::MeshSequence& sequence, const std::string& path, Reader& reader) {
   if (!reader.clean(path)) return;

@@ -1,10 +1,11 @@
 #include "scenes/checks.h"
 #include "scenes/format.h"
-#include "texture/vector_maps.h"
+#include "texture/map_names.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <set>
 
 namespace fluidtex::scenes {
@@ -72,12 +73,6 @@ void checkGuidance(const Scene& scene, Reader& reader) {
     reader.fault(by, "\"temperature\" is not computed", "give simulate = true in [heat] too");
 }
 
-// Names that the vertices of a PLY have anyway.
-const std::set<std::string> kVertexNames = {
-    "x",  "y",     "z",   "nx",      "ny",       "nz",     "red",    "green", "blue", "alpha",
-    "s",  "t",     "dx",  "dy",      "dz",       "bx",     "by",     "bz",    "vx",   "vy",
-    "vz", "trust", "age", "contact", "guidance", "fade_s", "fade_t", "fade",  "scale"};
-
 // Of all properties that the maps before have; a map of vectors has three.
 void checkMapName(const texture::MapOptions& map, std::set<std::string>& names, Reader& reader,
                   const std::string& key) {
@@ -106,47 +101,41 @@ void checkMaps(const Scene& scene, Reader& reader) {
              std::isdigit(static_cast<unsigned char>(name.front())))
       reader.fault(key, "\"" + name + "\" cannot be the name of a vertex's property",
                    "give letters, digits and _, a letter first");
-    else if (kVertexNames.contains(name))
+    else if (texture::isReservedName(name))
       reader.fault(key, "\"" + name + "\" is what every vertex has anyway", "give another name");
     else
       checkMapName(map, names, reader, key);
   }
 }
 
-}  // namespace
-
-void checkTexture(const Scene& scene, Reader& reader) {
-  checkScale(scene, reader);
-  checkGuidance(scene, reader);
-  checkMaps(scene, reader);
-  checkOrientation(scene, reader);
-  if (!scene.onto.files.empty() && reader.clean("frames")) checkSequence(scene.onto, "texture.onto", reader);
+void checkWindows(const Scene& scene, Reader& reader) {
   const texture::SynthesisOptions& synthesis = scene.texture.synthesis;
   const std::vector<int>& windows = synthesis.windows;
-  if (reader.clean("texture.windows")) {
-    const auto even =
-        std::find_if(windows.begin(), windows.end(), [](int window) { return window % 2 == 0; });
-    if (even != windows.end()) {
-      reader.fault("texture.windows", std::to_string(*even) + " is even",
-                   "give odd widths, for example " + std::to_string(*even + 1));
-    }
-    const auto notFalling = std::adjacent_find(windows.begin(), windows.end(), std::less_equal<>());
-    if (notFalling != windows.end()) {
-      reader.fault(
-          "texture.windows",
-          std::to_string(*(notFalling + 1)) + " after " + std::to_string(*notFalling) + " does not fall",
-          "give widths from large to small, for example [33, 17, 9]");
-    }
-    const auto checkCount = [&](const std::string& path, const std::vector<int>& iterations) {
-      if (!reader.clean(path) || iterations.size() == windows.size()) return;
-      reader.fault(path,
-                   "a list of " + std::to_string(iterations.size()) + " for " +
-                       std::to_string(windows.size()) + (windows.size() == 1 ? " window" : " windows"),
-                   "give one number for each of texture.windows");
-    };
-    checkCount("texture.first_iterations", synthesis.firstIterations);
-    checkCount("texture.later_iterations", synthesis.laterIterations);
+  if (!reader.clean("texture.windows")) return;
+  const auto even = std::find_if(windows.begin(), windows.end(), [](int window) { return window % 2 == 0; });
+  if (even != windows.end()) {
+    reader.fault("texture.windows", std::to_string(*even) + " is even",
+                 "give odd widths, for example " + std::to_string(*even + 1));
   }
+  const auto notFalling = std::adjacent_find(windows.begin(), windows.end(), std::less_equal<>());
+  if (notFalling != windows.end()) {
+    reader.fault(
+        "texture.windows",
+        std::to_string(*(notFalling + 1)) + " after " + std::to_string(*notFalling) + " does not fall",
+        "give widths from large to small, for example [33, 17, 9]");
+  }
+  const auto checkCount = [&](const std::string& path, const std::vector<int>& iterations) {
+    if (!reader.clean(path) || iterations.size() == windows.size()) return;
+    reader.fault(path,
+                 "a list of " + std::to_string(iterations.size()) + " for " + std::to_string(windows.size()) +
+                     (windows.size() == 1 ? " window" : " windows"),
+                 "give one number for each of texture.windows");
+  };
+  checkCount("texture.first_iterations", synthesis.firstIterations);
+  checkCount("texture.later_iterations", synthesis.laterIterations);
+}
+
+void checkSpacing(const Scene& scene, Reader& reader) {
   if (!reader.clean("texture.spacing") || !reader.clean("domain.size")) return;
   const Vec3d& size = scene.sim.size;
   const double spacing = scene.texture.spacing, shortest = std::min({size[0], size[1], size[2]});
@@ -162,6 +151,18 @@ void checkTexture(const Scene& scene, Reader& reader) {
                      " points on the domain's six faces",
                  "give " + written(roundedUp(std::sqrt(faces / kMostPoints))) + " m or more");
   }
+}
+
+}  // namespace
+
+void checkTexture(const Scene& scene, Reader& reader) {
+  checkScale(scene, reader);
+  checkGuidance(scene, reader);
+  checkMaps(scene, reader);
+  checkOrientation(scene, reader);
+  if (!scene.onto.files.empty() && reader.clean("frames")) checkSequence(scene.onto, "texture.onto", reader);
+  checkWindows(scene, reader);
+  checkSpacing(scene, reader);
 }
 
 }  // namespace fluidtex::scenes

@@ -10,6 +10,8 @@ namespace fluidtex::scenes {
 // alone.
 void check(const Scene& scene, Reader& reader);
 
+inline constexpr const char* kAxes[] = {"x", "y", "z"};
+
 // Its parts: a shape, and files that are one shape after the other, at `path`; domain, bodies, flows, heat;
 // the texture on them.
 void checkShape(const sim::Shape& shape, const std::string& path, Reader& reader);

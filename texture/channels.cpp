@@ -4,6 +4,8 @@
 
 #include "texture/channels.h"
 
+#include "texture/srgb.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -138,8 +140,7 @@ Image featureLuminance(const Image& encoded) {
   Image result = likeSize(encoded, 1);
   for (std::size_t i = 0; i < result.data.size(); ++i) {
     const float* p = encoded.data.data() + i * std::size_t(encoded.channels);
-    const float luminance = 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
-    result.data[i] = encoded.channels > 3 ? 0.5f * (luminance + p[3]) : luminance;
+    result.data[i] = encoded.channels > 3 ? 0.5f * (luminance(p) + p[3]) : luminance(p);
   }
   return result;
 }

@@ -34,7 +34,7 @@ class Flattener {
   void flatten(std::uint32_t center, double half) {
     m_half = half;
     place(center);
-    for (int sweep = 0; sweep < kRelaxationSweeps; ++sweep) relax();
+    relax();  // once: more make edges little better
     findReach();
   }
 
@@ -48,7 +48,6 @@ class Flattener {
   }
 
  private:
-  static constexpr int kRelaxationSweeps = 1;  // more make edges little better
   // Vertices are placed this far beyond the window, so that the pixels at its edge find their triangles.
   static constexpr double kMargin = 0.7;
   // Areas of flattened triangles over their areas in space outside [1 / kMaxAreaChange, kMaxAreaChange] end a

@@ -18,6 +18,7 @@ constexpr int kPlaces = 96;         // drawn at random
 constexpr int kCompared = 24;       // the least used of them
 constexpr int kUsageCells = 12;     // along the exemplar's shorter side
 constexpr std::size_t kStride = 3;  // every third vertex is compared
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 // How differently a block with its middle at `center` looks from what is there.
 float difference(const TexelImage& image, const Neighborhoods& blocks, std::size_t p, const Vec2f& center,
@@ -32,21 +33,20 @@ float difference(const TexelImage& image, const Neighborhoods& blocks, std::size
 
 }  // namespace
 
-void startAfresh(const MeshView& view, const TexelImage& image, const std::vector<Disc>& discs,
+void startAfresh(const MeshView& view, const TexelImage& image, const std::vector<Disc>& discs, double radius,
                  const Values& value, std::uint64_t seed, Labels& labels) {
   std::vector<std::uint32_t> centers;
-  float reach = 0.0f;
+  const auto reach = float(kDiscShare * radius);
   const auto fits = [&](const Disc& disc) {
     float cost = 0.0f;
     for (const std::uint32_t v : disc.members) cost += guidanceCost(image, view.mesh, labels[v].texel, v);
     return cost <= kFreshGuidance * float(disc.members.size());
   };
+  std::vector<std::uint32_t> owner(labels.size(), kNone);  // the place among `centers`
   for (const Disc& disc : discs) {
     if (disc.growth <= kFreshGrowth && fits(disc)) continue;
+    for (const std::uint32_t v : disc.members) owner[v] = std::uint32_t(centers.size());
     centers.push_back(disc.center);
-    for (const std::uint32_t v : disc.members)
-      reach = std::max(reach, (view.mesh.positions[v] - view.mesh.positions[disc.center]).length() /
-                                  float(view.mesh.spacingAt(disc.center)));
   }
   if (centers.empty()) return;
 
@@ -73,12 +73,17 @@ void startAfresh(const MeshView& view, const TexelImage& image, const std::vecto
       if (d < least) least = d, chosen[p] = places[std::size_t(i)].second;
     }
   });
+  std::vector<std::uint8_t> wanted(labels.size(), 0), placed = wanted;
+  for (std::size_t v = 0; v < labels.size(); ++v) wanted[v] = owner[v] != kNone;
   for (std::size_t p = 0; p < centers.size(); ++p)
     for (std::size_t i = blocks.first[p]; i < blocks.first[p + 1]; ++i) {
+      const std::uint32_t v = blocks.vertex[i];
       const Vec2f& l = blocks.offset[i];
-      if (l.lengthSqr() > reach * reach) continue;
-      labels[blocks.vertex[i]] = unstretched(image.brought(chosen[p] + l), blocks.turn[i]);
+      if (owner[v] != p || l.lengthSqr() > reach * reach) continue;
+      labels[v] = unstretched(image.brought(chosen[p] + l), blocks.turn[i]);
+      placed[v] = 1;
     }
+  handOn(image, view, wanted, std::move(placed), labels);
 }
 
 }  // namespace fluidtex::texture

@@ -165,4 +165,33 @@ Label continued(const TexelImage& image, const Label& label, const Complexf& edg
   return result;
 }
 
+void handOn(const TexelImage& image, const MeshView& view, const std::vector<std::uint8_t>& wanted,
+            std::vector<std::uint8_t> placed, Labels& labels) {
+  std::vector<std::uint32_t> front, next;
+  std::vector<std::uint8_t> reached = placed;
+  for (std::uint32_t v = 0; v < placed.size(); ++v)
+    if (placed[v]) front.push_back(v);
+  while (!front.empty()) {
+    next.clear();
+    for (const std::uint32_t v : front)
+      for (const std::uint32_t u : view.graph.around(v)) {
+        if (reached[u] || !wanted[u]) continue;
+        reached[u] = 1;
+        next.push_back(u);
+      }
+    for (const std::uint32_t v : next) {
+      float nearest = std::numeric_limits<float>::infinity();
+      std::uint32_t from = 0;
+      for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
+        const float distance = std::norm(view.connection.edge[h]);
+        if (placed[view.graph.neighbor[h]] && distance < nearest) nearest = distance, from = h;
+      }
+      labels[v] = continued(image, labels[view.graph.neighbor[from]], view.connection.edge[from],
+                            view.connection.rotation[from]);
+    }
+    for (const std::uint32_t v : next) placed[v] = 1;
+    front.swap(next);
+  }
+}
+
 }  // namespace fluidtex::texture

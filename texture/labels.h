@@ -62,6 +62,11 @@ inline Vec2f texelDifference(const TexelImage& image, const Vec2f& a, const Vec2
 // own.
 Label continued(const TexelImage& image, const Label& label, const Complexf& edge, const Complexf& rotation);
 
+// Continues the labels of `placed` vertices (#V) ring by ring over the `wanted` ones (#V) that hang together
+// with them; each takes that of the nearest neighbour that has one.
+void handOn(const TexelImage& image, const MeshView& view, const std::vector<std::uint8_t>& wanted,
+            std::vector<std::uint8_t> placed, Labels& labels);
+
 // Two labels continue each other where each puts, at the other's place, a texel this near to the other's (the
 // mean of both).
 inline constexpr float kCoherent = 0.75f;

@@ -17,11 +17,13 @@ namespace {
 
 // Around discs, this many rings may change with them, so that seams find a place.
 constexpr int kRim = 5;
+// Of what is renewed where the flow wears out much, discs are this share, and the rest lies between them.
+constexpr double kDiscsOfAll = 0.65;
 // How near joined labels stay to the last average.
 constexpr float kData = 0.4f;
-// New texture is compressed by at most this many times what is kept (log), and never so much that flattening
-// takes the strained surface for a folded one.
-constexpr double kMostAhead = 1.45, kMostStrain = 0.45;
+// New texture is squeezed by kMostAhead, and never so much (log) that flattening takes the strained surface
+// for a folded one.
+constexpr double kMostStrain = 0.45;
 // Vertices that stand for the surface at half its detail lie 1 to 2 of its pixels apart.
 constexpr float kHalfRadius = 0.8f;
 
@@ -35,7 +37,7 @@ Labels halved(const Labels& labels, const TexelImage& half) {
   return result;
 }
 
-// Labels of members at full detail, handed on ring by ring to the wanted vertices between them.
+// Labels of members at full detail, handed on to the wanted vertices between them.
 void spread(const TexelImage& image, const MeshView& view, const std::vector<std::uint8_t>& wanted,
             const Labels& coarse, Labels& labels) {
   std::vector<std::uint8_t> placed(labels.size(), 0);
@@ -44,25 +46,7 @@ void spread(const TexelImage& image, const MeshView& view, const std::vector<std
     labels[v] = {image.brought(coarse[v].texel * 2.0f + Vec2f(0.5f, 0.5f)), coarse[v].jacobian};
     placed[v] = 1;
   }
-  for (bool more = true; more;) {
-    more = false;
-    std::vector<std::uint8_t> next = placed;
-    for (std::uint32_t v = 0; v < labels.size(); ++v) {
-      if (!wanted[v] || placed[v]) continue;
-      float nearest = 1e30f;
-      std::uint32_t from = 0;
-      for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
-        const float distance = std::norm(view.connection.edge[h]);
-        if (placed[view.graph.neighbor[h]] && distance < nearest) nearest = distance, from = h;
-      }
-      if (nearest == 1e30f) continue;
-      labels[v] = continued(image, labels[view.graph.neighbor[from]], view.connection.edge[from],
-                            view.connection.rotation[from]);
-      next[v] = 1;
-      more = true;
-    }
-    placed.swap(next);
-  }
+  handOn(image, view, wanted, std::move(placed), labels);
 }
 
 // Lays out what is wanted at half the surface's detail, where features are half as large and their scale is
@@ -127,8 +111,10 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   const SeamModel seams = seamModel(synthesizer, view, 0);
   const Labels before = strained(carriedLabels, ahead);
 
-  const DiscOptions discOptions{options.keepStretch, options.renewalRadius,
-                                options.renewalRate * secondsSinceLast};
+  const double budget = options.renewalRate * secondsSinceLast;
+  const DiscOptions discOptions{
+      options.keepStretch, options.renewalRadius, budget,
+      std::max(budget, kDiscsOfAll * wornShare(rates, secondsSinceLast, options.keepStretch))};
   const std::vector<Disc> discs =
       worstDiscs(seams, carriedLabels, wear, carried.trust, carried.fading.weight, discOptions, options.seed);
   std::vector<std::uint8_t> inDiscs(count, 0);
@@ -151,7 +137,8 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   state.labels = before;
   state.average = lookUp(image, before);
   holdGuidance(image, view.mesh, state.average);
-  startAfresh(view, image, discs, state.average, keyOf(synthesizer, frame, 0, 2), state.labels);
+  startAfresh(view, image, discs, options.renewalRadius, state.average, keyOf(synthesizer, frame, 0, 2),
+              state.labels);
   startFromNothing(synthesizer, surface, view, carried.trust, frame, state.labels, stats);
   if (tables.image.size() > 1) layOut(synthesizer, view, level.wanted, frame, state.labels, stats, progress);
   state.value = lookUp(image, state.labels);

@@ -1,5 +1,5 @@
 // The surface as it will be a while from now: texture that is laid for it is compressed where the flow draws
-// it out, and lasts more than twice as long before it is stretched too much.
+// it out, and lasts up to twice as long before it is stretched too much.
 #pragma once
 
 #include "texture/labels.h"

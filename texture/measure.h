@@ -1,6 +1,7 @@
-// How good the texture of a run is, in figures. Colours are sRGB-encoded and lie in 0..1, what is see-through is
-// seen before mid grey; lengths are in texels: one is the surface's spacing. Ratios to the exemplar are taken to the exemplar laid on the same
-// vertices and read back the same way, so that they do not depend on the mesh.
+// How good the texture of a run is, in figures. Colours are sRGB-encoded and lie in 0..1, what is see-through
+// is seen before mid grey; lengths are in texels: one is the surface's spacing. Ratios to the exemplar are
+// taken to the exemplar laid on the same vertices and read back the same way, so that they do not depend on
+// the mesh.
 #pragma once
 
 #include "texture/exemplar.h"
@@ -67,7 +68,8 @@ struct Change {
   double ratio = 0.0;  // the same less what that reading costs, over shuffled vertices': 0 carried, 1 fresh
 };
 
-// What the flow alone asks for in a frame, whatever the texture: by what `renewed` and `change` can be judged.
+// What the flow alone asks for in a frame, whatever the texture: by what `renewed` and `change` can be
+// judged.
 struct FlowWear {
   // Share of the texture that the frame wears out, if none is to be squeezed or drawn out by more than 1.4:
   // mean over the vertices of min(1, e / (2 log 1.4)), e being the greater principal strain (logarithmic) of
@@ -103,7 +105,10 @@ std::optional<Pieces> measurePieces(const TexturedSurface& surface, const Image&
 std::optional<Change> measureChange(const TexturedSurface& before, const TexturedSurface& after,
                                     const Image& color, bool toroidal);
 
-// Nothing where no vertex was there before.
-std::optional<FlowWear> measureFlowWear(const TexturedSurface& surface, const Image& color);
+// Standard deviation of an exemplar's luminance, as it is seen. color: linear RGBA.
+double deviationOfLuminance(const Image& color);
+
+// Nothing where no vertex was there before. deviation: the exemplar's, as above.
+std::optional<FlowWear> measureFlowWear(const TexturedSurface& surface, double deviation);
 
 }  // namespace fluidtex::texture

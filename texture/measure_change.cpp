@@ -3,6 +3,7 @@
 #include "texture/measure_tiles.h"
 #include "texture/parallel.h"
 #include "texture/point_grid.h"
+#include "texture/srgb.h"
 
 #include <algorithm>
 #include <cmath>
@@ -186,7 +187,7 @@ std::optional<Change> measureChange(const TexturedSurface& before, const Texture
     vertex.same = coordinates.difference(shown, carried).length() < kSame;
     const Vec3f now = is.exemplar(shown) + is.beside[v];
     const Vec3f then = is.exemplar(vertex.same ? shown : carried) + landing->mean(was.beside);
-    vertex.change = luminance(now) - luminance(then);
+    vertex.change = double(luminance(now.asPointer()) - luminance(then.asPointer()));
   });
   Change result;
   std::vector<float> pops;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace fluidtex::texture {
 namespace {
@@ -13,10 +14,10 @@ namespace {
 using std::numbers::pi;
 
 constexpr float kMidGrey = 0.5f;  // sRGB-encoded, behind what is see-through
-constexpr int kSlides = 3;      // onto the surface along the tile's normal
-constexpr double kBend = 40.0;  // degrees a tile may bend
-constexpr double kReach = 1.6;  // spacings: farther from all vertices a texel is off the surface
-constexpr double kOff = 0.02;   // share of a tile's texels that may be off or face the other way
+constexpr int kSlides = 3;        // onto the surface along the tile's normal
+constexpr double kBend = 40.0;    // degrees a tile may bend
+constexpr double kReach = 1.6;    // spacings: farther from all vertices a texel is off the surface
+constexpr double kOff = 0.02;     // share of a tile's texels that may be off or face the other way
 
 float distance2(const Vec3f& a, const Vec3f& b) {
   return (a - b).lengthSqr();
@@ -160,12 +161,9 @@ SurfaceMesh meshOf(const TexturedSurface& surface) {
   mesh.positions = surface.positions;
   mesh.normals = surface.normals;
   mesh.orientation = surface.orientation;
+  mesh.scale = surface.scale;
   mesh.triangles = surface.triangles;
   return mesh;
-}
-
-double luminance(const Vec3f& color) {
-  return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
 }
 
 double Dice::unit() {

@@ -6,7 +6,6 @@
 #include "texture/tangent.h"
 
 #include <array>
-#include <optional>
 #include <vector>
 
 namespace fluidtex::texture {
@@ -76,8 +75,6 @@ std::vector<Tile> flatTiles(const TileGround& ground, int size, int count, Dice&
 
 // The surface as a mesh, oriented.
 SurfaceMesh meshOf(const TexturedSurface& surface);
-
-double luminance(const Vec3f& color);
 
 // sRGB-encoded picture of the exemplar: 3 channels, or 4 where alpha varies.
 Image encodedPicture(const Image& color);

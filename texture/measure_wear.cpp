@@ -2,6 +2,7 @@
 #include "texture/measure.h"
 #include "texture/measure_tiles.h"
 #include "texture/passes.h"
+#include "texture/srgb.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,20 +13,21 @@ namespace {
 // Laid squeezed by this, drawn out to as much.
 constexpr double kShape = 1.4;
 
-double deviationOfLuminance(const Image& picture) {
+}  // namespace
+
+double deviationOfLuminance(const Image& color) {
+  const Image picture = seenPicture(color);
   double sum = 0.0, squares = 0.0;
   const double count = double(picture.width) * picture.height;
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
-      const double value = luminance(Vec3f(picture.at(x, y)));
+      const double value = luminance(picture.at(x, y));
       sum += value, squares += value * value;
     }
   return std::sqrt(std::max(0.0, squares / count - sum / count * sum / count));
 }
 
-}  // namespace
-
-std::optional<FlowWear> measureFlowWear(const TexturedSurface& surface, const Image& color) {
+std::optional<FlowWear> measureFlowWear(const TexturedSurface& surface, double deviation) {
   const SurfaceMesh mesh = meshOf(surface);
   const PreparedMesh prepared(mesh);
   const std::vector<Strain> strain =
@@ -39,8 +41,7 @@ std::optional<FlowWear> measureFlowWear(const TexturedSurface& surface, const Im
     ++count;
   }
   if (count == 0) return std::nullopt;
-  return FlowWear{sum / double(count),
-                  std::sqrt(2.0 * squares / double(count)) * deviationOfLuminance(seenPicture(color))};
+  return FlowWear{sum / double(count), std::sqrt(2.0 * squares / double(count)) * deviation};
 }
 
 }  // namespace fluidtex::texture

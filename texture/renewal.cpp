@@ -19,17 +19,13 @@ constexpr float kSameTexel = 0.7f;     // a proposal this near to the carried te
 constexpr float kSlipStretch = 1.15f;  // closing slips leaves as much: no reason to renew the same texel
 constexpr float kLeastGain = 0.05f;    // a piece is renewed if its badness falls by this on average
 constexpr int kBlurSweeps = 16;        // badness is averaged over about this many edges' reach in all
-constexpr float kDiscShare = 0.8f, kDiscsApart = 1.6f;  // of a disc's nominal radius
-constexpr float kMostYoung = 0.35f;                     // share of a disc
+constexpr double kDiscsApart = 2.0 * kDiscShare;  // of a disc's nominal radius
+constexpr float kMostYoung = 0.35f;               // share of a disc
 constexpr float kTooYoung =
     0.3f;  // around a centre with more of it none is tried again, of the nominal radius
 // Of what is kept (log): the earliest that texture is renewed. Far from one, for neighbours were laid
 // together.
 constexpr float kEarliest = 0.5f;
-// Where the log stretch is this many times what is kept, discs may cover more than the budget. More than what
-// is laid ahead is compressed by (later_frame's kMostAhead), or that would be renewed at once where a flow
-// stops.
-constexpr float kUrgent = 1.5f;
 // How much further (log), of what is kept, texture may be drawn out while it fades.
 constexpr float kFadesWithin = 1.8f;
 
@@ -160,6 +156,14 @@ Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<
           blurred(model.view.graph, std::move(stretched))};
 }
 
+double wornShare(const std::vector<Strain>& rates, double seconds, double keepStretch) {
+  const double life = (kMostAhead + double(kUrgent)) * std::log(std::max(keepStretch, 1.01));
+  const double sum = sumOf(rates.size(), [&](std::uint32_t v) {
+    return std::min(1.0, double(largest(rates[v])) * seconds / life);
+  });
+  return sum / double(std::max<std::size_t>(rates.size(), 1));
+}
+
 float fadingSpeed(float strainRate, double keepStretch, double fade) {
   const double most = double(kFadesWithin) * std::log(std::max(keepStretch, 1.01));
   return float(std::max(1.0 / std::max(fade, 1e-3), double(strainRate) / most));
@@ -186,9 +190,10 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
   double covered = 0.0;
   for (const std::uint32_t center : candidates) {
     // A budget of less than a vertex is none.
-    if (!urgent(center) && covered + 1.0 > options.budget * double(count)) continue;
+    const double budget = urgent(center) ? options.urgentBudget : options.budget;
+    if (covered + 1.0 > budget * double(count)) continue;
     if (near[center]) continue;
-    Disc disc{center, surroundings.within(center, double(kDiscShare) * options.radius), 1.0f};
+    Disc disc{center, surroundings.within(center, kDiscShare * options.radius), 1.0f};
     const auto fresh = std::count_if(disc.members.begin(), disc.members.end(), young);
     if (float(fresh) > kMostYoung * float(disc.members.size())) {
       for (const std::uint32_t v : surroundings.within(center, double(kTooYoung) * options.radius))
@@ -197,11 +202,10 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
     }
     std::erase_if(disc.members, young);
     covered += double(disc.members.size());
-    for (const std::uint32_t v : surroundings.within(center, double(kDiscsApart) * options.radius))
-      near[v] = 1;
+    for (const std::uint32_t v : surroundings.within(center, kDiscsApart * options.radius)) near[v] = 1;
     discs.push_back(std::move(disc));
   }
-  const auto reach = int(std::ceil(double(kDiscsApart - kDiscShare) * options.radius));
+  const auto reach = int(std::ceil((kDiscsApart - kDiscShare) * options.radius));
   fillBetween(
       model.view.graph, reach, [&](std::uint32_t v) { return urgent(v) && !young(v); }, discs);
   for (Disc& disc : discs) disc.growth = growthOf(labels, trust, disc.members);

@@ -2,6 +2,7 @@
 // is not touched: that keeps the texture calm, and cheap.
 #pragma once
 
+#include "texture/look_ahead.h"
 #include "texture/options.h"
 #include "texture/seams.h"
 
@@ -27,12 +28,21 @@ struct Disc {
   float growth = 1.0f;
 };
 
+// Of a disc's nominal radius: how far it reaches.
+inline constexpr double kDiscShare = 0.8;
+// Of what is kept (log): by how much new texture is laid squeezed at most where the flow draws it out, and
+// where waiting ends. What is laid must not be urgent if the flow stops.
+inline constexpr double kMostAhead = 1.45;
+inline constexpr float kUrgent = 1.5f;
+static_assert(kMostAhead < kUrgent);
+
 struct DiscOptions {
-  double keepStretch = 1.35;  // what is coherent and stretched less is kept
-  double radius = 36.0;       // pixels; discs reach 0.8 of it, and their centres are at least 1.6 of it apart
-  // Share of the vertices that discs may cover; more where the log stretch is one and a half times what is
-  // kept.
-  double budget = 0.1;
+  double keepStretch;  // what is coherent and stretched less is kept
+  double radius;       // pixels, nominal; discs' centres are at least twice as far apart as they reach
+  // Shares of the vertices that discs may cover: where texture is not stretched by more than kUrgent times
+  // what is kept (log), and where it is.
+  double budget;
+  double urgentBudget;
 };
 
 // Averages over half a small window.
@@ -42,11 +52,15 @@ struct Wear {
 };
 Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<float>& trust);
 
+// Share of the texture that the flow wears out in that time: mean of how far each vertex is strained (rates,
+// 1/s, logarithmic), over what lies between texture that is laid ahead and texture that is urgent.
+double wornShare(const std::vector<Strain>& rates, double seconds, double keepStretch);
+
 // Discs around the worst places, worst first, until the budget is used: where wear is worse than that of
 // texture stretched by keepStretch. The threshold varies from half of that (log), smoothly over the exemplar,
 // so that neighbours do not renew at once. What still takes the place of older texture (`fading`, its weight)
-// is no member, and discs that hold much of it are left for later. What is stretched far more than that, and
-// lies between discs, joins the nearest.
+// is no member, and discs that hold much of it are left for later. What is urgent and lies
+// between discs, within as much again as they reach, joins the nearest whatever the budget.
 std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,
                              const std::vector<float>& trust, const std::vector<float>& fading,
                              const DiscOptions& options, std::uint64_t seed);

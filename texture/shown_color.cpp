@@ -1,6 +1,7 @@
 #include "texture/shown_color.h"
 
 #include "texture/channels.h"
+#include "texture/srgb.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +14,6 @@ constexpr int kHalvings = 3;
 // Differences of luminance, squared, below which two places count as equally bright.
 constexpr float kSame = 1e-3f;
 
-float luminance(const Vec4f& c) {
-  return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
-}
-
 // What is shown at a place, and the mean around it; premultiplied.
 struct Reading {
   Vec4f color, mean;
@@ -25,8 +22,7 @@ struct Reading {
 Reading readAt(const Image& colors, const Image& around, bool toroidal, const Vec2f& texel) {
   constexpr float kScale = 1.0f / float(1 << kHalvings), kShift = 0.5f * float((1 << kHalvings) - 1);
   Reading result{samplePremultiplied(colors, toroidal, texel), Vec4f(0.0f)};
-  sampleBilinear(around, toroidal, (texel - Vec2f(kShift, kShift)) * kScale,
-                 result.mean.asPointer());
+  sampleBilinear(around, toroidal, (texel - Vec2f(kShift, kShift)) * kScale, result.mean.asPointer());
   return result;
 }
 
@@ -46,10 +42,12 @@ Vec4f shownColor(const Image& colors, const Image& around, bool toroidal, const 
   const Reading now = readAt(colors, around, toroidal, present),
                 old = readAt(colors, around, toroidal, former);
   const float angle = 0.5f * std::numbers::pi_v<float> * weight, a = std::cos(angle), b = std::sin(angle);
-  const float mean = luminance(now.mean) + weight * (luminance(old.mean) - luminance(now.mean));
-  const float one = luminance(now.color), other = luminance(old.color);
-  const float wanted = std::clamp(mean + a * (one - luminance(now.mean)) + b * (other - luminance(old.mean)),
-                                  std::min(one, other), std::max(one, other));
+  const float mean = luminance(now.mean.asPointer()) +
+                     weight * (luminance(old.mean.asPointer()) - luminance(now.mean.asPointer()));
+  const float one = luminance(now.color.asPointer()), other = luminance(old.color.asPointer());
+  const float wanted = std::clamp(
+      mean + a * (one - luminance(now.mean.asPointer())) + b * (other - luminance(old.mean.asPointer())),
+      std::min(one, other), std::max(one, other));
   // The colour on the way from one to the other that is as bright; where both are, the way's own share.
   const float way = one - other;
   const float share = ((wanted - other) * way + kSame * (1.0f - weight)) / (way * way + kSame);

@@ -62,6 +62,7 @@ void closeSlips(const SeamModel& model, const std::vector<std::uint8_t>& free, L
   std::vector<std::uint32_t> members;
   for (std::uint32_t v = 0; v < labels.size(); ++v)
     if (free.empty() || free[v]) members.push_back(v);
+  if (members.empty()) return;
   const std::vector<Slip> slips = slipsOf(model, members, labels);
 
   std::vector<Vec2f> shift(labels.size(), Vec2f(0.0f, 0.0f)), next = shift;
@@ -82,12 +83,10 @@ void closeSlips(const SeamModel& model, const std::vector<std::uint8_t>& free, L
   forEachIndex(members.size(), [&](std::uint32_t i) {
     labels[members[i]].texel = model.image.brought(labels[members[i]].texel + shift[members[i]]);
   });
-  std::vector<std::array<float, 4>> jacobian(members.size());
+  // Of its neighbours each reads the texel only.
   forEachIndex(members.size(), [&](std::uint32_t i) {
-    jacobian[i] = labels[members[i]].jacobian;
-    refit(model, members[i], slips, labels, jacobian[i]);
+    refit(model, members[i], slips, labels, labels[members[i]].jacobian);
   });
-  for (std::size_t i = 0; i < members.size(); ++i) labels[members[i]].jacobian = jacobian[i];
 }
 
 }  // namespace fluidtex::texture

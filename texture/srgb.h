@@ -16,4 +16,9 @@ inline float decodeSrgb(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
+// Of linear R, G and B; of encoded ones, what the eye takes for it (luma).
+inline float luminance(const float* rgb) {
+  return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+}
+
 }  // namespace fluidtex::texture

@@ -11,7 +11,6 @@
 #include "texture/srgb.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <stdexcept>
 
@@ -88,7 +87,8 @@ Fading fadingAfter(const Carried& carried, const LaterFrame& later, double secon
 }  // namespace
 
 Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options, CacheFolder cache) {
-  Synthesizer synthesizer{std::move(exemplar), options, std::make_shared<SearchTables>(), std::move(cache), {}};
+  Synthesizer synthesizer{
+      std::move(exemplar), options, std::make_shared<SearchTables>(), std::move(cache), {}};
   synthesizer.around = meansAround(synthesizer.exemplar.color, synthesizer.exemplar.toroidal);
   const int colors = synthesizer.exemplar.colorChannels;
   // Carried colours have no feature channels: the paper's method matches by colour alone, and guidance.

@@ -10,7 +10,7 @@
 
 namespace fluidtex::texture {
 
-// Channels of all vertices or texels; the first `channels` lanes are used.
+// Channels of all vertices; the first `channels` lanes are used.
 using Values = std::vector<Float8>;
 
 inline constexpr int kMaxChannels = 8;

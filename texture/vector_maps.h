@@ -3,6 +3,7 @@
 #pragma once
 
 #include "texture/exemplar.h"
+#include "texture/map_names.h"
 
 namespace fluidtex::texture {
 
@@ -18,11 +19,6 @@ namespace fluidtex::texture {
 // Throws std::invalid_argument if the map has not three channels, holds values, or the surface does not know
 // the size of its exemplar.
 void lookUpVectors(const std::string& name, const ExemplarMap& map, bool toroidal, TexturedSurface& surface);
-
-// The names of a vector's three parts in a PLY.
-inline std::vector<std::string> vectorNames(const std::string& name) {
-  return {name + "_x", name + "_y", name + "_z"};
-}
 
 // Fills surface.gradient and that of what fades from the coordinates themselves, for surfaces that come from
 // a file (texture/measure_gradient.h). Where no neighbours agree on one, it is the unstretched one along the

@@ -29,7 +29,7 @@ void checkName(const std::string& name) {
       std::isdigit(static_cast<unsigned char>(name.front())))
     throw UsageError(fmt::format(
         "{}: cannot be the name of a vertex's property; give letters, digits and _, a letter first", name));
-  if (isPlyProperty(name))
+  if (texture::isReservedName(name))
     throw UsageError(fmt::format("{}: is what every vertex has anyway; give another name", name));
 }
 
@@ -59,7 +59,8 @@ void applyMaps(const ApplyWishes& wishes) {
   for (const texture::MapOptions& map : wishes.maps) {
     if (map.name != kColor) checkName(map.name);
     std::vector<std::string> own{map.name};
-    if (map.holds != texture::MapHolds::values) own = texture::vectorNames(map.name);
+    if (map.holds != texture::MapHolds::values)
+      for (const std::string& part : texture::vectorNames(map.name)) own.push_back(part);
     for (const std::string& name : own) {
       if (!names.insert(name).second)
         throw UsageError(

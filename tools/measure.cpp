@@ -10,7 +10,6 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
 #include <memory>
 
 namespace fluidtex::tools {
@@ -33,6 +32,7 @@ class Measurer {
   void run() {
     const std::vector<int>& frames = m_run.frames;
     texture::LikenessJudge judge(m_run.color);
+    const double deviation = texture::deviationOfLuminance(m_run.color);
     if (!m_wishes.quiet) printHead();
     Json rows = Json::array();
     texture::TexturedSurface before;
@@ -48,7 +48,7 @@ class Measurer {
       }
       if (n > 0 && frames[n - 1] == frame - 1) {
         addChange(row, texture::measureChange(before, surface, m_run.color, m_run.toroidal));
-        addFlowWear(row, texture::measureFlowWear(surface, m_run.color));
+        addFlowWear(row, texture::measureFlowWear(surface, deviation));
       }
       if (!m_wishes.quiet && row.size() > 2) printRow(fmt::format("{}", frame), row);
       rows.push_back(std::move(row));

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <set>
 #include <system_error>
 
 namespace fluidtex::tools {
@@ -75,14 +74,6 @@ float share(float x, float size) {
 }
 
 }  // namespace
-
-bool isPlyProperty(const std::string& name) {
-  static const std::set<std::string> kNames = {
-      "x",  "y",     "z",   "nx",      "ny",     "nz",     "red",  "green", "blue", "alpha",
-      "s",  "t",     "dx",  "dy",      "dz",     "bx",     "by",   "bz",    "vx",   "vy",
-      "vz", "trust", "age", "contact", "fade_s", "fade_t", "fade", "scale"};
-  return kNames.contains(name);
-}
 
 void writePly(const texture::TexturedSurface& surface, const std::filesystem::path& file) {
   Bytes bytes(surface.positions.size() * (kVertexBytes + (surface.scale.empty() ? 0 : 4) +

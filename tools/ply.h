@@ -13,9 +13,6 @@ namespace fluidtex::tools {
 // corner. Throws std::system_error when the file cannot be written.
 void writePly(const texture::TexturedSurface& surface, const std::filesystem::path& file);
 
-// Whether a vertex has a property of that name whatever maps there are.
-bool isPlyProperty(const std::string& name);
-
 // Reads back what writePly() wrote of a texture from an exemplar of that size (texels), with its maps and the
 // place that fades; gradients, which the file does not hold, are zero. Throws UsageError that names the file
 // where it is something else.

@@ -1,3 +1,4 @@
+#include "texture/map_names.h"
 #include "texture/srgb.h"
 #include "tools/errors.h"
 #include "tools/ply.h"
@@ -105,7 +106,7 @@ texture::TexturedSurface readPly(const std::filesystem::path& file, int exemplar
   each("fade", surface.fading.weight, number);
   if (header.offset.contains("scale")) each("scale", surface.scale, number);
   for (const auto& [name, offset] : header.offset)
-    if (!isPlyProperty(name)) each(name.c_str(), surface.maps[name], number);
+    if (!texture::isVertexProperty(name)) each(name.c_str(), surface.maps[name], number);
   surface.gradient.resize(header.vertices);
   const char* at = bytes.data() + header.body + header.vertices * header.stride;
   for (std::size_t f = 0; f < header.faces; ++f, at += 13) {

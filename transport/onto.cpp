@@ -70,6 +70,7 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
   result.previousPosition = result.positions;
   result.velocity.assign(count, Vec3f(0.0f));
   result.contact.assign(count, 0);
+  if (!surface.scale.empty()) result.scale.assign(count, 1.0f);
   for (const auto& [name, values] : surface.maps) result.maps[name].assign(count, 0.0f);
   for (const auto& [name, values] : surface.vectors) result.vectors[name].assign(count, Vec3f(0.0f));
   if (surface.empty() || surface.triangles.empty()) return result;
@@ -89,11 +90,13 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
     result.orientation[v] =
         texture::tangentUnit(directionAt(surface, slopes, landing, symmetry), normal, result.orientation[v]);
     result.age[v] = valueAt(surface.age, landing);
-    result.trust[v] = valueAt(surface.trust, landing) * landingTrust(landing, surface.spacing, normal);
+    result.trust[v] = valueAt(surface.trust, landing) *
+                      landingTrust(landing, surface.spacingAt(landing.nearestVertex()), normal);
     // What the place moved by, so that a vertex off the surface keeps its distance.
     const Vec3f before = valueAt(surface.previousPosition, landing);
     result.previousPosition[v] += before - Vec3f(landing.point.position);
     result.velocity[v] = valueAt(surface.velocity, landing);
+    if (!surface.scale.empty()) result.scale[v] = valueAt(surface.scale, landing);
     result.contact[v] = surface.contact[landing.nearestVertex()];
   });
   for (auto& [name, values] : result.maps) {

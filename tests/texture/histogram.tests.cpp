@@ -4,8 +4,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <numeric>
-
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
 

@@ -37,7 +37,7 @@ TEST_CASE(
   const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
   const std::size_t count = surface.mesh.positions.size();
   const std::vector<float> trusted(count, 1.0f), doubted(count, 0.1f), settled(count, 0.0f);
-  const DiscOptions all{1.35, 8.0, 1.0};
+  const DiscOptions all{1.35, 8.0, 1.0, 1.0};
   // The share of the upper side's middle that discs cover: no picture fits around the box's edges.
   const auto middle = [](const Vec3f& x) { return onTop(x - Vec3f(12, 12, 0)); };
   const auto covered = [&](const Labels& labels, const std::vector<float>& fading) {
@@ -85,7 +85,7 @@ TEST_CASE("renewal: discs keep to their size, their distance and the budget, wor
   }
   wear.stretch.assign(count, 0.3f);  // nothing urgent
   for (const double budget : {0.1, 0.4}) {
-    const DiscOptions options{1.35, 10.0, budget};
+    const DiscOptions options{1.35, 10.0, budget, budget};
     const std::vector<Disc> discs = worstDiscs(model, labels, wear, trusted, settled, options, 1);
     REQUIRE_FALSE(discs.empty());
     std::size_t covered = 0;
@@ -109,22 +109,49 @@ TEST_CASE("renewal: discs keep to their size, their distance and the budget, wor
   }
 }
 
-TEST_CASE("renewal: where the stretch is urgent the budget does not count") {
+TEST_CASE(
+    "renewal: where the stretch is urgent another budget counts, and what lies between discs joins them") {
   const OrientedMesh surface = flatBox(60);
   const TexelImage image = makeTexelImage(blobImage(200, 200, 3, 10.0, 1), false, 4);
   const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
   const std::size_t count = surface.mesh.positions.size();
   const Labels labels = picture(surface, 0.4f);
   const std::vector<float> trusted(count, 1.0f), settled(count, 0.0f);
-  const auto covered = [&](const Wear& wear) {
+  const auto much = float(std::log(2.5));
+  // The share that is covered by as much as is urgent: all, nothing, the half with x below 30.
+  const auto covered = [&](const auto& urgent, double urgentBudget) {
+    Wear wear{std::vector<float>(count, much), {}};
+    for (const Vec3f& x : surface.mesh.positions) wear.stretch.push_back(urgent(x) ? much : 0.0f);
+    std::vector<int> discsOf(count, 0);
     std::size_t sum = 0;
-    for (const Disc& disc : worstDiscs(model, labels, wear, trusted, settled, {1.35, 10.0, 0.05}, 1))
-      sum += disc.members.size();
+    const DiscOptions options{1.35, 10.0, 0.05, urgentBudget};
+    for (const Disc& disc : worstDiscs(model, labels, wear, trusted, settled, options, 1))
+      for (const std::uint32_t v : disc.members) {
+        CHECK(++discsOf[v] == 1);
+        ++sum;
+        // Beyond a disc only what is urgent.
+        if ((surface.mesh.positions[v] - surface.mesh.positions[disc.center]).length() > 8.01f)
+          CHECK(urgent(surface.mesh.positions[v]));
+      }
     return double(sum) / double(count);
   };
-  const auto much = float(std::log(2.5));
-  CHECK(covered({std::vector<float>(count, much), std::vector<float>(count, 0.0f)}) < 0.1);
-  CHECK(covered({std::vector<float>(count, much), std::vector<float>(count, much)}) > 0.2);
+  const auto all = [](const Vec3f&) { return true; };
+  const auto none = [](const Vec3f&) { return false; };
+  const auto onLeft = [](const Vec3f& x) { return x.x() < 30.0f; };
+  CHECK(covered(none, 1.0) < 0.1);
+  CHECK(covered(all, 0.05) < 0.25);  // a disc or two, and what lies around them
+  CHECK(covered(all, 1.0) > 0.95);
+  CHECK(covered(onLeft, 1.0) > 0.45);
+  CHECK(covered(onLeft, 1.0) < 0.7);
+}
+
+TEST_CASE("renewal: what the flow wears out in a frame") {
+  const double life = (1.45 + 1.5) * std::log(1.22);
+  const Strain still, fast{0.5f * float(life), Complexf(0.5f * float(life), 0.0f)}, torn{10.0f, {}};
+  CHECK(wornShare({}, 1.0, 1.22) == 0.0);
+  CHECK(wornShare({still, still}, 1.0, 1.22) == 0.0);
+  CHECK(wornShare({fast, still}, 0.1, 1.22) == Approx(0.05));
+  CHECK(wornShare({torn, still}, 1.0, 1.22) == Approx(0.5));  // once is enough
 }
 
 TEST_CASE("renewal: texture fades as fast as it gets bad, and never slower than it is told to") {

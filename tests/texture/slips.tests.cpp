@@ -83,21 +83,21 @@ TEST_CASE("slips: joints of more than a texel, and what is not free, stay as the
   const OrientedMesh surface = flatBox(32);
   const TexelImage image = makeTexelImage(noiseImage(120, 120, 3, 1), true, 4);
   const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
-  const Labels joint = slipped(surface, {9.0f, 0.0f});
+  const Labels joint = slipped(surface, {1.0f, 0.0f});
   std::vector<std::uint8_t> top;
   for (const Vec3f& x : surface.mesh.positions) top.push_back(inside(x));
   Labels labels = joint;
   closeSlips(model, top, labels);
   CHECK(judged(surface, image, labels, joint).moved < 1e-3f);
 
-  const Labels before = slipped(surface, {0.5f, 0.0f});
+  const Labels before = slipped(surface, {0.6f, 0.0f});
   std::vector<std::uint8_t> free;
   for (const Vec3f& x : surface.mesh.positions) free.push_back(x.x() > 16 && inside(x));
   labels = before;
   closeSlips(model, free, labels);
   const Found found = judged(surface, image, labels, before);
-  CHECK(found.edge < 0.3f);
-  CHECK(found.moved > 0.25f);  // all of it on the free side
+  CHECK(found.edge < 0.36f);
+  CHECK(found.moved > 0.3f);  // all of it on the free side
   for (std::uint32_t v = 0; v < labels.size(); ++v)
     if (!free[v]) CHECK(labels[v].texel == before[v].texel);
 }

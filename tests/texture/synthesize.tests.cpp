@@ -159,6 +159,7 @@ TEST_CASE("synthesize: a surface at rest comes to rest") {
       makeSynthesizer(makeExemplar(blobImage(96, 88, 4, 12.0, 2), false, options, 2), options);
   SynthesisStats stats;
   TexturedSurface last = synthesize(synthesizer, sphere(28, 2), {}, 1, 0.0, stats);
+  double later = 0.0;
   for (int frame = 2; frame <= 48; ++frame) {  // longer than two fades
     const TexturedSurface next =
         synthesize(synthesizer, surfaceOf(last), carriedFrom(last), frame, 0.04, stats);
@@ -172,8 +173,10 @@ TEST_CASE("synthesize: a surface at rest comes to rest") {
     const double share = double(changed) / double(next.positions.size());
     CHECK(stats.renewed >= share - 1e-9);
     if (frame > 6) CHECK(stats.renewed < 0.005);
+    if (frame > 6) later += stats.renewed;
     last = next;
   }
+  CHECK(later < 0.01);
 }
 
 TEST_CASE("synthesize: stretched texture is renewed, the rest is kept") {
@@ -190,12 +193,13 @@ TEST_CASE("synthesize: stretched texture is renewed, the rest is kept") {
   for (std::size_t v = 0; v < last.positions.size(); ++v)
     if (stretched(v)) carried.gradient[v].s *= 0.5f;
   TexturedSurface next = synthesize(synthesizer, surfaceOf(last), carried, 9, 0.04, stats);
-  CHECK(stats.renewed < 0.6);  // not all at once
+  CHECK(stats.renewed > 0.2);
+  CHECK(stats.renewed < 0.5);  // not all at once: the cap is 0.4 of the sphere, its rim a tenth
   for (int frame = 10; frame <= 14; ++frame)
     next = synthesize(synthesizer, surfaceOf(next), carriedFrom(next), frame, 0.04, stats);
   std::size_t touched = 0, whole = 0;
   for (std::size_t v = 0; v < next.positions.size(); ++v) {
-    if (last.positions[v].x() > -0.2f) continue;
+    if (last.positions[v].x() > -0.4f) continue;  // beyond what wear is averaged over and discs' rims
     ++whole;
     touched += next.coordinate[v] != last.coordinate[v];
   }
@@ -207,11 +211,7 @@ TEST_CASE("synthesize: stretched texture is renewed, the rest is kept") {
       parts += stretched(v), found += stretched(v) && stretchAt(next, v) > 1.4f;
     return double(found) / double(parts);
   };
-  CHECK(still() < 0.25);
-  // What is left between discs waits until they have faded in.
-  for (int frame = 15; frame <= 32; ++frame)
-    next = synthesize(synthesizer, surfaceOf(next), carriedFrom(next), frame, 0.04, stats);
-  CHECK(still() < 0.1);
+  CHECK(still() < 0.03);
 }
 
 TEST_CASE("synthesize: small drops and odd parts get texture, and keep it") {

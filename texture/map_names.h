@@ -1,0 +1,31 @@
+// Names of an exemplar's further maps, which become properties of a PLY's vertices.
+#pragma once
+
+#include "texture/surface.h"
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace fluidtex::texture {
+
+// Properties that every vertex has anyway, or may have.
+inline bool isVertexProperty(const std::string& name) {
+  static const std::set<std::string> kNames = {
+      "x",  "y",     "z",   "nx",      "ny",     "nz",     "red",  "green", "blue", "alpha",
+      "s",  "t",     "dx",  "dy",      "dz",     "bx",     "by",   "bz",    "vx",   "vy",
+      "vz", "trust", "age", "contact", "fade_s", "fade_t", "fade", "scale"};
+  return kNames.contains(name);
+}
+
+// Whether a map of one's own may not have that name: that of a property, or of the guidance that is wanted.
+inline bool isReservedName(const std::string& name) {
+  return name == kGuidance || isVertexProperty(name);
+}
+
+// The names of a vector's three parts in a PLY.
+inline std::vector<std::string> vectorNames(const std::string& name) {
+  return {name + "_x", name + "_y", name + "_z"};
+}
+
+}  // namespace fluidtex::texture
