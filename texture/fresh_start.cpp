@@ -14,21 +14,29 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr int kPlaces = 96;         // drawn at random
-constexpr int kCompared = 24;       // the least used of them
+constexpr int kPlaces = 256;        // drawn at random
+constexpr int kCompared = 64;       // the least used of them
 constexpr int kUsageCells = 12;     // along the exemplar's shorter side
+constexpr float kGuided = 4.0f;     // a level that is off by a quarter weighs as much as all likeness
 constexpr std::size_t kStride = 3;  // every third vertex is compared
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// How differently a block with its middle at `center` looks from what is there.
-float difference(const TexelImage& image, const Neighborhoods& blocks, std::size_t p, const Vec2f& center,
-                 const Values& value) {
-  float sum = 0.0f;
+// How badly a block with its middle at `center` suits a disc: how far it is from what guidance asks for, less
+// its correlation with what is there. The least difference would always be that of what has little contrast.
+float unsuitability(const MeshView& view, const TexelImage& image, const Neighborhoods& blocks, std::size_t p,
+                    const Vec2f& center, const Values& value) {
+  Float8 a{}, b{}, aa{}, bb{}, ab{};
+  float count = 0.0f, unfit = 0.0f;
   for (std::size_t i = blocks.first[p]; i < blocks.first[p + 1]; i += kStride) {
-    const Float8 d = image.sample(center + blocks.offset[i]) - value[blocks.vertex[i]];
-    sum += sum8(d * d);
+    const std::uint32_t v = blocks.vertex[i];
+    const Vec2f texel = center + blocks.offset[i];
+    const Float8 x = image.sample(texel), y = value[v];
+    a += x, b += y, aa += x * x, bb += y * y, ab += x * y, count += 1.0f;
+    unfit += guidanceCost(image, view.mesh, image.brought(texel), v);
   }
-  return sum;
+  const float product = sum8(aa - a * a / count) * sum8(bb - b * b / count);
+  const float correlation = sum8(ab - a * b / count) / std::sqrt(std::max(product, 1e-12f));
+  return kGuided * unfit / count - correlation;
 }
 
 }  // namespace
@@ -37,14 +45,8 @@ void startAfresh(const MeshView& view, const TexelImage& image, const std::vecto
                  const Values& value, std::uint64_t seed, Labels& labels) {
   std::vector<std::uint32_t> centers;
   const auto reach = float(kDiscShare * radius);
-  const auto fits = [&](const Disc& disc) {
-    float cost = 0.0f;
-    for (const std::uint32_t v : disc.members) cost += guidanceCost(image, view.mesh, labels[v].texel, v);
-    return cost <= kFreshGuidance * float(disc.members.size());
-  };
   std::vector<std::uint32_t> owner(labels.size(), kNone);  // the place among `centers`
   for (const Disc& disc : discs) {
-    if (disc.growth <= kFreshGrowth && fits(disc)) continue;
     for (const std::uint32_t v : disc.members) owner[v] = std::uint32_t(centers.size());
     centers.push_back(disc.center);
   }
@@ -69,7 +71,7 @@ void startAfresh(const MeshView& view, const TexelImage& image, const std::vecto
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     float least = std::numeric_limits<float>::infinity();
     for (int i = 0; i < kCompared; ++i) {
-      const float d = difference(image, blocks, p, places[std::size_t(i)].second, value);
+      const float d = unsuitability(view, image, blocks, p, places[std::size_t(i)].second, value);
       if (d < least) least = d, chosen[p] = places[std::size_t(i)].second;
     }
   });

@@ -112,17 +112,6 @@ class Surroundings {
   std::uint32_t m_current = 0;
 };
 
-float growthOf(const Labels& labels, const std::vector<float>& trust,
-               const std::vector<std::uint32_t>& members) {
-  double texels = 0.0;
-  for (const std::uint32_t v : members) {
-    const std::array<float, 4>& j = labels[v].jacobian;
-    const double own = std::abs(double(j[0]) * double(j[3]) - double(j[1]) * double(j[2]));
-    texels += std::clamp(believed(trust[v]) ? own : 0.0, 0.01, 100.0);
-  }
-  return float(double(members.size()) / texels);
-}
-
 // Round discs leave a third of a plane between them. What is wanted there joins the disc that reaches it
 // first, within `rings` rings: left for later, it would wait until all around it has faded in.
 template <typename Wanted>
@@ -193,7 +182,7 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
     const double budget = urgent(center) ? options.urgentBudget : options.budget;
     if (covered + 1.0 > budget * double(count)) continue;
     if (near[center]) continue;
-    Disc disc{center, surroundings.within(center, kDiscShare * options.radius), 1.0f};
+    Disc disc{center, surroundings.within(center, kDiscShare * options.radius)};
     const auto fresh = std::count_if(disc.members.begin(), disc.members.end(), young);
     if (float(fresh) > kMostYoung * float(disc.members.size())) {
       for (const std::uint32_t v : surroundings.within(center, double(kTooYoung) * options.radius))
@@ -208,7 +197,6 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
   const auto reach = int(std::ceil((kDiscsApart - kDiscShare) * options.radius));
   fillBetween(
       model.view.graph, reach, [&](std::uint32_t v) { return urgent(v) && !young(v); }, discs);
-  for (Disc& disc : discs) disc.growth = growthOf(labels, trust, disc.members);
   return discs;
 }
 

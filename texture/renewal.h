@@ -23,9 +23,6 @@ bool believed(float trust);
 struct Disc {
   std::uint32_t center = 0;
   std::vector<std::uint32_t> members;  // from the centre outwards
-  // Area that a texel covers now, in those it covered when it was laid, on average: above 1 where the surface
-  // grows.
-  float growth = 1.0f;
 };
 
 // Of a disc's nominal radius: how far it reaches.

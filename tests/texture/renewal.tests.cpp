@@ -103,9 +103,6 @@ TEST_CASE("renewal: discs keep to their size, their distance and the budget, wor
     CHECK(double(covered) < budget * double(count));
     const Disc& worst = discs.front();
     CHECK(surface.mesh.positions[worst.center].x() > 28.0f);
-    if (surface.mesh.positions[worst.center].z() > 1.9f && surface.mesh.positions[worst.center].x() > 40 &&
-        surface.mesh.positions[worst.center].x() < 50)
-      CHECK(worst.growth == Approx(1.5).epsilon(0.02));
   }
 }
 
