@@ -53,8 +53,7 @@ Carried carriedFrom(const TexturedSurface& last) {
 
 Surface surfaceOf(const TexturedSurface& last) {
   Surface surface;
-  surface.levels.push_back(
-      {last.spacing, last.positions, last.normals, last.triangles, last.orientation, {}, {}});
+  surface.levels.push_back(meshOf(last));
   return surface;
 }
 
