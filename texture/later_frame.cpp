@@ -1,5 +1,6 @@
 #include "texture/later_frame.h"
 
+#include "texture/chips.h"
 #include "texture/complex.h"
 #include "texture/first_frame.h"
 #include "texture/fresh.h"
@@ -26,6 +27,9 @@ constexpr float kData = 0.4f;
 constexpr double kMostStrain = 0.45;
 // Vertices that stand for the surface at half its detail lie 1 to 2 of its pixels apart.
 constexpr float kHalfRadius = 0.8f;
+// Windows of half detail go no further beyond what is laid out than this, times their width: their diagonal,
+// where edges are a little shorter than a pixel.
+constexpr float kRingsPerPixel = 2.2f;
 
 // Texel x of the full exemplar lies at (x - 1/2) / 2 of the halved one; what a label says of its surroundings
 // in pixels stays.
@@ -56,7 +60,9 @@ void layOut(Synthesizer& synthesizer, const MeshView& view, const std::vector<st
   const SearchTables& tables = *synthesizer.tables;
   MeshView half{view.mesh, view.graph, view.connection, 2.0f, nullptr};
   std::vector<std::uint8_t> members(labels.size(), 0);
-  for (const std::uint32_t v : selectCenters(half, kHalfRadius)) members[v] = 1;
+  const int rings = int(std::ceil(kRingsPerPixel * float(synthesizer.options.windows.back())));
+  for (const std::uint32_t v : selectCenters(half, kHalfRadius, grown(view.graph, wanted, rings)))
+    members[v] = 1;
   half.members = &members;
 
   State state;
@@ -148,7 +154,9 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
             {0, frame, options.laterIterations, 1, false, windows > 1 ? std::size_t(1) : 0}, state, stats,
             progress);
   joinLabels(seams, state, kData, level.wanted, &before, keyOf(synthesizer, frame, 0, 1), state.labels);
-  result.labels = unstrained(settle(seams, before, state.labels, carried.trust, result.renewed), ahead);
+  Labels settled = settle(seams, before, state.labels, carried.trust, result.renewed);
+  absorbChips(seams, wantedAmong(std::vector<std::uint8_t>(count, 1)), settled, result.renewed);
+  result.labels = unstrained(std::move(settled), ahead);
   return result;
 }
 

@@ -1,5 +1,6 @@
 #include "texture/look_ahead.h"
 
+#include "texture/averaged.h"
 #include "texture/complex.h"
 #include "texture/fresh.h"
 #include "texture/parallel.h"
@@ -14,11 +15,8 @@ constexpr int kBlurSweeps = 24;
 // Lengths that change more than this from one frame to the next (log) tell of other points, not of the flow.
 constexpr float kMostPerFrame = 1.0f;
 
-// A strain, times how far it is believed.
-struct Weighted {
-  float mean = 0.0f, weight = 0.0f;
-  Complexf deviator{0.0f, 0.0f};
-};
+// A strain, times how far it is believed: mean, weight, and the deviator's two parts.
+using Weighted = float __attribute__((vector_size(16)));
 
 // The lengths before, squared and over those now, are n.C n for edges of direction n: m + d.q for q = n^2 as
 // numbers, m and d being C's mean and deviator. The strain is -log(C) / 2.
@@ -30,46 +28,38 @@ Weighted fittedStrain(const MeshView& view, const std::vector<Vec3f>& previous, 
     const std::uint32_t u = view.graph.neighbor[h];
     const Complexf& edge = view.connection.edge[h];
     const float flat2 = std::norm(edge), length2 = (now[u] - now[v]).lengthSqr();
-    if (!(flat2 > 0.0f) || !(length2 > 0.0f)) return {};
+    if (!(flat2 > 0.0f) || !(length2 > 0.0f)) return Weighted{};
     const Complexf q = product(edge, edge) / flat2;
     const float ratio = (previous[u] - previous[v]).lengthSqr() / length2;
     count += 1.0f, ratios += ratio, sum += q, right += q * ratio;
     xx += q.real() * q.real(), xy += q.real() * q.imag(), yy += q.imag() * q.imag();
   }
-  if (count < 3.0f) return {};
+  if (count < 3.0f) return Weighted{};
   const Complexf center = sum / count;
   xx -= center.real() * sum.real(), xy -= center.real() * sum.imag(), yy -= center.imag() * sum.imag();
   right -= center * ratios;
   const float det = xx * yy - xy * xy;
-  if (!(det > 1e-3f)) return {};  // all edges along two directions
+  if (!(det > 1e-3f)) return Weighted{};  // all edges along two directions
   const Complexf deviator((right.real() * yy - right.imag() * xy) / det,
                           (right.imag() * xx - right.real() * xy) / det);
   const float mean = ratios / count - center.real() * deviator.real() - center.imag() * deviator.imag();
   const float size = std::abs(deviator), least = mean - size, most = mean + size;
-  if (!(least > std::exp(-2.0f * kMostPerFrame)) || !(most < std::exp(2.0f * kMostPerFrame))) return {};
+  if (!(least > std::exp(-2.0f * kMostPerFrame)) || !(most < std::exp(2.0f * kMostPerFrame)))
+    return Weighted{};
   const float high = -0.5f * std::log(least), low = -0.5f * std::log(most);
   const float spread = size > 1e-12f ? -0.5f * (high - low) / size : 0.0f;
-  return {0.5f * (high + low), 1.0f, deviator * spread};
+  return Weighted{0.5f * (high + low), 1.0f, deviator.real() * spread, deviator.imag() * spread};
 }
 
 std::vector<Weighted> blurred(const MeshView& view, std::vector<Weighted> value) {
-  std::vector<Weighted> next(value.size());
-  for (int sweep = 0; sweep < kBlurSweeps; ++sweep) {
-    forEachIndex(value.size(), [&](std::uint32_t v) {
-      Weighted sum = value[v];
-      for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
-        const Weighted& other = value[view.graph.neighbor[h]];
-        const Complexf& turn = view.connection.rotation[h];
-        sum.mean += other.mean;
-        sum.weight += other.weight;
-        sum.deviator += product(product(turn, turn), other.deviator);
-      }
-      const float share = 1.0f / float(view.graph.around(v).size() + 1);
-      next[v] = {sum.mean * share, sum.weight * share, sum.deviator * share};
-    });
-    value.swap(next);
-  }
-  return value;
+  const std::vector<Complexf>& rotation = view.connection.rotation;
+  std::vector<Complexf> turn(rotation.size());  // of a deviator
+  forEachIndex(turn.size(), [&](std::uint32_t h) { turn[h] = product(rotation[h], rotation[h]); });
+  return averaged(view.graph, std::move(value), kBlurSweeps, [&](const Weighted& w, std::uint32_t h) {
+    const float re = turn[h].real(), im = turn[h].imag();
+    return w * Weighted{1.0f, 1.0f, re, re} +
+           Weighted{0.0f, 0.0f, w[3], w[2]} * Weighted{0.0f, 0.0f, -im, im};
+  });
 }
 
 // exp(strain): the linear map x -> same * x + mirrored * conj(x), a symmetric matrix.
@@ -114,7 +104,7 @@ std::vector<Strain> strainRates(const MeshView& view, const std::vector<Vec3f>& 
                                 const std::vector<float>& trust, double seconds) {
   std::vector<Strain> result(previous.size());
   if (!(seconds > 0.0)) return result;
-  std::vector<Weighted> fitted(previous.size());
+  std::vector<Weighted> fitted(previous.size(), Weighted{});
   forEachIndex(fitted.size(), [&](std::uint32_t v) {
     bool known = trust[v] >= kLowTrust;
     for (const std::uint32_t u : view.graph.around(v)) known = known && trust[u] >= kLowTrust;
@@ -123,9 +113,9 @@ std::vector<Strain> strainRates(const MeshView& view, const std::vector<Vec3f>& 
   fitted = blurred(view, std::move(fitted));
   forEachIndex(fitted.size(), [&](std::uint32_t v) {
     const Weighted& f = fitted[v];
-    if (!(f.weight > 1e-6f)) return;
-    const float scale = 1.0f / (f.weight * float(seconds));
-    result[v] = {f.mean * scale, f.deviator * scale};
+    if (!(f[1] > 1e-6f)) return;
+    const float scale = 1.0f / (f[1] * float(seconds));
+    result[v] = {f[0] * scale, {f[2] * scale, f[3] * scale}};
   });
   return result;
 }

@@ -1,5 +1,6 @@
 #include "texture/renewal.h"
 
+#include "texture/averaged.h"
 #include "texture/complex.h"
 #include "texture/fresh.h"
 #include "texture/guidance.h"
@@ -73,20 +74,6 @@ bool believed(float trust) {
 
 namespace {
 
-std::vector<float> blurred(const VertexGraph& graph, std::vector<float> value) {
-  std::vector<float> next(value.size());
-  for (int sweep = 0; sweep < kBlurSweeps; ++sweep) {
-    forEachIndex(value.size(), [&](std::uint32_t v) {
-      float sum = value[v];
-      const auto around = graph.around(v);
-      for (const std::uint32_t u : around) sum += value[u];
-      next[v] = sum / float(around.size() + 1);
-    });
-    value.swap(next);
-  }
-  return value;
-}
-
 // Walks over the surface around a vertex, as far as it hangs together within a distance of it.
 class Surroundings {
  public:
@@ -137,12 +124,17 @@ void fillBetween(const VertexGraph& graph, int rings, const Wanted& wanted, std:
 }  // namespace
 
 Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<float>& trust) {
-  std::vector<float> stretched(labels.size());
+  const std::vector<float> bad = badness(model, labels, trust);
+  std::vector<Vec2f> both(labels.size());
   forEachIndex(labels.size(), [&](std::uint32_t v) {
-    stretched[v] = lost(model.image, labels[v], trust[v]) ? 0.0f : std::log(stretch(labels[v]));
+    both[v] = {bad[v], lost(model.image, labels[v], trust[v]) ? 0.0f : std::log(stretch(labels[v]))};
   });
-  return {blurred(model.view.graph, badness(model, labels, trust)),
-          blurred(model.view.graph, std::move(stretched))};
+  both = averaged(model.view.graph, std::move(both), kBlurSweeps,
+                  [](const Vec2f& value, std::uint32_t) { return value; });
+  Wear wear{std::vector<float>(labels.size()), std::vector<float>(labels.size())};
+  forEachIndex(labels.size(),
+               [&](std::uint32_t v) { wear.bad[v] = both[v][0], wear.stretch[v] = both[v][1]; });
+  return wear;
 }
 
 double wornShare(const std::vector<Strain>& rates, double seconds, double keepStretch) {
@@ -208,13 +200,18 @@ std::vector<std::uint8_t> lostLabels(const SeamModel& model, const Labels& label
 }
 
 std::vector<std::uint8_t> grown(const VertexGraph& graph, std::vector<std::uint8_t> mask, int rings) {
-  for (int ring = 0; ring < rings; ++ring) {
-    std::vector<std::uint8_t> next = mask;
-    forEachIndex(mask.size(), [&](std::uint32_t v) {
-      for (const std::uint32_t u : graph.around(v))
-        if (mask[u]) next[v] = 1;
-    });
-    mask.swap(next);
+  std::vector<std::uint32_t> front, next;
+  for (std::uint32_t v = 0; v < mask.size(); ++v)
+    if (mask[v]) front.push_back(v);
+  for (int ring = 0; ring < rings && !front.empty(); ++ring) {
+    next.clear();
+    for (const std::uint32_t v : front)
+      for (const std::uint32_t u : graph.around(v)) {
+        if (mask[u]) continue;
+        mask[u] = 1;
+        next.push_back(u);
+      }
+    front.swap(next);
   }
   return mask;
 }
