@@ -155,6 +155,7 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
             progress);
   joinLabels(seams, state, kData, level.wanted, &before, keyOf(synthesizer, frame, 0, 1), state.labels);
   Labels settled = settle(seams, before, state.labels, carried.trust, result.renewed);
+  // What new pieces leave of older ones.
   absorbChips(seams, wantedAmong(std::vector<std::uint8_t>(count, 1)), settled, result.renewed);
   result.labels = unstrained(std::move(settled), ahead);
   return result;

@@ -49,7 +49,7 @@ struct Pieces {
   // the exemplar; 0 without such edges.
   double seams = 0.0;
   double joints = 0.0;  // share of the edges that lie between pieces
-  double chips = 0.0;   // share of the vertices in pieces of fewer than 25
+  double chips = 0.0;   // share of the vertices in pieces of fewer than kChip (chips.h)
   int pieces = 0;
 };
 
@@ -97,6 +97,13 @@ class LikenessJudge {
   struct Internals;
   std::unique_ptr<Internals> m_internals;
 };
+
+// Squared gradient of an exemplar's luminance, as it is seen, averaged over 3 x 3 texels, over the mean of the
+// whole: one channel. 1 everywhere where the exemplar is of one luminance. color: linear RGBA.
+Image contrastOf(const Image& color);
+// Mean of that over the texels that the vertices show: 1 where all of the exemplar is shown alike, less where
+// what has little contrast was chosen. Nothing without a surface.
+std::optional<double> measureContrast(const TexturedSurface& surface, const Image& contrast);
 
 // Nothing without a surface.
 std::optional<Pieces> measurePieces(const TexturedSurface& surface, const Image& color, bool toroidal);

@@ -1,3 +1,4 @@
+#include "texture/chips.h"
 #include "texture/measure.h"
 #include "texture/measure_gradient.h"
 #include "texture/measure_tiles.h"
@@ -8,8 +9,6 @@
 
 namespace fluidtex::texture {
 namespace {
-
-constexpr int kChip = 25;  // vertices
 
 // Sets of vertices that are joined one by one.
 class Joined {
@@ -87,7 +86,7 @@ std::optional<Pieces> measurePieces(const TexturedSurface& surface, const Image&
   std::size_t inChips = 0;
   for (const int size : sizes) {
     result.pieces += size > 0;
-    if (size < kChip) inChips += std::size_t(size);
+    if (size < int(kChip)) inChips += std::size_t(size);
   }
   result.chips = double(inChips) / double(measured);
   result.joints = edges > 0 ? double(joints) / double(edges) : 0.0;

@@ -17,12 +17,22 @@ namespace fs = std::filesystem;
 namespace {
 
 // Keys of a frame, and heads of the columns that show them.
-constexpr std::pair<const char*, const char*> kColumns[] = {
-    {"likeness", "likeness"},   {"sharpness", "sharp"}, {"coverage", "coverage"},
-    {"repeats", "repeats"},     {"shape", "shape"},     {"seams", "seams"},
-    {"joints", "joints"},       {"chips", "chips"},     {"pop", "pop"},
-    {"change", "change"},       {"renewed", "renewed"}, {"change_along_flow", "along flow"},
-    {"coherence", "coherence"}, {"worn", "worn"},       {"least_change", "least"}};
+constexpr std::pair<const char*, const char*> kColumns[] = {{"likeness", "likeness"},
+                                                            {"sharpness", "sharp"},
+                                                            {"coverage", "coverage"},
+                                                            {"contrast", "contrast"},
+                                                            {"repeats", "repeats"},
+                                                            {"shape", "shape"},
+                                                            {"seams", "seams"},
+                                                            {"joints", "joints"},
+                                                            {"chips", "chips"},
+                                                            {"pop", "pop"},
+                                                            {"change", "change"},
+                                                            {"renewed", "renewed"},
+                                                            {"change_along_flow", "along flow"},
+                                                            {"coherence", "coherence"},
+                                                            {"worn", "worn"},
+                                                            {"least_change", "least"}};
 
 class Measurer {
  public:
@@ -33,6 +43,7 @@ class Measurer {
     const std::vector<int>& frames = m_run.frames;
     texture::LikenessJudge judge(m_run.color);
     const double deviation = texture::deviationOfLuminance(m_run.color);
+    const texture::Image contrast = texture::contrastOf(m_run.color);
     if (!m_wishes.quiet) printHead();
     Json rows = Json::array();
     texture::TexturedSurface before;
@@ -44,6 +55,7 @@ class Measurer {
       row["vertices"] = surface.positions.size();
       if (n % std::size_t(m_wishes.every) == 0 || n + 1 == frames.size()) {
         addLikeness(row, judge(surface, n == 0 || n + 1 == frames.size()));
+        if (const auto found = texture::measureContrast(surface, contrast)) row["contrast"] = *found;
         addPieces(row, texture::measurePieces(surface, m_run.color, m_run.toroidal));
       }
       if (n > 0 && frames[n - 1] == frame - 1) {

@@ -250,6 +250,25 @@ TEST_CASE("measure: what the flow wears out follows from its strain, whatever th
   CHECK_FALSE(measureFlowWear(fresh, 0.5));
 }
 
+TEST_CASE("measure: contrast is that of the texels that were chosen", "[texture]") {
+  // Plain on the left, squares on the right.
+  const Image picture = paint(128, 64, [](float x, float y, float* c) {
+    c[0] = c[1] = c[2] = x < 64 ? 0.2f : float((int(x) / 4 + int(y) / 4) % 2);
+    c[3] = 1.0f;
+  });
+  const Image contrast = contrastOf(picture);
+  const auto shown = [&](float from, float width) {
+    TexturedSurface surface = sheet(picture, asItIs);
+    for (std::size_t v = 0; v < surface.coordinate.size(); ++v)
+      surface.coordinate[v] = {from + float(v * 37 % 4096) / 4096.0f * width, float(v * 13 % 64)};
+    return *measureContrast(surface, contrast);
+  };
+  CHECK_THAT(shown(0.0f, 127.0f), WithinAbs(1.0, 0.05));
+  CHECK_THAT(shown(68.0f, 58.0f), WithinAbs(2.0, 0.1));
+  CHECK(shown(2.0f, 58.0f) == 0.0);
+  CHECK_FALSE(measureContrast(TexturedSurface{}, contrast));
+}
+
 TEST_CASE("measure: renewed surface changes by what is shown instead", "[texture]") {
   // Light above, dark below: a vertex that goes from one to the other changes by their difference.
   const Image picture = paint(64, 64, [](float, float y, float* c) {
