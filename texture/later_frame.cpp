@@ -91,20 +91,76 @@ void startFromNothing(Synthesizer& synthesizer, const Surface& surface, const Me
     if (wide[v]) labels[v] = fine[v];
 }
 
+// What is wanted, laid anew on what was carried: discs from blocks of the exemplar, wide new surface from
+// nothing, all of it at half detail first; then within the rims around it, from where seams show least.
+Labels layAnew(Synthesizer& synthesizer, const Surface& surface, const SeamModel& seams,
+               const Carried& carried, const std::vector<Disc>& discs,
+               const std::vector<std::uint8_t>& wanted, std::vector<std::uint8_t> withRims,
+               const Labels& before, int frame, SynthesisStats& stats, const Progress& progress) {
+  const SynthesisOptions& options = synthesizer.options;
+  const SearchTables& tables = *synthesizer.tables;
+  const TexelImage& image = tables.image.front();
+  const MeshView& view = seams.view;
+  State state;
+  state.labels = before;
+  state.average = lookUp(image, before);
+  holdGuidance(image, view.mesh, state.average);
+  startAfresh(view, image, discs, options.renewalRadius, state.average, keyOf(synthesizer, frame, 0, 2),
+              state.labels);
+  startFromNothing(synthesizer, surface, view, carried.trust, frame, state.labels, stats);
+  if (tables.image.size() > 1) layOut(synthesizer, view, wanted, frame, state.labels, stats, progress);
+  state.value = lookUp(image, state.labels);
+
+  const Level level{view, image, tables.histogram.front(), {}, std::move(withRims)};
+  const std::size_t windows = windowsOf(synthesizer, 0).size();
+  runPasses(synthesizer, level,
+            {0, frame, options.laterIterations, 1, false, windows > 1 ? std::size_t(1) : 0}, state, stats,
+            progress);
+  joinLabels(seams, state, kData, level.wanted, &before, keyOf(synthesizer, frame, 0, 1), state.labels);
+  return std::move(state.labels);
+}
+
+std::vector<Disc> discsOf(const Synthesizer& synthesizer, const SeamModel& seams, const Labels& labels,
+                          const Wear& wear, const Carried& carried, const std::vector<Strain>& rates,
+                          double seconds) {
+  const SynthesisOptions& options = synthesizer.options;
+  const double budget = options.renewalRate * seconds;
+  const double worn = kDiscsOfAll * wornShare(rates, seconds, options.keepStretch);
+  return worstDiscs(seams, labels, wear, carried.trust, carried.fading.weight,
+                    {options.keepStretch, options.renewalRadius, budget, std::max(budget, worn)},
+                    options.seed);
+}
+
+// #V, 1 where labels may change: droplets too small for texture stay as they are; so does what still fades,
+// or it would jump.
+std::vector<std::uint8_t> renewable(const Synthesizer& synthesizer, const VertexGraph& graph,
+                                    const Carried& carried) {
+  std::vector<std::uint8_t> result = searched(synthesizer, graph);
+  if (result.empty()) result.assign(carried.trust.size(), 1);
+  for (std::size_t v = 0; v < result.size(); ++v)
+    if (carried.fading.weight[v] > 0.0f && believed(carried.trust[v])) result[v] = 0;
+  return result;
+}
+
+// #V, 1 where the first, and the second or the third, are 1.
+std::vector<std::uint8_t> among(const std::vector<std::uint8_t>& free, std::vector<std::uint8_t> a,
+                                const std::vector<std::uint8_t>& b) {
+  for (std::size_t v = 0; v < free.size(); ++v) a[v] = free[v] && (a[v] || b[v]);
+  return a;
+}
+
 }  // namespace
 
 LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, const MeshView& now,
                            const Carried& carried, int frame, double secondsSinceLast, SynthesisStats& stats,
                            const Progress& progress) {
   const SynthesisOptions& options = synthesizer.options;
-  const SearchTables& tables = *synthesizer.tables;
-  const TexelImage& image = tables.image.front();
-  const Labels carriedLabels = labelsOf(now.mesh, carried.coordinate, carried.gradient);
-  const Wear wear = wearAround(seamModel(synthesizer, now, 0), carriedLabels, carried.trust);
-  const std::size_t count = carriedLabels.size();
-  LaterFrame result{carriedLabels, std::vector<std::uint8_t>(count, 0), std::vector<float>(count)};
+  const Labels labels = labelsOf(now.mesh, carried.coordinate, carried.gradient);
+  const std::size_t count = labels.size();
+  const Wear wear = wearAround(seamModel(synthesizer, now, 0), labels, carried.trust);
   const std::vector<Strain> rates =
       strainRates(now, carried.previousPosition, carried.trust, secondsSinceLast);
+  LaterFrame result{labels, std::vector<std::uint8_t>(count, 0), std::vector<float>(count)};
   forEachIndex(count, [&](std::uint32_t v) {
     result.fadingSpeed[v] = fadingSpeed(largest(rates[v]), options.keepStretch, options.fade);
   });
@@ -115,48 +171,22 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   const Connection connection = strained(now, ahead);
   const MeshView view{now.mesh, now.graph, connection, now.pixel, now.members};
   const SeamModel seams = seamModel(synthesizer, view, 0);
-  const Labels before = strained(carriedLabels, ahead);
+  const Labels before = strained(labels, ahead);
 
-  const double budget = options.renewalRate * secondsSinceLast;
-  const DiscOptions discOptions{
-      options.keepStretch, options.renewalRadius, budget,
-      std::max(budget, kDiscsOfAll * wornShare(rates, secondsSinceLast, options.keepStretch))};
-  const std::vector<Disc> discs =
-      worstDiscs(seams, carriedLabels, wear, carried.trust, carried.fading.weight, discOptions, options.seed);
+  const std::vector<Disc> discs = discsOf(synthesizer, seams, labels, wear, carried, rates, secondsSinceLast);
   std::vector<std::uint8_t> inDiscs(count, 0);
   for (const Disc& disc : discs)
     for (const std::uint32_t v : disc.members) inDiscs[v] = 1;
+  const std::vector<std::uint8_t> free = renewable(synthesizer, view.graph, carried);
   const std::vector<std::uint8_t> lost = lostLabels(seams, before, carried.trust);
-  const std::vector<std::uint8_t> large = searched(synthesizer, view.graph);
-  // Droplets too small for texture stay as they are; so does what still fades, or it would jump.
-  const auto wantedAmong = [&](std::vector<std::uint8_t> wanted) {
-    for (std::size_t v = 0; v < count; ++v) {
-      const bool young = carried.fading.weight[v] > 0.0f && believed(carried.trust[v]);
-      wanted[v] = (wanted[v] || lost[v]) && (large.empty() || large[v]) && !young;
-    }
-    return wanted;
-  };
-  Level level{view, image, tables.histogram.front(), {}, wantedAmong(inDiscs)};
-  if (!any(level.wanted)) return result;
+  const std::vector<std::uint8_t> wanted = among(free, inDiscs, lost);
+  if (!any(wanted)) return result;
 
-  State state;
-  state.labels = before;
-  state.average = lookUp(image, before);
-  holdGuidance(image, view.mesh, state.average);
-  startAfresh(view, image, discs, options.renewalRadius, state.average, keyOf(synthesizer, frame, 0, 2),
-              state.labels);
-  startFromNothing(synthesizer, surface, view, carried.trust, frame, state.labels, stats);
-  if (tables.image.size() > 1) layOut(synthesizer, view, level.wanted, frame, state.labels, stats, progress);
-  state.value = lookUp(image, state.labels);
-  level.wanted = wantedAmong(grown(view.graph, inDiscs, kRim));
-  const std::size_t windows = windowsOf(synthesizer, 0).size();
-  runPasses(synthesizer, level,
-            {0, frame, options.laterIterations, 1, false, windows > 1 ? std::size_t(1) : 0}, state, stats,
-            progress);
-  joinLabels(seams, state, kData, level.wanted, &before, keyOf(synthesizer, frame, 0, 1), state.labels);
-  Labels settled = settle(seams, before, state.labels, carried.trust, result.renewed);
-  // What new pieces leave of older ones.
-  absorbChips(seams, wantedAmong(std::vector<std::uint8_t>(count, 1)), settled, result.renewed);
+  const Labels proposed =
+      layAnew(synthesizer, surface, seams, carried, discs, wanted,
+              among(free, grown(view.graph, inDiscs, kRim), lost), before, frame, stats, progress);
+  Labels settled = settle(seams, before, proposed, carried.trust, result.renewed);
+  absorbChips(seams, free, settled, result.renewed);  // what new pieces leave of older ones
   result.labels = unstrained(std::move(settled), ahead);
   return result;
 }
