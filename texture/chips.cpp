@@ -1,6 +1,9 @@
 #include "texture/chips.h"
 
 #include "texture/parallel.h"
+#include "texture/pieces.h"
+
+#include <algorithm>
 
 namespace fluidtex::texture {
 
@@ -14,27 +17,17 @@ void absorbChips(const SeamModel& model, const std::vector<std::uint8_t>& free, 
       joined[h] = continues(model, labels[v], labels[graph.neighbor[h]], h);
   });
 
-  std::vector<std::uint8_t> seen(count, 0), chips(count, 0);
-  std::vector<std::uint32_t> piece;
-  for (std::uint32_t start = 0; start < count; ++start) {
-    if (seen[start] || !free[start]) continue;
-    piece.assign(1, start);
-    seen[start] = 1;
-    bool whole = true;  // all of it is free
-    for (std::size_t i = 0; i < piece.size(); ++i)
-      for (std::uint32_t h = graph.first[piece[i]]; h < graph.first[piece[i] + 1]; ++h) {
-        const std::uint32_t u = graph.neighbor[h];
-        if (!joined[h] || seen[u]) continue;
-        if (!free[u]) {
-          whole = false;
-          continue;
-        }
-        seen[u] = 1;
-        piece.push_back(u);
-      }
-    if (!whole || piece.size() >= kChip) continue;
+  const auto isJoined = [&](std::uint32_t h) { return joined[h] != 0; };
+  const auto isFree = [&](std::uint32_t v) {  // with all that it is joined to
+    for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h)
+      if (joined[h] && !free[graph.neighbor[h]]) return false;
+    return true;
+  };
+  std::vector<std::uint8_t> chips(count, 0);
+  forEachPiece(graph, free, isJoined, [&](const std::vector<std::uint32_t>& piece) {
+    if (piece.size() >= kChip || !std::all_of(piece.begin(), piece.end(), isFree)) return;
     for (const std::uint32_t v : piece) chips[v] = 1;
-  }
+  });
 
   std::vector<std::uint8_t> rest(count);
   for (std::size_t v = 0; v < count; ++v) rest[v] = !chips[v];

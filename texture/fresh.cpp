@@ -2,6 +2,7 @@
 
 #include "texture/labels.h"
 #include "texture/parallel.h"
+#include "texture/pieces.h"
 
 #include <algorithm>
 #include <limits>
@@ -10,26 +11,6 @@ namespace fluidtex::texture {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
-// Calls body(piece) with the vertices of every connected piece of the mask.
-template <typename Body>
-void forEachPiece(const VertexGraph& graph, const std::vector<std::uint8_t>& mask, const Body& body) {
-  std::vector<std::uint8_t> seen(mask.size(), 0);
-  std::vector<std::uint32_t> piece;
-  for (std::uint32_t start = 0; start < mask.size(); ++start) {
-    if (!mask[start] || seen[start]) continue;
-    piece.assign(1, start);
-    seen[start] = 1;
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      for (const std::uint32_t u : graph.around(piece[i])) {
-        if (!mask[u] || seen[u]) continue;
-        seen[u] = 1;
-        piece.push_back(u);
-      }
-    }
-    body(piece);
-  }
-}
 
 // For each vertex the number of edges to the nearest one outside of the mask, kNone where there is none.
 std::vector<std::uint32_t> depths(const VertexGraph& graph, const std::vector<std::uint8_t>& mask) {

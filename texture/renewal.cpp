@@ -5,6 +5,7 @@
 #include "texture/fresh.h"
 #include "texture/guidance.h"
 #include "texture/parallel.h"
+#include "texture/pieces.h"
 #include "texture/random.h"
 #include "texture/slips.h"
 
@@ -216,6 +217,30 @@ std::vector<std::uint8_t> grown(const VertexGraph& graph, std::vector<std::uint8
   return mask;
 }
 
+namespace {
+
+// #V: how much badness changes where `renewed` is 1: a vertex's own, and its share of that of neighbours that
+// stay. What is proposed does not depend on what was carried: it is trusted.
+std::vector<float> changesOf(const SeamModel& model, const Labels& carried, const Labels& proposed,
+                             const std::vector<float>& trust, const std::vector<std::uint8_t>& renewed) {
+  const VertexGraph& graph = model.view.graph;
+  std::vector<float> change(carried.size(), 0.0f);
+  forEachIndex(carried.size(), [&](std::uint32_t v) {
+    if (!renewed[v]) return;
+    change[v] = badnessAt(model, proposed, 1.0f, v) - badnessAt(model, carried, trust[v], v);
+    for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
+      const std::uint32_t u = graph.neighbor[h];
+      if (renewed[u]) continue;
+      const float rise =
+          seamCost(model, proposed[v], carried[u], h) - seamCost(model, carried[v], carried[u], h);
+      change[v] += kSeamWeight * rise / float(graph.around(u).size());
+    }
+  });
+  return change;
+}
+
+}  // namespace
+
 Labels settle(const SeamModel& model, const Labels& carried, const Labels& proposed,
               const std::vector<float>& trust, std::vector<std::uint8_t>& renewed) {
   const std::size_t count = carried.size();
@@ -231,41 +256,17 @@ Labels settle(const SeamModel& model, const Labels& carried, const Labels& propo
   });
   closeSlips(model, renewed, result);  // what is judged is what comes of it
 
-  // What renewing a vertex changes: its own badness, and its share of that of neighbours that stay.
-  const VertexGraph& graph = model.view.graph;
-  std::vector<float> change(count, 0.0f);
-  forEachIndex(count, [&](std::uint32_t v) {
-    if (!renewed[v]) return;
-    // What is proposed does not depend on what was carried: it is trusted.
-    change[v] = badnessAt(model, result, 1.0f, v) - badnessAt(model, carried, trust[v], v);
-    for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
-      const std::uint32_t u = graph.neighbor[h];
-      if (renewed[u]) continue;
-      const float rise =
-          seamCost(model, result[v], carried[u], h) - seamCost(model, carried[v], carried[u], h);
-      change[v] += kSeamWeight * rise / float(graph.around(u).size());
-    }
-  });
-  std::vector<std::uint8_t> seen(count, 0);
-  std::vector<std::uint32_t> piece;
-  for (std::uint32_t start = 0; start < count; ++start) {
-    if (!renewed[start] || seen[start]) continue;
-    piece.assign(1, start);
-    seen[start] = 1;
+  const std::vector<float> change = changesOf(model, carried, result, trust, renewed);
+  const std::vector<std::uint8_t> offered = renewed;
+  forEachPiece(model.view.graph, offered, [&](const std::vector<std::uint32_t>& piece) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      sum += double(change[piece[i]]);
-      for (const std::uint32_t u : graph.around(piece[i])) {
-        if (!renewed[u]) continue;
-        if (!seen[u]) seen[u] = 1, piece.push_back(u);
-      }
-    }
-    if (sum < -double(kLeastGain) * double(piece.size())) continue;
+    for (const std::uint32_t v : piece) sum += double(change[v]);
+    if (sum < -double(kLeastGain) * double(piece.size())) return;
     for (const std::uint32_t v : piece) {
       renewed[v] = 0;
       result[v] = carried[v];
     }
-  }
+  });
   return result;
 }
 
