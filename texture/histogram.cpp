@@ -109,22 +109,24 @@ Histogram expectedHistogram(const HistogramTarget& target, const TexelImage& ima
   return result;
 }
 
-std::vector<float> histogramWeights(const HistogramTarget& target, const Histogram& expected,
-                                    const Histogram& surface, const TexelImage& image, double strength) {
-  std::array<std::array<float, kHistogramBins>, kMaxChannels> excess{};
+HistogramWeights::HistogramWeights(const HistogramTarget& target, const Histogram& expected,
+                                   const Histogram& surface, const TexelImage& image, double strength,
+                                   std::size_t reads)
+    : m_bins(target.bins), m_channels(image.channels) {
   for (int c = 0; c < image.channels; ++c)
     for (int b = 0; b < kHistogramBins; ++b)
       if (c != image.guide)
-        excess[c][b] =
+        m_excess[c][b] =
             float(strength * kHistogramBins) * std::max(0.0f, surface.share[c][b] - expected.share[c][b]);
-  std::vector<float> weights(image.data.size());
-  forEachIndex(weights.size(), [&](std::uint32_t i) {
-    const Bins& bins = target.bins[i];
-    float sum = 1.0f;
-    for (int c = 0; c < image.channels; ++c) sum += excess[c][bins[c]];
-    weights[i] = 1.0f / sum;
-  });
-  return weights;
+  if (reads < m_bins.size()) return;
+  m_all.resize(m_bins.size());
+  forEachIndex(m_all.size(), [&](std::uint32_t i) { m_all[i] = of(m_bins[i]); });
+}
+
+float HistogramWeights::of(const Bins& bins) const {
+  float sum = 1.0f;
+  for (int c = 0; c < m_channels; ++c) sum += m_excess[c][bins[c]];
+  return 1.0f / sum;
 }
 
 }  // namespace fluidtex::texture

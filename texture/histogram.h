@@ -35,10 +35,23 @@ Histogram histogramOf(const HistogramTarget& target, const Values& values, int c
 // guided.
 Histogram expectedHistogram(const HistogramTarget& target, const TexelImage& image, const Demand& demand);
 
-// For every texel of image.data: 1 / (1 + strength * excess), where excess sums over the channels by how much
-// the surface's share of the texel's bin exceeds the expected one, in mean shares (1 / kHistogramBins). The
-// guidance map is left out.
-std::vector<float> histogramWeights(const HistogramTarget& target, const Histogram& expected,
-                                    const Histogram& surface, const TexelImage& image, double strength);
+// For texel i of image.data: 1 / (1 + strength * excess), where excess sums over the channels by how much the
+// surface's share of the texel's bin exceeds the expected one, in mean shares (1 / kHistogramBins). The
+// guidance map is left out. Refers to the target.
+class HistogramWeights {
+ public:
+  // reads: about how many will be asked for; if fewer than there are texels, each is found when it is.
+  HistogramWeights(const HistogramTarget& target, const Histogram& expected, const Histogram& surface,
+                   const TexelImage& image, double strength, std::size_t reads);
+  float operator[](std::size_t i) const { return m_all.empty() ? of(m_bins[i]) : m_all[i]; }
+
+ private:
+  float of(const Bins& bins) const;
+
+  std::array<std::array<float, kHistogramBins>, kMaxChannels> m_excess{};
+  const std::vector<Bins>& m_bins;
+  int m_channels;
+  std::vector<float> m_all;
+};
 
 }  // namespace fluidtex::texture

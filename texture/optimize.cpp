@@ -9,6 +9,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace fluidtex::texture {
 namespace {
@@ -70,12 +71,11 @@ void average(Run& run, double room) {
   const bool reweigh = run.options.histogram > 0.0;
   std::vector<float> slope(run.windows.match.size());
   for (std::size_t p = 0; p < slope.size(); ++p) slope[p] = float(run.norm.slope(run.windows.distance[p]));
-  std::vector<float> texelWeight;
-  if (reweigh) {
-    const Histogram now = histogramOf(run.level.histogram, run.state.value, run.level.image.channels);
-    texelWeight =
-        histogramWeights(run.level.histogram, run.expected, now, run.level.image, run.options.histogram);
-  }
+  std::optional<HistogramWeights> texelWeight;
+  if (reweigh)
+    texelWeight.emplace(run.level.histogram, run.expected,
+                        histogramOf(run.level.histogram, run.state.value, run.level.image.channels),
+                        run.level.image, run.options.histogram, run.byVertex.entry.size());
 
   Values plain = run.state.value, reweighed = reweigh ? run.state.value : Values{};
   std::vector<float> total(count, 0.0f);
@@ -91,7 +91,7 @@ void average(Run& run, double room) {
       sum += w * texel;
       weight += w;
       if (reweigh) {
-        const float h = w * texelWeight[run.level.image.nearest(at[0], at[1])];
+        const float h = w * (*texelWeight)[run.level.image.nearest(at[0], at[1])];
         weightedSum += h * texel;
         weightedWeight += h;
       }

@@ -33,10 +33,9 @@ TEST_CASE("histogram: shares sum to one and count what is there") {
 TEST_CASE("histogram: a surface with the exemplar's own shares weighs all texels alike") {
   const TexelImage image = makeTexelImage(blobImage(50, 40, 3, 8.0, 1), false, 3);
   const HistogramTarget target = makeHistogramTarget(image);
-  const std::vector<float> weights =
-      histogramWeights(target, target.exemplar, histogramOf(target, texels(image), 3), image, 3.0);
-  REQUIRE(weights.size() == image.data.size());
-  for (const float w : weights) CHECK(w == Approx(1.0f).margin(1e-4));
+  const HistogramWeights weights(target, target.exemplar, histogramOf(target, texels(image), 3), image, 3.0,
+                                 0);
+  for (std::size_t i = 0; i < image.data.size(); ++i) CHECK(weights[i] == Approx(1.0f).margin(1e-4));
 }
 
 TEST_CASE("histogram: what the surface has too much of weighs less, in proportion to the strength") {
@@ -47,17 +46,21 @@ TEST_CASE("histogram: what the surface has too much of weighs less, in proportio
   for (Float8& value : dark) value[0] *= 0.5f;  // the darker half twice, the brighter not at all
   const Histogram surface = histogramOf(target, dark, 1);
   for (const double strength : {1.0, 3.0}) {
-    const std::vector<float> weights = histogramWeights(target, target.exemplar, surface, image, strength);
+    const HistogramWeights weights(target, target.exemplar, surface, image, strength, 0);
     CHECK(weights[image.nearest(2, 1)] == Approx(1.0 / (1.0 + strength)).epsilon(0.1));
     CHECK(weights[image.nearest(60, 1)] == 1.0f);
+    // The same beforehand.
+    const HistogramWeights all(target, target.exemplar, surface, image, strength, 1u << 20);
+    for (std::size_t i = 0; i < image.data.size(); ++i) CHECK(all[i] == weights[i]);
   }
-  for (const float w : histogramWeights(target, target.exemplar, surface, image, 0.0)) CHECK(w == 1.0f);
+  const HistogramWeights none(target, target.exemplar, surface, image, 0.0, 0);
+  for (std::size_t i = 0; i < image.data.size(); ++i) CHECK(none[i] == 1.0f);
 }
 
 TEST_CASE("histogram: a plain image is no trouble") {
   const TexelImage image = makeTexelImage(imageOf(20, 20, 3, [](int, int, int) { return 0.4f; }), false, 3);
   const HistogramTarget target = makeHistogramTarget(image);
-  for (const float w :
-       histogramWeights(target, target.exemplar, histogramOf(target, texels(image), 3), image, 3.0))
-    CHECK(w == 1.0f);
+  const HistogramWeights weights(target, target.exemplar, histogramOf(target, texels(image), 3), image, 3.0,
+                                 0);
+  for (std::size_t i = 0; i < image.data.size(); ++i) CHECK(weights[i] == 1.0f);
 }
