@@ -1,5 +1,6 @@
 #include "texture/chips.h"
 
+#include "texture/fresh.h"
 #include "texture/parallel.h"
 #include "texture/pieces.h"
 
@@ -7,16 +8,15 @@
 
 namespace fluidtex::texture {
 
-void absorbChips(const SeamModel& model, const std::vector<std::uint8_t>& free, Labels& labels,
-                 std::vector<std::uint8_t>& changed) {
+void absorbChips(const SeamModel& model, const std::vector<std::uint8_t>& free, Labels& labels) {
   const VertexGraph& graph = model.view.graph;
   const std::size_t count = labels.size();
-  std::vector<std::uint8_t> joined(graph.neighbor.size());
+  std::vector<std::uint8_t> joined(graph.neighbor.size(), 0);
   forEachIndex(count, [&](std::uint32_t v) {
+    if (!free[v]) return;
     for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h)
       joined[h] = continues(model, labels[v], labels[graph.neighbor[h]], h);
   });
-
   const auto isJoined = [&](std::uint32_t h) { return joined[h] != 0; };
   const auto isFree = [&](std::uint32_t v) {  // with all that it is joined to
     for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h)
@@ -28,14 +28,11 @@ void absorbChips(const SeamModel& model, const std::vector<std::uint8_t>& free, 
     if (piece.size() >= kChip || !std::all_of(piece.begin(), piece.end(), isFree)) return;
     for (const std::uint32_t v : piece) chips[v] = 1;
   });
+  if (!any(chips)) return;
 
   std::vector<std::uint8_t> rest(count);
   for (std::size_t v = 0; v < count; ++v) rest[v] = !chips[v];
-  const Labels before = labels;
-  handOn(model.image, model.view, chips, std::move(rest), labels);
-  for (std::size_t v = 0; v < count; ++v)
-    if (chips[v] && (labels[v].texel != before[v].texel || labels[v].jacobian != before[v].jacobian))
-      changed[v] = 1;
+  handOn(model.image, model.view, chips, std::move(rest), labels, HandOn::inside);
 }
 
 }  // namespace fluidtex::texture

@@ -166,9 +166,12 @@ Label continued(const TexelImage& image, const Label& label, const Complexf& edg
 }
 
 void handOn(const TexelImage& image, const MeshView& view, const std::vector<std::uint8_t>& wanted,
-            std::vector<std::uint8_t> placed, Labels& labels) {
+            std::vector<std::uint8_t> placed, Labels& labels, HandOn how) {
   std::vector<std::uint32_t> front, next;
   std::vector<std::uint8_t> reached = placed;
+  const auto mayTake = [&](const Label& label, const Complexf& edge, const Complexf& rotation) {
+    return how == HandOn::everywhere || liesOn(image, label.at(-conjugateProduct(rotation, edge)));
+  };
   for (std::uint32_t v = 0; v < placed.size(); ++v)
     if (placed[v]) front.push_back(v);
   while (!front.empty()) {
@@ -179,6 +182,7 @@ void handOn(const TexelImage& image, const MeshView& view, const std::vector<std
         reached[u] = 1;
         next.push_back(u);
       }
+    front.clear();
     for (const std::uint32_t v : next) {
       float nearest = std::numeric_limits<float>::infinity();
       std::uint32_t from = 0;
@@ -186,11 +190,13 @@ void handOn(const TexelImage& image, const MeshView& view, const std::vector<std
         const float distance = std::norm(view.connection.edge[h]);
         if (placed[view.graph.neighbor[h]] && distance < nearest) nearest = distance, from = h;
       }
-      labels[v] = continued(image, labels[view.graph.neighbor[from]], view.connection.edge[from],
-                            view.connection.rotation[from]);
+      const Label& label = labels[view.graph.neighbor[from]];
+      const Complexf &edge = view.connection.edge[from], &rotation = view.connection.rotation[from];
+      if (!mayTake(label, edge, rotation)) continue;
+      labels[v] = continued(image, label, edge, rotation);
+      front.push_back(v);
     }
-    for (const std::uint32_t v : next) placed[v] = 1;
-    front.swap(next);
+    for (const std::uint32_t v : front) placed[v] = 1;
   }
 }
 

@@ -58,14 +58,22 @@ inline Vec2f texelDifference(const TexelImage& image, const Vec2f& a, const Vec2
   return image.toroidal ? Vec2f(shortest(d[0], float(image.width)), shortest(d[1], float(image.height))) : d;
 }
 
+// Whether a texel lies on the exemplar, within half a texel; on one that wraps all do.
+inline bool liesOn(const TexelImage& image, const Vec2f& texel) {
+  return image.toroidal || (texel - image.brought(texel)).lengthSqr() <= 0.25f;
+}
+
 // A label continued to a neighbouring vertex; `edge` and `rotation` are that vertex's, towards the label's
 // own.
 Label continued(const TexelImage& image, const Label& label, const Complexf& edge, const Complexf& rotation);
 
+// Beyond the edge of an exemplar that does not wrap, labels are continued by what lies at its edge, or not.
+enum class HandOn { everywhere, inside };
+
 // Continues the labels of `placed` vertices (#V) ring by ring over the `wanted` ones (#V) that hang together
 // with them; each takes that of the nearest neighbour that has one.
 void handOn(const TexelImage& image, const MeshView& view, const std::vector<std::uint8_t>& wanted,
-            std::vector<std::uint8_t> placed, Labels& labels);
+            std::vector<std::uint8_t> placed, Labels& labels, HandOn how = HandOn::everywhere);
 
 // Two labels continue each other where each puts, at the other's place, a texel this near to the other's (the
 // mean of both).

@@ -27,9 +27,9 @@ constexpr float kData = 0.4f;
 constexpr double kMostStrain = 0.45;
 // Vertices that stand for the surface at half its detail lie 1 to 2 of its pixels apart.
 constexpr float kHalfRadius = 0.8f;
-// Windows of half detail go no further beyond what is laid out than this, times their width: their diagonal,
-// where edges are a little shorter than a pixel.
-constexpr float kRingsPerPixel = 2.2f;
+// Rings beyond what is laid out at half detail within which windows see its surroundings. Wider ones are cut
+// off there: all of a 33 pixel window's, 47, makes no better texture and takes longer.
+constexpr int kHalfReach = 20;
 
 // Texel x of the full exemplar lies at (x - 1/2) / 2 of the halved one; what a label says of its surroundings
 // in pixels stays.
@@ -60,8 +60,7 @@ void layOut(Synthesizer& synthesizer, const MeshView& view, const std::vector<st
   const SearchTables& tables = *synthesizer.tables;
   MeshView half{view.mesh, view.graph, view.connection, 2.0f, nullptr};
   std::vector<std::uint8_t> members(labels.size(), 0);
-  const int rings = int(std::ceil(kRingsPerPixel * float(synthesizer.options.windows.back())));
-  for (const std::uint32_t v : selectCenters(half, kHalfRadius, grown(view.graph, wanted, rings)))
+  for (const std::uint32_t v : selectCenters(half, kHalfRadius, grown(view.graph, wanted, kHalfReach)))
     members[v] = 1;
   half.members = &members;
 
@@ -182,12 +181,11 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   const std::vector<std::uint8_t> wanted = among(free, inDiscs, lost);
   if (!any(wanted)) return result;
 
-  const Labels proposed =
+  Labels proposed =
       layAnew(synthesizer, surface, seams, carried, discs, wanted,
               among(free, grown(view.graph, inDiscs, kRim), lost), before, frame, stats, progress);
-  Labels settled = settle(seams, before, proposed, carried.trust, result.renewed);
-  absorbChips(seams, free, settled, result.renewed);  // what new pieces leave of older ones
-  result.labels = unstrained(std::move(settled), ahead);
+  absorbChips(seams, free, proposed);
+  result.labels = unstrained(settle(seams, before, proposed, carried.trust, result.renewed), ahead);
   return result;
 }
 

@@ -28,9 +28,15 @@ constexpr float kFar = std::numeric_limits<float>::max();
 // One neighbourhood's values, gathered once for all its candidates.
 struct Gathered {
   Values value;
-  std::span<const Vec2f> offset;
+  std::array<std::vector<Vec2f>, 4> offset;  // by way
   std::span<const float> falloff;
   float mass = 0.0f;
+};
+
+// Where a window may be matched.
+struct Place {
+  Vec2f center;
+  Way way = 0;
 };
 
 void gather(const Windows& windows, std::size_t p, const Values& value, Gathered& result) {
@@ -38,23 +44,27 @@ void gather(const Windows& windows, std::size_t p, const Values& value, Gathered
   const std::size_t begin = n.first[p], count = n.first[p + 1] - begin;
   result.value.resize(count);
   for (std::size_t i = 0; i < count; ++i) result.value[i] = value[n.vertex[begin + i]];
-  result.offset = {n.offset.data() + begin, count};
+  for (int i = 0; i < windows.turns; ++i) {
+    const Way way = wayAt(windows.turns, i);
+    result.offset[way].resize(count);
+    for (std::size_t k = 0; k < count; ++k) result.offset[way][k] = laid(way, n.offset[begin + k]);
+  }
   result.falloff = {windows.falloff.data() + begin, count};
   result.mass = windows.mass[p];
 }
 
 // D_p / m_p at a match, or something above `bound`.
-float distanceAt(const TexelImage& image, const Gathered& gathered, const Vec2f& match, float bound = kFar) {
+float distanceAt(const TexelImage& image, const Gathered& gathered, const Place& match, float bound = kFar) {
   constexpr std::size_t kBlockSize = 24;  // entries between two looks at the bound; the heaviest come first
   const float limit = bound < kFar ? bound * gathered.mass : kFar;
+  const std::vector<Vec2f>& offset = gathered.offset[match.way];
   const std::size_t count = gathered.value.size();
   float total = 0.0f;
   for (std::size_t begin = 0; begin < count; begin += kBlockSize) {
     Float8 sum{};
     const std::size_t end = std::min(count, begin + kBlockSize);
     for (std::size_t i = begin; i < end; ++i) {
-      const Float8 texel =
-          image.sampleInside(match[0] + gathered.offset[i][0], match[1] + gathered.offset[i][1]);
+      const Float8 texel = image.sampleInside(match.center[0] + offset[i][0], match.center[1] + offset[i][1]);
       const Float8 d = gathered.value[i] - texel;
       sum += gathered.falloff[i] * d * d;
     }
@@ -73,21 +83,25 @@ struct Searcher {
   Gathered gathered;
 };
 
-// The tree's windows nearest to neighbourhood p.
+// The tree's windows nearest to neighbourhood p, laid in one way.
 int searchWindows(const Windows& windows, std::size_t p, const Pass& pass, const Values& value, int channels,
-                  WindowQuery& query, std::span<Match> found) {
-  fillQuery(windows, p, value, query, channels);
+                  Way way, WindowQuery& query, std::span<Match> found) {
+  fillQuery(windows, p, value, query, channels, way);
   prepareQuery(*pass.table, query);
   return searchTree(*pass.table, query, pass.probes, found);
 }
 
 }  // namespace
 
-void fillQuery(const Windows& windows, std::size_t p, const Values& value, WindowQuery& query, int channels) {
+void fillQuery(const Windows& windows, std::size_t p, const Values& value, WindowQuery& query, int channels,
+               Way way) {
   const std::size_t area = query.mask.size();
+  const int width = windows.neighborhoods.window, middle = width / 2;
   const PixelSource* pixels = windows.pixels.data() + p * area;
-  for (std::size_t i = 0; i < area; ++i) {
-    const PixelSource& pixel = pixels[i];
+  for (std::size_t k = 0; k < area; ++k) {
+    const PixelSource& pixel = pixels[k];
+    const Vec2f at = laid(way, Vec2f(float(int(k) % width - middle), float(int(k) / width - middle)));
+    const auto i = std::size_t((int(at[1]) + middle) * width + int(at[0]) + middle);
     query.mask[i] = pixel.missing() ? 0.0f : 1.0f;
     const Float8 sum = pixel.weight[0] * value[pixel.vertex[0]] + pixel.weight[1] * value[pixel.vertex[1]] +
                        pixel.weight[2] * value[pixel.vertex[2]];
@@ -95,8 +109,9 @@ void fillQuery(const Windows& windows, std::size_t p, const Values& value, Windo
   }
 }
 
-Windows makeWindows(const Level& level, const Pass& pass) {
+Windows makeWindows(const Level& level, const Pass& pass, int turns) {
   Windows windows;
+  windows.turns = turns;
   windows.neighborhoods = coverSurface(level.view, pass.window, level.wanted,
                                        pass.table && pass.probes > 0 ? &windows.pixels : nullptr);
   const Neighborhoods& n = windows.neighborhoods;
@@ -104,6 +119,7 @@ Windows makeWindows(const Level& level, const Pass& pass) {
   windows.falloff.resize(n.vertex.size());
   windows.mass.resize(n.size());
   windows.match.resize(n.size());
+  windows.way.assign(n.size(), 0);
   windows.distance.assign(n.size(), 0.0f);
   windows.demand = demandOn(level.image, level.view.mesh);
   tbb::parallel_for(std::size_t(0), n.size(), [&](std::size_t p) {
@@ -122,7 +138,7 @@ void measureMatches(const TexelImage& image, const Values& value, Windows& windo
                       Gathered& gathered = workspace.local();
                       for (std::size_t p = range.begin(); p != range.end(); ++p) {
                         gather(windows, p, value, gathered);
-                        windows.distance[p] = distanceAt(image, gathered, windows.match[p]);
+                        windows.distance[p] = distanceAt(image, gathered, {windows.match[p], windows.way[p]});
                       }
                     });
 }
@@ -133,10 +149,17 @@ void findFirstMatches(const Level& level, const Pass& pass, const Values& value,
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       Searcher& searcher = workspace.local();
                       for (std::size_t p = range.begin(); p != range.end(); ++p) {
-                        Match found[1];
-                        searchWindows(windows, p, pass, value, level.image.channels, searcher.query.front(),
-                                      found);
-                        windows.match[p] = Vec2f(found[0].center);
+                        float least = kFar;
+                        for (int i = 0; i < windows.turns; ++i) {
+                          const Way way = wayAt(windows.turns, i);
+                          Match found[1];
+                          searchWindows(windows, p, pass, value, level.image.channels, way,
+                                        searcher.query.front(), found);
+                          if (i > 0 && !(found[0].distance < least)) continue;
+                          least = found[0].distance;
+                          windows.match[p] = Vec2f(found[0].center);
+                          windows.way[p] = way;
+                        }
                       }
                     });
   measureMatches(level.image, value, windows);
@@ -159,7 +182,8 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
 
   tbb::enumerable_thread_specific<Searcher> workspace(
       [&] { return Searcher(useTree ? pass.table : nullptr); });
-  std::vector<Vec2f> next;
+  const int turns = windows.turns;
+  std::vector<Place> next;
   for (const std::vector<std::uint32_t>& batch : batches) {
     next.resize(batch.size());
     tbb::parallel_for(
@@ -171,19 +195,21 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
             const float reach = 0.5f * float(n.window - 1);
             gather(windows, p, value, searcher.gathered);
             const float present = windows.distance[p];
-            Vec2f best = windows.match[p], nearest = best;
+            const Place now{windows.match[p], windows.way[p]};
+            Place best = now, nearest = now;
             float bestScore = kFar, bestDistance = present, nearestDistance = present;
-            std::array<Vec2f, kMaxLinks + kMaxSimilar + kTreeCandidates + kRandomCandidates> tried;
+            std::array<Place, kMaxLinks + kMaxSimilar + kTreeCandidates + kRandomCandidates> tried;
             std::size_t triedCount = 0;
-            const auto offer = [&](const Vec2f& texel) {
-              const Vec2f candidate = image.centerFor(texel, reach);
-              constexpr float kSame = 0.02f;  // texels, squared distance
-              if ((candidate - windows.match[p]).lengthSqr() < kSame) return;
-              for (std::size_t i = 0; i < triedCount; ++i)
-                if ((candidate - tried[i]).lengthSqr() < kSame) return;
+            const auto offer = [&](const Vec2f& texel, Way way) {
+              const Place candidate{image.centerFor(texel, reach), way};
+              const auto same = [&](const Place& other) {
+                constexpr float kSame = 0.02f;  // texels, squared distance
+                return way == other.way && (candidate.center - other.center).lengthSqr() < kSame;
+              };
+              if (same(now) || std::any_of(tried.begin(), tried.begin() + triedCount, same)) return;
               if (triedCount < tried.size()) tried[triedCount++] = candidate;
               const float penalty =
-                  usage > 0.0 ? 1.0f + float(usage) * std::max(0.0f, used.at(candidate) - 1.0f) : 1.0f;
+                  usage > 0.0 ? 1.0f + float(usage) * std::max(0.0f, used.at(candidate.center) - 1.0f) : 1.0f;
               const float bound = std::min(present, bestScore / penalty);
               const float distance = distanceAt(image, searcher.gathered, candidate, bound);
               if (distance < nearestDistance) nearestDistance = distance, nearest = candidate;
@@ -194,37 +220,49 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
             for (std::uint32_t i = windows.links.first[p]; i < windows.links.first[p + 1]; ++i) {
               const std::uint32_t entry = windows.links.entry[i];
               const Complexf offset(n.offset[entry][0], n.offset[entry][1]);
-              const Complexf way = conjugateProduct(
-                  n.turn[entry], offset);  // from p to the neighbour, in the neighbour's axes
-              offer(windows.match[windows.links.window[i]] - Vec2f(way.real(), way.imag()));
+              // From p to the neighbour, in the neighbour's axes.
+              const Complexf towards = conjugateProduct(n.turn[entry], offset);
+              const std::uint32_t q = windows.links.window[i];
+              offer(windows.texelAt(q, Vec2f(-towards.real(), -towards.imag())),
+                    turns == 1 ? Way(0)
+                               : nearestWay(turns, conjugateProduct(n.turn[entry], turnOf(windows.way[q]))));
             }
             if (useTree) {
+              // As many of each way as of one where there is no other.
               Match found[kTreeCandidates];
-              const int count =
-                  searchWindows(windows, p, pass, value, image.channels, searcher.query.front(), found);
-              for (int i = 0; i < count; ++i) offer(Vec2f(found[i].center));
+              for (int t = 0; t < turns; ++t) {
+                const Way way = wayAt(turns, t);
+                const int count = searchWindows(windows, p, pass, value, image.channels, way,
+                                                searcher.query.front(), found);
+                for (int i = 0; i < count; ++i) offer(Vec2f(found[i].center), way);
+              }
             }
             if (similarCount > 0) {
               Vec2i similar[kMaxSimilar];
-              const Vec2i center(int(std::lround(nearest[0])), int(std::lround(nearest[1])));
-              const Vec2f shift = nearest - Vec2f(center);
+              const Vec2i center(int(std::lround(nearest.center[0])), int(std::lround(nearest.center[1])));
+              const Vec2f shift = nearest.center - Vec2f(center);
+              const Way way = nearest.way;
               const int count = similarWindows(*pass.table, validCenter(*pass.table, center),
                                                std::span(similar, std::size_t(similarCount)));
-              for (int i = 0; i < count; ++i) offer(Vec2f(similar[i]) + shift);
+              for (int i = 0; i < count; ++i) offer(Vec2f(similar[i]) + shift, way);
             }
             const std::uint64_t own = randomBits(key, kBatches + p);
             const auto random = [&](std::uint64_t i) { return float(randomUnit(own, i)); };
-            offer(Vec2f(random(0) * float(image.width), random(1) * float(image.height)));
+            offer(Vec2f(random(0) * float(image.width), random(1) * float(image.height)),
+                  wayAt(turns, int(random(4) * float(turns))));
             const float near = 0.25f * float(n.window);
-            offer(nearest + Vec2f((2.0f * random(2) - 1.0f) * near, (2.0f * random(3) - 1.0f) * near));
+            offer(nearest.center + Vec2f((2.0f * random(2) - 1.0f) * near, (2.0f * random(3) - 1.0f) * near),
+                  nearest.way);
             next[b] = best;
             windows.distance[p] = bestDistance;  // nobody else reads it
           }
         });
     for (std::size_t b = 0; b < batch.size(); ++b) {
       Vec2f& match = windows.match[batch[b]];
-      if (usage > 0.0 && next[b] != match) used.add(match, -1.0f), used.add(next[b], 1.0f);
-      match = next[b];
+      const Vec2f& center = next[b].center;
+      if (usage > 0.0 && center != match) used.add(match, -1.0f), used.add(center, 1.0f);
+      match = center;
+      windows.way[batch[b]] = next[b].way;
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include "texture/guidance.h"
 #include "texture/optimize.h"
+#include "texture/ways.h"
 
 #include <vector>
 
@@ -16,14 +17,22 @@ struct Windows {
   std::vector<float> falloff;   // #N: g
   std::vector<float> mass;      // #P: sum of g
   std::vector<Vec2f> match;     // #P: texel at the centre
+  std::vector<Way> way;         // #P: how the exemplar lies there
+  int turns = 1;                // ways to choose from: 1, 2 or 4
   std::vector<float> distance;  // #P: D_p / m_p
   Demand demand;
+
+  // What the match of neighbourhood p puts at an offset (pixels).
+  Vec2f texelAt(std::size_t p, const Vec2f& offset) const { return match[p] + laid(way[p], offset); }
 };
 
-Windows makeWindows(const Level& level, const Pass& pass);
+// turns: in how many ways the exemplar may lie (ways.h).
+Windows makeWindows(const Level& level, const Pass& pass, int turns = 1);
 
-// Fills query.pixels and query.mask with neighbourhood p; makeWindows() must have had a pass with a tree.
-void fillQuery(const Windows& windows, std::size_t p, const Values& value, WindowQuery& query, int channels);
+// Fills query.pixels and query.mask with neighbourhood p as the exemplar has it that lies like that;
+// makeWindows() must have had a pass with a tree.
+void fillQuery(const Windows& windows, std::size_t p, const Values& value, WindowQuery& query, int channels,
+               Way way = 0);
 
 // Distances of the present matches.
 void measureMatches(const TexelImage& image, const Values& value, Windows& windows);
@@ -31,8 +40,8 @@ void measureMatches(const TexelImage& image, const Values& value, Windows& windo
 // The first matches, where there are none to start from: the tree's best.
 void findFirstMatches(const Level& level, const Pass& pass, const Values& value, Windows& windows);
 
-// Offers every window the matches of its neighbours, shifted; windows alike to these; the tree's; and random
-// ones. Takes the best that is nearer than the present one; parts of the exemplar used more than the mean
+// Offers every window the matches of its neighbours, shifted; windows alike to these; the tree's, turned in
+// all ways; and random ones. Takes the best that is nearer than the present one; parts of the exemplar used more than the mean
 // count as farther (`usage`).
 void improveMatches(const Level& level, const Pass& pass, int iteration, double usage, const Values& value,
                     Windows& windows);

@@ -41,9 +41,8 @@ struct Run {
 
   bool free(std::uint32_t v) const { return level.wanted.empty() || level.wanted[v]; }
   Float8 texel(std::uint32_t i) const {  // what overlap i says about its vertex
-    const Vec2f& match = windows.match[byVertex.window[i]];
-    const Vec2f& offset = windows.neighborhoods.offset[byVertex.entry[i]];
-    return level.image.sampleInside(match[0] + offset[0], match[1] + offset[1]);
+    const Vec2f at = windows.texelAt(byVertex.window[i], windows.neighborhoods.offset[byVertex.entry[i]]);
+    return level.image.sampleInside(at[0], at[1]);
   }
 };
 
@@ -86,7 +85,7 @@ void average(Run& run, double room) {
     for (std::uint32_t i = run.byVertex.first[v]; i < run.byVertex.first[v + 1]; ++i) {
       const std::uint32_t p = run.byVertex.window[i], entry = run.byVertex.entry[i];
       const float w = slope[p] * run.windows.falloff[entry];
-      const Vec2f at = run.windows.match[p] + run.windows.neighborhoods.offset[entry];
+      const Vec2f at = run.windows.texelAt(p, run.windows.neighborhoods.offset[entry]);
       const Float8 texel = run.level.image.sampleInside(at[0], at[1]);
       sum += w * texel;
       weight += w;
@@ -153,8 +152,8 @@ void copyCores(Run& run) {
     if (best == std::numeric_limits<float>::max()) return;
     const std::uint32_t p = run.byVertex.window[chosen], entry = run.byVertex.entry[chosen];
     run.state.labels[v] =
-        unstretched(run.level.image.brought(run.windows.match[p] + run.windows.neighborhoods.offset[entry]),
-                    run.windows.neighborhoods.turn[entry]);
+        unstretched(run.level.image.brought(run.windows.texelAt(p, run.windows.neighborhoods.offset[entry])),
+                    product(turnOf(run.windows.way[p]), run.windows.neighborhoods.turn[entry]));
     if (run.pass.copyCores) run.state.value[v] = run.level.image.sample(run.state.labels[v].texel);
   });
 }
@@ -163,7 +162,7 @@ void copyCores(Run& run) {
 
 EnergyTrace optimize(const Level& level, const Pass& pass, const SynthesisOptions& options, State& state) {
   const std::size_t count = level.view.mesh.positions.size();
-  Run run{level, pass, options, state, makeWindows(level, pass), {}, {}, {}, {}};
+  Run run{level, pass, options, state, makeWindows(level, pass, options.turns), {}, {}, {}, {}};
   Windows& windows = run.windows;
   if (windows.match.empty()) return {};
   run.byVertex = overlaps(windows.neighborhoods, count);
@@ -173,8 +172,11 @@ EnergyTrace optimize(const Level& level, const Pass& pass, const SynthesisOption
 
   if (pass.startFromLabels) {
     const float reach = 0.5f * float(pass.window - 1);
-    for (std::size_t p = 0; p < windows.match.size(); ++p)
-      windows.match[p] = level.image.centerFor(state.labels[windows.neighborhoods.center[p]].texel, reach);
+    for (std::size_t p = 0; p < windows.match.size(); ++p) {
+      const Label& label = state.labels[windows.neighborhoods.center[p]];
+      windows.match[p] = level.image.centerFor(label.texel, reach);
+      windows.way[p] = nearestWay(options.turns, turnOf(label));
+    }
     measureMatches(level.image, state.value, windows);
   } else {
     findFirstMatches(level, pass, state.value, windows);

@@ -110,6 +110,7 @@ struct SynthesisOptions {
   double featureWeight = 0.3;   // of the signed feature distance channel, squared distance, colour = 1
   double gradientWeight = 0.3;  // of the gradient energy channel
   double guidanceWeight = 1.0;  // of the guidance map, where the exemplar has one
+  int turns = 1;  // 1, 2 or 4: the exemplar is used turned by multiples of 360 / turns degrees as well
   double keepStretch = 1.22;    // carried texture that is coherent and stretched less than this is kept
   double renewalRadius =
       36.0;  // exemplar pixels: texture is renewed in discs of this size, larger than its features

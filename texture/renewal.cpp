@@ -33,8 +33,7 @@ constexpr float kFadesWithin = 1.8f;
 
 bool lost(const TexelImage& image, const Label& label, float trust) {
   if (!believed(trust)) return true;
-  if (image.toroidal) return false;
-  return (label.texel - image.brought(label.texel)).lengthSqr() > 0.25f;
+  return !liesOn(image, label.texel);
 }
 
 float stretchBadness(const TexelImage& image, const Label& label, float trust) {
