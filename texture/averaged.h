@@ -8,8 +8,8 @@
 
 namespace fluidtex::texture {
 
-// `sweeps` times, each vertex takes the mean of its own value (#V) and its neighbours': a window as wide as
-// about 1.2 sqrt(sweeps) edges. brought(value, h) is a neighbour's value as it is seen across half-edge h.
+// `sweeps` times, each vertex takes the mean of its own value (#V) and its neighbours': a window of standard
+// deviation about 0.65 sqrt(sweeps) edges. brought(value, h) is a neighbour's value as it is seen across half-edge h.
 template <typename Value, typename Brought>
 std::vector<Value> averaged(const VertexGraph& graph, std::vector<Value> value, int sweeps,
                             const Brought& brought) {

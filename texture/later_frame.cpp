@@ -142,8 +142,8 @@ std::vector<std::uint8_t> renewable(const Synthesizer& synthesizer, const Vertex
 }
 
 // #V, 1 where the first, and the second or the third, are 1.
-std::vector<std::uint8_t> among(const std::vector<std::uint8_t>& free, std::vector<std::uint8_t> a,
-                                const std::vector<std::uint8_t>& b) {
+std::vector<std::uint8_t> freeWhereEither(const std::vector<std::uint8_t>& free, std::vector<std::uint8_t> a,
+                                          const std::vector<std::uint8_t>& b) {
   for (std::size_t v = 0; v < free.size(); ++v) a[v] = free[v] && (a[v] || b[v]);
   return a;
 }
@@ -178,12 +178,12 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
     for (const std::uint32_t v : disc.members) inDiscs[v] = 1;
   const std::vector<std::uint8_t> free = renewable(synthesizer, view.graph, carried);
   const std::vector<std::uint8_t> lost = lostLabels(seams, before, carried.trust);
-  const std::vector<std::uint8_t> wanted = among(free, inDiscs, lost);
+  const std::vector<std::uint8_t> wanted = freeWhereEither(free, inDiscs, lost);
   if (!any(wanted)) return result;
 
   Labels proposed =
       layAnew(synthesizer, surface, seams, carried, discs, wanted,
-              among(free, grown(view.graph, inDiscs, kRim), lost), before, frame, stats, progress);
+              freeWhereEither(free, grown(view.graph, inDiscs, kRim), lost), before, frame, stats, progress);
   absorbChips(seams, free, proposed);
   result.labels = unstrained(settle(seams, before, proposed, carried.trust, result.renewed), ahead);
   return result;

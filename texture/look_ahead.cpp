@@ -15,8 +15,9 @@ constexpr int kBlurSweeps = 24;
 // Lengths that change more than this from one frame to the next (log) tell of other points, not of the flow.
 constexpr float kMostPerFrame = 1.0f;
 
-// A strain, times how far it is believed: mean, weight, and the deviator's two parts.
+// A strain, times how far it is believed, and that.
 using Weighted = float __attribute__((vector_size(16)));
+enum : int { kMean, kWeight, kDeviatorReal, kDeviatorImag };
 
 // The lengths before, squared and over those now, are n.C n for edges of direction n: m + d.q for q = n^2 as
 // numbers, m and d being C's mean and deviator. The strain is -log(C) / 2.
@@ -58,7 +59,7 @@ std::vector<Weighted> blurred(const MeshView& view, std::vector<Weighted> value)
   return averaged(view.graph, std::move(value), kBlurSweeps, [&](const Weighted& w, std::uint32_t h) {
     const float re = turn[h].real(), im = turn[h].imag();
     return w * Weighted{1.0f, 1.0f, re, re} +
-           Weighted{0.0f, 0.0f, w[3], w[2]} * Weighted{0.0f, 0.0f, -im, im};
+           Weighted{0.0f, 0.0f, w[kDeviatorImag], w[kDeviatorReal]} * Weighted{0.0f, 0.0f, -im, im};
   });
 }
 
@@ -113,9 +114,9 @@ std::vector<Strain> strainRates(const MeshView& view, const std::vector<Vec3f>& 
   fitted = blurred(view, std::move(fitted));
   forEachIndex(fitted.size(), [&](std::uint32_t v) {
     const Weighted& f = fitted[v];
-    if (!(f[1] > 1e-6f)) return;
-    const float scale = 1.0f / (f[1] * float(seconds));
-    result[v] = {f[0] * scale, {f[2] * scale, f[3] * scale}};
+    if (!(f[kWeight] > 1e-6f)) return;
+    const float scale = 1.0f / (f[kWeight] * float(seconds));
+    result[v] = {f[kMean] * scale, {f[kDeviatorReal] * scale, f[kDeviatorImag] * scale}};
   });
   return result;
 }

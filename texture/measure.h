@@ -49,7 +49,7 @@ struct Pieces {
   // the exemplar; 0 without such edges.
   double seams = 0.0;
   double joints = 0.0;  // share of the edges that lie between pieces
-  double chips = 0.0;   // share of the vertices in pieces of fewer than kChip (chips.h)
+  double chips = 0.0;   // share of the vertices in pieces of fewer than 25
   int pieces = 0;
 };
 
@@ -99,10 +99,12 @@ class LikenessJudge {
 };
 
 // Squared gradient of an exemplar's luminance, as it is seen, averaged over 3 x 3 texels, over the mean of the
-// whole: one channel. 1 everywhere where the exemplar is of one luminance. color: linear RGBA.
+// whole: one channel. 1 everywhere where the exemplar is of one luminance. Edges are edges, whether it wraps or
+// not. color: linear RGBA.
 Image contrastOf(const Image& color);
-// Mean of that over the texels that the vertices show: 1 where all of the exemplar is shown alike, less where
-// what has little contrast was chosen. Nothing without a surface.
+// Mean of that over the texels that the vertices show, new surface's too, what fades in but not what fades
+// out: 1 where all of the exemplar is shown alike, less where what has little contrast was chosen. Nothing
+// without a surface.
 std::optional<double> measureContrast(const TexturedSurface& surface, const Image& contrast);
 
 // Nothing without a surface.

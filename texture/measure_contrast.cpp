@@ -1,25 +1,12 @@
 #include "texture/measure.h"
 #include "texture/measure_tiles.h"
-#include "texture/srgb.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace fluidtex::texture {
-namespace {
-
-Image luminanceOf(const Image& color) {
-  const Image picture = seenPicture(color);
-  Image result{color.width, color.height, 1, {}};
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) result.data.push_back(luminance(picture.at(x, y)));
-  return result;
-}
-
-}  // namespace
-
 Image contrastOf(const Image& color) {
-  const Image value = luminanceOf(color);
+  const Image value = seenLuminance(color);
   const int width = value.width, height = value.height;
   const auto at = [&](const Image& image, int x, int y) {
     return double(*image.at(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)));

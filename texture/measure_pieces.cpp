@@ -1,28 +1,15 @@
-#include "texture/chips.h"
 #include "texture/measure.h"
 #include "texture/measure_gradient.h"
 #include "texture/measure_tiles.h"
+#include "texture/pieces.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace fluidtex::texture {
 namespace {
 
-// Sets of vertices that are joined one by one.
-class Joined {
- public:
-  explicit Joined(std::size_t count) : m_parent(count) { std::iota(m_parent.begin(), m_parent.end(), 0u); }
-  std::uint32_t rootOf(std::uint32_t v) {
-    while (m_parent[v] != v) v = m_parent[v] = m_parent[m_parent[v]];
-    return v;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { m_parent[rootOf(a)] = rootOf(b); }
-
- private:
-  std::vector<std::uint32_t> m_parent;
-};
+constexpr std::size_t kChip = 25;  // vertices
 
 double squaredDifference(const float* a, const float* b) {
   double sum = 0.0;
@@ -53,41 +40,37 @@ std::optional<Pieces> measurePieces(const TexturedSurface& surface, const Image&
   const auto counts = [&](std::uint32_t v) { return allNew || surface.trust[v] >= kNewSurface; };
   const std::vector<Vec3f> shown = seenColors(surface);
 
-  Joined joined(count);
-  std::vector<int> coherent(count, 0);
+  std::vector<std::uint8_t> counted(count, 0), joined(ground.graph.neighbor.size(), 0);
+  std::vector<float> distortions;
   double across = 0.0, lengths = 0.0;
-  std::size_t edges = 0, joints = 0;
+  std::size_t edges = 0, joints = 0, measured = 0;
   for (std::uint32_t v = 0; v < count; ++v) {
     if (!counts(v)) continue;
-    for (const std::uint32_t u : ground.graph.around(v)) {
-      if (u < v || !counts(u)) continue;
+    counted[v] = 1;
+    ++measured;
+    int coherent = 0;
+    for (std::uint32_t h = ground.graph.first[v]; h < ground.graph.first[v + 1]; ++h) {
+      const std::uint32_t u = ground.graph.neighbor[h];
+      if (!counts(u)) continue;
+      joined[h] = cohere(coordinates, gradient, std::min(u, v), std::max(u, v));
+      coherent += joined[h];
+      if (u < v) continue;
       ++edges;
-      if (cohere(coordinates, gradient, v, u)) {
-        joined.join(v, u);
-        ++coherent[v], ++coherent[u];
-        continue;
-      }
+      if (joined[h]) continue;
       ++joints;
       across += squaredDifference(shown[v].asPointer(), shown[u].asPointer());
       lengths += ((surface.positions[u] - surface.positions[v]) / float(surface.spacing)).lengthSqr();
     }
-  }
-  std::vector<int> sizes(count, 0);
-  std::vector<float> distortions;
-  std::size_t measured = 0;
-  for (std::uint32_t v = 0; v < count; ++v) {
-    if (!counts(v)) continue;
-    ++measured;
-    ++sizes[joined.rootOf(v)];
-    if (coherent[v] >= 3) distortions.push_back(distortion(*gradient[v]));
+    if (coherent >= 3) distortions.push_back(distortion(*gradient[v]));
   }
   if (measured == 0) return std::nullopt;
   Pieces result;
   std::size_t inChips = 0;
-  for (const int size : sizes) {
-    result.pieces += size > 0;
-    if (size < int(kChip)) inChips += std::size_t(size);
-  }
+  const auto isJoined = [&](std::uint32_t h) { return joined[h] != 0; };
+  forEachPiece(ground.graph, counted, isJoined, [&](const std::vector<std::uint32_t>& piece) {
+    ++result.pieces;
+    if (piece.size() < kChip) inChips += piece.size();
+  });
   result.chips = double(inChips) / double(measured);
   result.joints = edges > 0 ? double(joints) / double(edges) : 0.0;
   if (joints > 0)

@@ -261,6 +261,14 @@ Image seenPicture(const Image& color) {
   return picture;
 }
 
+Image seenLuminance(const Image& color) {
+  const Image picture = seenPicture(color);
+  Image result{picture.width, picture.height, 1, {}};
+  for (std::size_t i = 0; i < picture.data.size(); i += 3)
+    result.data.push_back(luminance(picture.data.data() + i));
+  return result;
+}
+
 double percentile(std::vector<float> values, double share) {
   if (values.empty()) return 0.0;
   const auto at =

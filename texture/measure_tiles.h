@@ -85,6 +85,8 @@ Vec3f seenColor(const Vec4f& color);
 // All of a surface's, or of an image's, which has three channels then.
 std::vector<Vec3f> seenColors(const TexturedSurface& surface);
 Image seenPicture(const Image& color);
+// Its luminance: one channel.
+Image seenLuminance(const Image& color);
 
 // The value that a share of them is at most, 0 of none.
 double percentile(std::vector<float> values, double share);

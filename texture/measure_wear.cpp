@@ -2,7 +2,6 @@
 #include "texture/measure.h"
 #include "texture/measure_tiles.h"
 #include "texture/passes.h"
-#include "texture/srgb.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +15,10 @@ constexpr double kShape = 1.4;
 }  // namespace
 
 double deviationOfLuminance(const Image& color) {
-  const Image picture = seenPicture(color);
+  const Image picture = seenLuminance(color);
   double sum = 0.0, squares = 0.0;
-  const double count = double(picture.width) * picture.height;
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) {
-      const double value = luminance(picture.at(x, y));
-      sum += value, squares += value * value;
-    }
+  for (const float value : picture.data) sum += double(value), squares += double(value) * double(value);
+  const auto count = double(picture.data.size());
   return std::sqrt(std::max(0.0, squares / count - sum / count * sum / count));
 }
 

@@ -177,7 +177,7 @@ void addMeasure(CLI::App& app, int& exitCode) {
   command
       ->add_option(
           "--every", wishes->every,
-          "Likeness and pieces on every K-th frame and the last (default: 8); repeats on the first and the "
+          "Likeness, contrast and pieces on every K-th frame and the last (default: 8); repeats on the first and the "
           "last; change on all")
       ->check(CLI::Range(1, 9999))
       ->type_name("K");

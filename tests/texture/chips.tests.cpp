@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include <algorithm>
+#include <cmath>
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
@@ -48,7 +48,7 @@ struct Plane {
 TEST_CASE("chips: a small piece joins what is around it, a large one stays") {
   const Plane plane;
   const Labels whole = plane.pictures(plane.middle(0.0f));
-  for (const float radius : {0.5f, 1.5f, 2.5f}) {
+  for (const float radius : {0.5f, 1.5f, 2.5f}) {  // 1, 9 and 21 vertices
     const std::vector<std::uint8_t> chip = plane.middle(radius);
     Labels labels = plane.pictures(chip);
     absorbChips(plane.model, plane.top(), labels);
@@ -60,6 +60,48 @@ TEST_CASE("chips: a small piece joins what is around it, a large one stays") {
   Labels labels = before;
   absorbChips(plane.model, plane.top(), labels);
   for (std::uint32_t v = 0; v < plane.count; ++v) CHECK(labels[v].texel == before[v].texel);
+}
+
+TEST_CASE("chips: 24 vertices are one, 25 are none") {
+  const Plane plane;
+  for (const int size : {24, 25}) {
+    std::vector<std::uint8_t> piece(plane.count, 0);
+    for (std::uint32_t v = 0; v < plane.count; ++v) {
+      const Vec3f& x = plane.surface.mesh.positions[v];
+      const int column = int(std::lround(x.x())) - 10, row = int(std::lround(x.y())) - 10;
+      piece[v] = x.z() > 1.9f && column >= 0 && column < 5 && row >= 0 && row < 5 && 5 * row + column < size;
+    }
+    Labels labels = plane.pictures(piece);
+    absorbChips(plane.model, plane.top(), labels);
+    const Labels expected = plane.pictures(size == 24 ? plane.middle(0.0f) : piece);
+    for (std::uint32_t v = 0; v < plane.count; ++v)
+      CHECK((labels[v].texel - expected[v].texel).length() < 1e-3f);
+  }
+}
+
+TEST_CASE("chips: where nothing is around, or beyond the exemplar's edge, they stay") {
+  const Plane plane;
+  // Every vertex of the free part lies elsewhere in the exemplar than its neighbours: all are chips.
+  Labels scattered;
+  for (std::uint32_t v = 0; v < plane.count; ++v)
+    scattered.push_back({Vec2f(float(v * 37 % 97), float(v * 61 % 97)), {1, 0, 0, 1}});
+  Labels labels = scattered;
+  absorbChips(plane.model, std::vector<std::uint8_t>(plane.count, 1), labels);
+  for (std::uint32_t v = 0; v < plane.count; ++v) CHECK(labels[v].texel == scattered[v].texel);
+
+  // Around the chip the picture ends: columns run out of the exemplar at x = 12.
+  const std::vector<std::uint8_t> chip = plane.middle(2.5f);
+  labels = plane.pictures(chip);
+  for (std::uint32_t v = 0; v < plane.count; ++v)
+    if (!chip[v]) labels[v].texel[0] = 87.0f + plane.surface.mesh.positions[v].x();
+  const Labels before = labels;
+  absorbChips(plane.model, plane.top(), labels);
+  for (std::uint32_t v = 0; v < plane.count; ++v) {
+    const float x = plane.surface.mesh.positions[v].x();
+    if (!chip[v]) continue;
+    if (x < 12.5f) CHECK(std::abs(labels[v].texel[0] - (87.0f + x)) < 1e-3f);
+    if (x > 12.5f) CHECK(labels[v].texel == before[v].texel);
+  }
 }
 
 TEST_CASE("chips: what is not free keeps its label, and the chip that it belongs to as well") {

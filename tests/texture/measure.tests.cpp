@@ -267,6 +267,8 @@ TEST_CASE("measure: contrast is that of the texels that were chosen", "[texture]
   CHECK_THAT(shown(68.0f, 58.0f), WithinAbs(2.0, 0.1));
   CHECK(shown(2.0f, 58.0f) == 0.0);
   CHECK_FALSE(measureContrast(TexturedSurface{}, contrast));
+  const Image plain = paint(16, 16, [](float, float, float* c) { c[0] = c[1] = c[2] = 0.3f, c[3] = 1.0f; });
+  for (const float c : contrastOf(plain).data) CHECK(c == 1.0f);
 }
 
 TEST_CASE("measure: renewed surface changes by what is shown instead", "[texture]") {

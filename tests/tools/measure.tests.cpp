@@ -27,6 +27,7 @@ TEST_CASE("fluidtex measure: fills the report of a run and writes all figures", 
     const Json &frame = figures["frames"][n], &record = report["frames"][n];
     CHECK(frame["frame"] == n + 1);
     CHECK(frame.contains("likeness") == (n != 1));
+    CHECK(frame.contains("contrast") == (n != 1));
     CHECK(frame.contains("pop") == (n > 0));
     CHECK(record["sharpness"].is_number() == (n != 1));
     CHECK(record["change_along_flow"].is_number() == (n > 0));
