@@ -28,7 +28,8 @@ constexpr float kFar = std::numeric_limits<float>::max();
 // One neighbourhood's values, gathered once for all its candidates.
 struct Gathered {
   Values value;
-  std::array<std::vector<Vec2f>, 4> offset;  // by way
+  std::array<std::span<const Vec2f>, 4> offset;  // by way
+  std::array<std::vector<Vec2f>, 4> turned;      // those of the ways but the first
   std::span<const float> falloff;
   float mass = 0.0f;
 };
@@ -44,10 +45,13 @@ void gather(const Windows& windows, std::size_t p, const Values& value, Gathered
   const std::size_t begin = n.first[p], count = n.first[p + 1] - begin;
   result.value.resize(count);
   for (std::size_t i = 0; i < count; ++i) result.value[i] = value[n.vertex[begin + i]];
-  for (int i = 0; i < windows.turns; ++i) {
+  result.offset[0] = {n.offset.data() + begin, count};
+  for (int i = 1; i < windows.turns; ++i) {
     const Way way = wayAt(windows.turns, i);
-    result.offset[way].resize(count);
-    for (std::size_t k = 0; k < count; ++k) result.offset[way][k] = laid(way, n.offset[begin + k]);
+    std::vector<Vec2f>& turned = result.turned[way];
+    turned.resize(count);
+    for (std::size_t k = 0; k < count; ++k) turned[k] = laid(way, n.offset[begin + k]);
+    result.offset[way] = turned;
   }
   result.falloff = {windows.falloff.data() + begin, count};
   result.mass = windows.mass[p];
@@ -57,7 +61,7 @@ void gather(const Windows& windows, std::size_t p, const Values& value, Gathered
 float distanceAt(const TexelImage& image, const Gathered& gathered, const Place& match, float bound = kFar) {
   constexpr std::size_t kBlockSize = 24;  // entries between two looks at the bound; the heaviest come first
   const float limit = bound < kFar ? bound * gathered.mass : kFar;
-  const std::vector<Vec2f>& offset = gathered.offset[match.way];
+  const std::span<const Vec2f> offset = gathered.offset[match.way];
   const std::size_t count = gathered.value.size();
   float total = 0.0f;
   for (std::size_t begin = 0; begin < count; begin += kBlockSize) {
