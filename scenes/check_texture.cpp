@@ -71,6 +71,10 @@ void checkGuidance(const Scene& scene, Reader& reader) {
                  "give two [[texture.guidance.point]] or more, each with a value and a level");
   if (guidance.by == texture::GuidanceBy::temperature && !scene.sim.heat.simulated)
     reader.fault(by, "\"temperature\" is not computed", "give simulate = true in [heat] too");
+  const std::string full = path + ".foam.full";
+  if (reader.clean(full) && !(guidance.foam.full > guidance.foam.from))
+    reader.fault(full, written(guidance.foam.full) + " is not above from, " + written(guidance.foam.from),
+                 "give a larger one");
 }
 
 // Of all properties that the maps before have; a map of vectors has three.

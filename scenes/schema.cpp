@@ -147,7 +147,8 @@ void describeScale(Visitor& visitor, Scene& scene) {
 void describeGuidance(Visitor& visitor, texture::Options& texture) {
   texture::GuidanceOptions& guidance = texture.guidance;
   choice(visitor, "by", guidance.by,
-         {"none", "height", "temperature", "speed", "vorticity", "curvature", "age", "field"});
+         {"none", "height", "temperature", "speed", "vorticity", "curvature", "age", "renewal", "foam",
+          "field"});
   if (guidance.by != texture::GuidanceBy::none)
     visitor.file("map", texture.exemplar.guidance, {});
   else
@@ -161,6 +162,11 @@ void describeGuidance(Visitor& visitor, texture::Options& texture) {
     visitor.file("field", guidance.field, {".vdb"});
   else
     visitor.absent("field");
+  visitor.table("foam", [&] {
+    visitor.number("from", guidance.foam.from, kNotNegative);
+    visitor.number("full", guidance.foam.full, kPositive);
+    visitor.number("lifetime", guidance.foam.lifetime, kPositive);
+  });
 }
 
 void describeTexture(Visitor& visitor, Scene& scene) {

@@ -18,9 +18,9 @@ inline bool isVertexProperty(const std::string& name) {
   return kNames.contains(name);
 }
 
-// Whether a map of one's own may not have that name: that of a property, or of the guidance that is wanted.
+// Whether a map of one's own may not have that name: that of a property, or of what guidance follows.
 inline bool isReservedName(const std::string& name) {
-  return name == kGuidance || isVertexProperty(name);
+  return name == kGuidance || name == kFoam || isVertexProperty(name);
 }
 
 // The names of a vector's three parts in a PLY.

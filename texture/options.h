@@ -87,13 +87,22 @@ enum class GuidanceBy {
   vorticity,    // length of the velocity's curl, 1/s
   curvature,    // mean curvature, 1/m, above 0 on crests
   age,          // s since the surface there came to light
+  renewal,      // s since the texture there was last renewed
+  foam,         // 0..1, see Foam
   field,        // a grid of numbers from a file
+};
+
+// Foam appears where the velocity changes from place to place (|grad u|), goes with the surface and fades.
+struct Foam {
+  double from = 8.0, full = 25.0;  // 1/s: below the first there comes none, from the second on it covers all
+  double lifetime = 2.0;           // s until 1/e of it is left
 };
 
 struct GuidanceOptions {
   GuidanceBy by = GuidanceBy::none;
   std::vector<CurvePoint> points;  // from there to a level of the guidance map, 0 black to 1 white
   std::filesystem::path field;     // OpenVDB; its first grid of floats
+  Foam foam;
 };
 
 struct SynthesisOptions {
@@ -111,7 +120,7 @@ struct SynthesisOptions {
   double gradientWeight = 0.3;  // of the gradient energy channel
   double guidanceWeight = 1.0;  // of the guidance map, where the exemplar has one
   int turns = 1;  // 1, 2 or 4: the exemplar is used turned by multiples of 360 / turns degrees as well
-  double keepStretch = 1.22;    // carried texture that is coherent and stretched less than this is kept
+  double keepStretch = 1.22;  // carried texture that is coherent and stretched less than this is kept
   double renewalRadius =
       36.0;  // exemplar pixels: texture is renewed in discs of this size, larger than its features
   double renewalRate = 2.4;  // of the whole surface, a second: no more is renewed, the worst places first

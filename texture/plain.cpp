@@ -27,6 +27,7 @@ void takeMesh(SurfaceMesh& mesh, TexturedSurface& result) {
   result.triangles = std::move(mesh.triangles);
   result.scale = std::move(mesh.scale);
   if (!mesh.guidance.empty()) result.maps[kGuidance] = std::move(mesh.guidance);
+  if (!mesh.foam.empty()) result.maps[kFoam] = std::move(mesh.foam);
 }
 
 TexturedSurface untextured(Surface surface, const Carried& carried) {

@@ -172,8 +172,8 @@ class FrameLoop {
     {
       Stopwatch watch(seconds.transport);
       reporter("transport")(0.0);
-      carried = transport::carry(m_surface, motion, surface.levels[0], m_guide.options.symmetry,
-                                 m_scene.transport);
+      carried =
+          transport::carry(m_surface, motion, surface.levels[0], m_guide.options.symmetry, m_scene.transport);
     }
     {
       Stopwatch watch(seconds.prepare);
@@ -189,7 +189,7 @@ class FrameLoop {
       texture::calmDroplets(surface.levels[0],
                             texture::droplets(graph, *std::min_element(windows.begin(), windows.end())),
                             carried);
-      guide(m_guidance, motion, carried, surface);
+      guide(m_guidance, motion, carried, 1.0 / m_scene.sim.frameRate, surface);
     }
     {
       Stopwatch watch(seconds.synthesize);
@@ -222,7 +222,8 @@ class FrameLoop {
     writeAtomically(m_options.out / "surface" / (name + ".ply"),
                     [&](const fs::path& file) { writePly(m_surface, file); });
     if (m_scene.onto.files.empty()) return;
-    const texture::TexturedSurface other = ontoMesh(m_surface, m_scene.onto, motion.index, m_guide.options.symmetry);
+    const texture::TexturedSurface other =
+        ontoMesh(m_surface, m_scene.onto, motion.index, m_guide.options.symmetry);
     writeAtomically(m_options.out / "onto" / (name + ".ply"),
                     [&](const fs::path& file) { writePly(other, file); });
   }
@@ -273,8 +274,8 @@ class FrameLoop {
   std::function<void(double)> reporter(const char* stage) {
     return [this, stage](double part) {
       if (m_stop) throw Interrupted();
-      m_progress->update(sim::stateOf(*m_motion).frame + (std::string_view(stage) == "simulate" ? 1 : 0), stage,
-                         part);
+      m_progress->update(sim::stateOf(*m_motion).frame + (std::string_view(stage) == "simulate" ? 1 : 0),
+                         stage, part);
     };
   }
 

@@ -5,6 +5,7 @@
 #include "texture/renewal.h"
 #include "tools/scalars.h"
 #include "transport/carry.h"
+#include "transport/foam.h"
 
 namespace fluidtex::tools {
 namespace {
@@ -19,19 +20,9 @@ std::vector<float> speeds(const std::vector<Vec3f>& positions, const sim::Frame&
   return result;
 }
 
-// |curl u| by differences over two of the velocity's cells.
+// |curl u|
 std::vector<float> vorticities(const std::vector<Vec3f>& positions, const sim::Frame& frame) {
-  if (frame.substeps.empty()) return std::vector<float>(positions.size(), 0.0f);
-  const auto h = float(frame.substeps.back().u->voxelSize()[0]);
-  std::vector<Vec3f> slope[3];  // d(velocity) / d(x, y, z)
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<Vec3f> ahead = positions, behind = positions;
-    for (std::size_t v = 0; v < positions.size(); ++v) ahead[v][axis] += h, behind[v][axis] -= h;
-    slope[axis] = transport::velocityAt(ahead, frame);
-    const std::vector<Vec3f> from = transport::velocityAt(behind, frame);
-    for (std::size_t v = 0; v < positions.size(); ++v)
-      slope[axis][v] = (slope[axis][v] - from[v]) / (2.0f * h);
-  }
+  const auto slope = transport::velocitySlopes(positions, frame);
   std::vector<float> result(positions.size());
   texture::forEachIndex(result.size(), [&](std::uint32_t v) {
     const Vec3f &x = slope[0][v], &y = slope[1][v], &z = slope[2][v];
@@ -49,7 +40,7 @@ std::vector<float> ages(const texture::Carried& carried, std::size_t count) {
 }
 
 std::vector<float> levelsOn(const TextureGuidance& guidance, const sim::Frame& frame,
-                            const texture::Carried& carried, const texture::SurfaceMesh& mesh) {
+                            const texture::Carried& carried, double seconds, texture::SurfaceMesh& mesh) {
   const std::vector<texture::CurvePoint>& points = guidance.options.points;
   const auto along = [&](std::vector<float> values) {
     for (float& value : values) value = float(curveAt(points, value));
@@ -70,6 +61,11 @@ std::vector<float> levelsOn(const TextureGuidance& guidance, const sim::Frame& f
       return along(texture::meanCurvature(mesh));
     case GuidanceBy::age:
       return along(ages(carried, mesh.positions.size()));
+    case GuidanceBy::renewal:
+      return along(carried.age.empty() ? std::vector<float>(mesh.positions.size(), 0.0f) : carried.age);
+    case GuidanceBy::foam:
+      mesh.foam = transport::foamAfter(mesh.positions, frame, carried, seconds, guidance.options.foam);
+      return along(mesh.foam);
     case GuidanceBy::field:
       return alongCurve(points, mesh.positions, sampler(*guidance.field));
   }
@@ -86,11 +82,12 @@ TextureGuidance textureGuidance(const scenes::Scene& scene) {
 }
 
 void guide(const TextureGuidance& guidance, const sim::Frame& frame, const texture::Carried& carried,
-           texture::Surface& surface) {
+           double seconds, texture::Surface& surface) {
   const texture::Carried nothing;
-  for (std::size_t level = 0; level < surface.levels.size(); ++level)
-    surface.levels[level].guidance =
-        levelsOn(guidance, frame, level == 0 ? carried : nothing, surface.levels[level]);
+  for (std::size_t level = 0; level < surface.levels.size(); ++level) {
+    texture::SurfaceMesh& mesh = surface.levels[level];
+    mesh.guidance = levelsOn(guidance, frame, level == 0 ? carried : nothing, seconds, mesh);
+  }
 }
 
 }  // namespace fluidtex::tools

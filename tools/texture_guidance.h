@@ -18,10 +18,11 @@ struct TextureGuidance {
 // is wrong.
 TextureGuidance textureGuidance(const scenes::Scene& scene);
 
-// Gives every level of the surface the guidance that is wanted on it (SurfaceMesh::guidance); none where the
-// scene has none. What moves the surface is not known in the first frame: speed and vorticity are 0 there.
-// Ages are those of level 0; coarser levels stand for surface that has just come to light.
+// Gives every level of the surface the guidance that is wanted on it (SurfaceMesh::guidance; foam too, where
+// that is what it follows); none where the scene has none. What moves the surface is not known in the first
+// frame: speed, vorticity and foam are 0 there. Ages and foam that was carried are level 0's; coarser levels
+// stand for surface that has just come to light. seconds: since the earlier frame.
 void guide(const TextureGuidance& guidance, const sim::Frame& frame, const texture::Carried& carried,
-           texture::Surface& surface);
+           double seconds, texture::Surface& surface);
 
 }  // namespace fluidtex::tools

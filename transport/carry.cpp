@@ -112,6 +112,23 @@ std::vector<Vec3f> velocityAt(const std::vector<Vec3f>& positions, const sim::Fr
   return result;
 }
 
+std::array<std::vector<Vec3f>, 3> velocitySlopes(const std::vector<Vec3f>& positions,
+                                                 const sim::Frame& frame) {
+  std::array<std::vector<Vec3f>, 3> slope;
+  slope.fill(std::vector<Vec3f>(positions.size(), Vec3f(0.0f)));
+  if (frame.substeps.empty()) return slope;
+  const auto h = float(frame.substeps.back().u->voxelSize()[0]);
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<Vec3f> ahead = positions, behind = positions;
+    for (std::size_t v = 0; v < positions.size(); ++v) ahead[v][axis] += h, behind[v][axis] -= h;
+    const std::vector<Vec3f> to = velocityAt(ahead, frame), from = velocityAt(behind, frame);
+    texture::forEachIndex(positions.size(), [&](std::uint32_t v) {
+      slope[std::size_t(axis)][v] = (to[v] - from[v]) / (2.0f * h);
+    });
+  }
+  return slope;
+}
+
 std::vector<std::uint8_t> contactAt(const std::vector<Vec3f>& positions, const sim::Frame& frame) {
   std::vector<std::uint8_t> result(positions.size(), 0);
   if (!frame.solidPhi) return result;
@@ -147,6 +164,8 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   carried.gradient.resize(count);
   carried.fading = texture::noFading(count);
   carried.age.resize(count);
+  const auto foam = previous.maps.find(texture::kFoam);
+  if (foam != previous.maps.end()) carried.foam.resize(count);
   carried.trust.resize(count);
   std::vector<float> stretched(count);
   carried.previousPosition.resize(count);
@@ -170,6 +189,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
     }
     carried.color[v] = colorAt(previous, landing);
     carried.age[v] = valueAt(previous.age, landing);
+    if (!carried.foam.empty()) carried.foam[v] = valueAt(foam->second, landing);
     const Vec3f direction = source.direction(landing);
     if (onGrid)
       carried.orientation[v] = texture::tangentUnit(

@@ -5,6 +5,8 @@
 #include "texture/surface.h"
 #include "transport/options.h"
 
+#include <array>
+
 namespace fluidtex::transport {
 
 // The points of the last surface moved forward with the flow over all substeps: seeds for the next surface.
@@ -12,6 +14,11 @@ std::vector<texture::Vec3f> moved(const std::vector<texture::Vec3f>& positions, 
 
 // Velocity at world positions at the end of the frame (last substep), m/s; zero where no velocity is known.
 std::vector<texture::Vec3f> velocityAt(const std::vector<texture::Vec3f>& positions, const sim::Frame& frame);
+
+// How that velocity changes there, 1/s, by differences over two of the solver's cells: [axis][v] is
+// d(velocity) / d(axis). Zero where nothing has moved yet.
+std::array<std::vector<texture::Vec3f>, 3> velocitySlopes(const std::vector<texture::Vec3f>& positions,
+                                                          const sim::Frame& frame);
 
 // 1 where a position is nearer to a solid than half a voxel, else 0.
 std::vector<std::uint8_t> contactAt(const std::vector<texture::Vec3f>& positions, const sim::Frame& frame);
@@ -21,7 +28,7 @@ std::vector<std::uint8_t> contactAt(const std::vector<texture::Vec3f>& positions
 //  - exemplar coordinate: the nearest corner's plus its gradient times the offset, never averaged across a
 //  jump;
 //    its gradient deformed by the flow; likewise the place that fades;
-//  - colour and age by barycentric interpolation;
+//  - colour, age and foam by barycentric interpolation;
 //  - orientation, by a cubic between the corners, turned with the flow by equation (4), or not
 //  (options.orientation), tangent
 //    to the new surface; directions that turns of 360 / symmetry degrees make equal are interpolated as one.

@@ -11,59 +11,6 @@
 namespace fluidtex::exemplars {
 namespace {
 
-// Octaves of noise about 0, each finer one weaker by `gain`.
-double fractal(std::uint64_t seed, std::uint64_t stream, double x, double y, int cells, int octaves,
-               double gain) {
-  double sum = 0.0, weight = 1.0;
-  for (int octave = 0; octave < octaves; ++octave) {
-    sum += weight * (noise(seed, stream + std::uint64_t(octave), x, y, cells) - 0.5);
-    cells *= 2;
-    weight *= gain;
-  }
-  return sum;
-}
-
-// The cell that a point is in and how far its border is, in units of the sites' distance.
-struct Cell {
-  double border = 1e9;
-  double shade = 0.0;  // 0..1, of the cell
-};
-
-Cell cellAt(std::uint64_t seed, std::uint64_t stream, double x, double y, int cells) {
-  const double u = x * cells, v = y * cells;
-  const int i0 = int(std::floor(u)), j0 = int(std::floor(v));
-  const auto site = [&](int i, int j, double& sx, double& sy) {
-    const auto a = std::uint64_t(wrapped(i, cells)), b = std::uint64_t(wrapped(j, cells));
-    sx = i + 0.08 + 0.84 * random(seed, stream, a, b);
-    sy = j + 0.08 + 0.84 * random(seed, stream + 1, a, b);
-  };
-  int ni = i0, nj = j0;
-  double nearest = 1e9, nx = 0.0, ny = 0.0;
-  for (int j = j0 - 2; j <= j0 + 2; ++j) {
-    for (int i = i0 - 2; i <= i0 + 2; ++i) {
-      double sx, sy;
-      site(i, j, sx, sy);
-      const double d = std::hypot(sx - u, sy - v);
-      if (d >= nearest) continue;
-      nearest = d;
-      ni = i, nj = j, nx = sx, ny = sy;
-    }
-  }
-  Cell cell;
-  cell.shade = random(seed, stream + 2, std::uint64_t(wrapped(ni, cells)), std::uint64_t(wrapped(nj, cells)));
-  for (int j = nj - 2; j <= nj + 2; ++j) {
-    for (int i = ni - 2; i <= ni + 2; ++i) {
-      if (i == ni && j == nj) continue;
-      double sx, sy;
-      site(i, j, sx, sy);
-      const double dx = sx - nx, dy = sy - ny, length = std::hypot(dx, dy);
-      // To the line half way between the two sites.
-      cell.border = std::min(cell.border, ((0.5 * (sx + nx) - u) * dx + (0.5 * (sy + ny) - v) * dy) / length);
-    }
-  }
-  return cell;
-}
-
 // Colour of what glows at a heat of 0 (just dark) to 1.
 Color glow(double heat) {
   const Color dark{0.018, 0.002, 0.001}, red{0.42, 0.018, 0.004}, orange{0.95, 0.17, 0.012},

@@ -1,4 +1,5 @@
 // make_exemplars FOLDER: writes the example images that ship with the scenes into FOLDER.
+#include "scenes/exemplars/foam.h"
 #include "scenes/exemplars/lava.h"
 #include "scenes/exemplars/scales.h"
 #include "scenes/write_png.h"
@@ -29,12 +30,16 @@ int main(int argc, char** argv) {
   const fluidtex::exemplars::Scales scales;
   const fluidtex::exemplars::Lava lava;
   const fluidtex::exemplars::CoolingLava cooling = fluidtex::exemplars::makeCoolingLava();
+  const fluidtex::exemplars::FoamyWater water;
+  const fluidtex::exemplars::FoamImages foam = fluidtex::exemplars::makeFoam(water);
   const int coolingSize = fluidtex::exemplars::kCooling.size;
   const bool written =
       write((folder / "green_scales.png").string(), scales.size,
             fluidtex::exemplars::makeGreenScales(scales)) &&
       write((folder / "lava.png").string(), lava.size, fluidtex::exemplars::makeLava(lava)) &&
       write((folder / "lava_cooling.png").string(), coolingSize, cooling.pixels) &&
-      write((folder / "lava_cooling_guidance.png").string(), coolingSize, cooling.guidance);
+      write((folder / "lava_cooling_guidance.png").string(), coolingSize, cooling.guidance) &&
+      write((folder / "foam.png").string(), water.size, foam.pixels) &&
+      write((folder / "foam_guidance.png").string(), water.size, foam.guidance);
   return written ? 0 : 2;
 }

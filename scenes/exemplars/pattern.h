@@ -25,11 +25,23 @@ int wrapped(int i, int n);
 // Value noise with `cells` lattice cells across the unit square, periodic; 0..1.
 double noise(std::uint64_t seed, std::uint64_t stream, double x, double y, int cells);
 
+// `octaves` of noise about 0, each finer one weaker by `gain`.
+double fractal(std::uint64_t seed, std::uint64_t stream, double x, double y, int cells, int octaves,
+               double gain);
+
+// Of scattered sites, `cells` across the unit square, periodic [Worley 1996]: the cell that a point is in.
+struct Cell {
+  double border = 1e9;  // how far its border is, in units of the sites' distance
+  double shade = 0.0;   // 0..1, of the cell
+};
+Cell cellAt(std::uint64_t seed, std::uint64_t stream, double x, double y, int cells);
+
 // sRGB of a linear value, IEC 61966-2-1; cut to 0..1.
 double encoded(double linear);
 
-// size x size pixels, sRGB, three bytes each, row by row from the top: the mean of samples x samples colours in each.
-// The image is the unit square, x to the right, y down.
-std::vector<std::uint8_t> rendered(int size, int samples, const std::function<Color(double x, double y)>& color);
+// size x size pixels, sRGB, three bytes each, row by row from the top: the mean of samples x samples colours
+// in each. The image is the unit square, x to the right, y down.
+std::vector<std::uint8_t> rendered(int size, int samples,
+                                   const std::function<Color(double x, double y)>& color);
 
 }  // namespace fluidtex::exemplars

@@ -1,3 +1,4 @@
+#include "scenes/exemplars/foam.h"
 #include "scenes/exemplars/lava.h"
 #include "scenes/exemplars/scales.h"
 
@@ -139,6 +140,25 @@ TEST_CASE("cooling lava: the images that ship are the generator's, the higher th
   for (int stage = 1; stage < 4; ++stage)
     CHECK(glowing[stage] / count[stage] > glowing[stage - 1] / count[stage - 1] + 0.05);
   CHECK(glowing[3] > 0.7 * count[3]);
+}
+
+TEST_CASE("foam: the images that ship are the generator's, the higher the level, the more is white",
+          "[scenes]") {
+  const FoamyWater options;
+  const FoamImages foam = makeFoam(options);
+  CHECK((shipped("foam.png", options.size) == foam.pixels));
+  CHECK((shipped("foam_guidance.png", options.size, 1) == foam.guidance));
+  double white[4] = {}, count[4] = {};
+  for (std::size_t i = 0; i < foam.guidance.size(); ++i) {
+    const std::size_t stage = foam.guidance[i] / 64;
+    count[stage] += 1.0;
+    white[stage] += foam.pixels[3 * i] > 150;
+  }
+  for (int stage = 0; stage < 4; ++stage) CHECK(count[stage] > 0.1 * options.size * options.size);
+  CHECK(white[0] < 0.05 * count[0]);
+  for (int stage = 1; stage < 4; ++stage)
+    CHECK(white[stage] / count[stage] > white[stage - 1] / count[stage - 1] + 0.05);
+  CHECK(white[3] > 0.85 * count[3]);
 }
 
 }  // namespace fluidtex::exemplars

@@ -29,7 +29,8 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
       {"texture.points = 3000\ntexture.spacing = 0.1\n" + kGoodScene,
        "s.toml:2:9: error: texture.spacing: given besides points; give only one of points and spacing"},
       {"texture.method = 'magic'\n" + kGoodScene,
-       "s.toml:1:9: error: texture.method: \"magic\" is unknown; give \"coordinates\", \"kwatra07\" or \"none\""},
+       "s.toml:1:9: error: texture.method: \"magic\" is unknown; give \"coordinates\", \"kwatra07\" or "
+       "\"none\""},
       {"texture.surface.points = 'random '\n" + kGoodScene,
        "s.toml:1:17: error: texture.surface.points: \"random \" is unknown; give \"seeds\" or \"random\""},
       {"domain.resolution = 8\n" + kGoodScene + "[quality.preview]\ndomain.size = [2, 0.5, 1]",
@@ -110,6 +111,9 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
        "= 0 }]",
        "s.toml:9:38: error: texture.guidance.point.1.value: 2 is not above the one before, 2; give them by "
        "rising value"},
+      {"[texture.guidance]\nby = 'foam'\nmap = 'e.png'\npoint = [{ value = 0, level = 1 }]\nfoam = { from = "
+       "3, full = 3 }",
+       "s.toml:10:20: error: texture.guidance.foam.full: 3 is not above from, 3; give a larger one"},
       {"[[texture.map]]\nfile = 'e.png'",
        "s.toml:6:1: error: texture.map.0: has no name; give name = \"height\" or whatever it holds"},
       {"[[texture.map]]\nname = 'a b'\nfile = 'e.png'",

@@ -24,7 +24,7 @@ texture::SurfaceMesh guided(GuidanceBy by, double low, double high, const sim::F
                             const texture::Carried& carried = {}) {
   texture::Surface surface;
   surface.levels.push_back(testing::sphereMesh(8));
-  guide(textureGuidance(sceneBy(by, low, high)), frame, carried, surface);
+  guide(textureGuidance(sceneBy(by, low, high)), frame, carried, 0.1, surface);
   return surface.levels[0];
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("texture guidance: by temperature, by a painted volume") {
   scene.texture.guidance.field = folder.path / "paint.vdb";
   texture::Surface surface;
   surface.levels.push_back(testing::sphereMesh(2));
-  guide(textureGuidance(scene), {}, {}, surface);
+  guide(textureGuidance(scene), {}, {}, 0.1, surface);
   for (const float level : surface.levels[0].guidance) CHECK(level == 0.5f);
 }
 
@@ -114,4 +114,21 @@ TEST_CASE("texture guidance: by age, which starts anew where surface has just co
   const texture::SurfaceMesh age = guided(GuidanceBy::age, 0.0, 4.0, {}, carried);
   CHECK(age.guidance[6] == Approx(0.5f));
   CHECK(age.guidance[7] == 0.0f);
+  const texture::SurfaceMesh renewal = guided(GuidanceBy::renewal, 0.0, 4.0, {}, carried);
+  CHECK(renewal.guidance[6] == Approx(0.5f));
+  CHECK(renewal.guidance[7] == Approx(0.5f));
+  for (const float level : levelsOf(guided(GuidanceBy::renewal, 0.0, 4.0))) CHECK(level == 0.0f);
+}
+
+TEST_CASE("texture guidance: by foam, which is handed on") {
+  const std::size_t count = testing::sphereMesh(8).positions.size();
+  texture::Carried carried;
+  carried.foam.assign(count, 0.5f);
+  carried.trust.assign(count, 1.0f);
+  const texture::SurfaceMesh calm = guided(GuidanceBy::foam, 0.0, 1.0, {}, carried);
+  const auto left = float(0.5 * std::exp(-0.1 / texture::Foam{}.lifetime));  // a tenth of a second later
+  REQUIRE(calm.foam.size() == count);
+  CHECK(calm.foam[3] == Approx(left));
+  CHECK(calm.guidance[3] == Approx(left));
+  CHECK(guided(GuidanceBy::age, 0.0, 1.0).foam.empty());
 }
