@@ -118,6 +118,7 @@ void describeLiquid(Visitor& visitor, sim::Options& sim) {
 void describeOrientation(Visitor& visitor, Scene& scene) {
   texture::OrientationOptions& orientation = scene.texture.orientation;
   visitor.integer("symmetry", orientation.symmetry, {.low = 1, .high = 4});
+  visitor.flag("mirrored", orientation.mirrored);
   choice(visitor, "align", orientation.align, {"none", "gravity", "flow", "curvature", "direction", "field"});
   visitor.number("weight", orientation.weight, kShare);
   visitor.number("angle", orientation.angle, {.low = -360.0, .high = 360.0});

@@ -70,13 +70,9 @@ void calmDroplets(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& drop
   if (carried.empty()) return;
   forEachIndex(droplets.size(), [&](std::uint32_t v) {
     if (!droplets[v]) return;
-    const Vec3f &d = mesh.orientation[v], b = rowAxis(d, mesh.normals[v]);
-    const TexelGradient& g = carried.gradient[v];
-    // Of a 2x2 matrix the part that is a turn and a magnification.
-    const Complexf turn(g.s.dot(d) + g.t.dot(b), g.t.dot(d) - g.s.dot(b));
-    const float size = std::abs(turn);
-    const Label calm = unstretched(carried.coordinate[v], size > 0.0f ? turn / size : Complexf(1.0f));
-    carried.gradient[v] = gradientOf(calm, d, mesh.normals[v], mesh.spacingAt(v));
+    const Label drawnOut = labelOf(mesh, v, carried.coordinate[v], carried.gradient[v]);
+    carried.gradient[v] = gradientOf(unstretched(drawnOut.texel, layOf(drawnOut)), mesh.orientation[v],
+                                     mesh.normals[v], mesh.spacingAt(v));
   });
 }
 

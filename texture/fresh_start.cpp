@@ -3,6 +3,7 @@
 #include "texture/guidance.h"
 #include "texture/random.h"
 #include "texture/usage.h"
+#include "texture/ways.h"
 
 #include <tbb/parallel_for.h>
 
@@ -21,15 +22,22 @@ constexpr float kGuided = 4.0f;     // a level that is off by a quarter weighs a
 constexpr std::size_t kStride = 3;  // every third vertex is compared
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// How badly a block with its middle at `center` suits a disc: how far it is from what guidance asks for, less
-// its correlation with what is there. The least difference would always be that of what has little contrast.
+// Of the exemplar.
+struct Block {
+  Vec2f center{0.0f};
+  Way way = 0;
+  Vec2f texelAt(const Vec2f& offset) const { return center + laid(way, offset); }
+};
+
+// How badly a block suits a disc: how far it is from what guidance asks for, less its correlation with what
+// is there. The least difference would always be that of what has little contrast.
 float unsuitability(const MeshView& view, const TexelImage& image, const Neighborhoods& blocks, std::size_t p,
-                    const Vec2f& center, const Values& value) {
+                    const Block& block, const Values& value) {
   Float8 a{}, b{}, aa{}, bb{}, ab{};
   float count = 0.0f, unfit = 0.0f;
   for (std::size_t i = blocks.first[p]; i < blocks.first[p + 1]; i += kStride) {
     const std::uint32_t v = blocks.vertex[i];
-    const Vec2f texel = center + blocks.offset[i];
+    const Vec2f texel = block.texelAt(blocks.offset[i]);
     const Float8 x = image.sample(texel), y = value[v];
     a += x, b += y, aa += x * x, bb += y * y, ab += x * y, count += 1.0f;
     unfit += guidanceCost(image, view.mesh, image.brought(texel), v);
@@ -57,15 +65,15 @@ void startAfresh(const MeshView& view, const TexelImage& image, const std::vecto
   for (const Label& label : labels) usage.add(label.texel, 1.0f);
   const Neighborhoods blocks = buildNeighborhoods(view, 2 * std::max(1, int(std::ceil(reach))) + 1, centers);
 
-  std::vector<Vec2f> chosen(centers.size());
+  std::vector<Block> chosen(centers.size());
   tbb::parallel_for(std::size_t(0), centers.size(), [&](std::size_t p) {
-    std::array<std::pair<float, Vec2f>, kPlaces> places;
+    std::array<std::pair<float, Block>, kPlaces> places;
+    const std::uint64_t key = randomBits(seed, centers[p]);
     for (std::uint64_t i = 0; i < kPlaces; ++i) {
-      const std::uint64_t key = randomBits(seed, centers[p]);
       const Vec2f place = image.centerFor({float(randomUnit(key, 2 * i)) * float(image.width - 1),
                                            float(randomUnit(key, 2 * i + 1)) * float(image.height - 1)},
                                           reach);
-      places[i] = {usage.at(place), place};
+      places[i] = {usage.at(place), {place, wayAt(image.ways, int(i) % countOf(image.ways))}};
     }
     std::stable_sort(places.begin(), places.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -82,7 +90,8 @@ void startAfresh(const MeshView& view, const TexelImage& image, const std::vecto
       const std::uint32_t v = blocks.vertex[i];
       const Vec2f& l = blocks.offset[i];
       if (owner[v] != p || l.lengthSqr() > reach * reach) continue;
-      labels[v] = unstretched(image.brought(chosen[p] + l), blocks.turn[i]);
+      labels[v] =
+          unstretched(image.brought(chosen[p].texelAt(l)), seenFrom(layOf(chosen[p].way), blocks.turn[i]));
       placed[v] = 1;
     }
   handOn(image, view, wanted, std::move(placed), labels);

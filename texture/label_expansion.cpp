@@ -44,17 +44,9 @@ struct Proposal {
   }
 };
 
-// The label without its stretch, around the same texel.
-Label relaxed(const Label& label) {
-  const std::array<float, 4>& j = label.jacobian;
-  const Complexf turn(j[0] + j[3], j[2] - j[1]);  // of the nearest rotation
-  const float norm = std::abs(turn);
-  return norm > 1e-6f ? unstretched(label.texel, turn / norm) : label;
-}
-
 // One vertex's label as the disc's centre sees it: the centre lies at -l in the vertex's surroundings.
 Proposal broughtToCenter(const Label& label, const Vec2f& l, const Complexf& turn) {
-  const Label used = stretch(label) > kMostStretch ? relaxed(label) : label;
+  const Label used = stretch(label) > kMostStretch ? unstretched(label.texel, layOf(label)) : label;
   const Complexf back = std::conj(turn);  // from the centre's axes to the vertex's
   const std::array<float, 4>& j = used.jacobian;
   const float c = back.real(), s = back.imag();

@@ -5,6 +5,7 @@
 #include "texture/parallel.h"
 #include "texture/point_grid.h"
 #include "texture/random.h"
+#include "texture/ways.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,33 +17,48 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint64_t kGuidedPlaces =
     32;  // tried for a block, until its middle is of the level that is wanted
+constexpr std::uint64_t kWayOfBlock = 1ull << 40;  // keys of their own
 
 }  // namespace
 
-Label unstretched(const Vec2f& texel, const Complexf& turn) {
-  return {texel, {turn.real(), -turn.imag(), turn.imag(), turn.real()}};
+Lay layOf(const Label& label) {
+  const std::array<float, 4>& j = label.jacobian;
+  // The parts that do and do not commute with rotations: the nearest rotation, and the nearest mirror image.
+  const Complexf keep(j[0] + j[3], j[2] - j[1]), flip(j[3] - j[0], -j[1] - j[2]);
+  const float kept = std::abs(keep), flipped = std::abs(flip), size = std::max(kept, flipped);
+  if (!(size > 1e-6f)) return {};
+  return kept >= flipped ? Lay{keep / size, false} : Lay{flip / size, true};
+}
+
+Label unstretched(const Vec2f& texel, const Lay& lay) {
+  const float c = lay.turn.real(), s = lay.turn.imag();
+  return lay.mirrored ? Label{texel, {-c, -s, -s, c}} : Label{texel, {c, -s, s, c}};
 }
 
 float stretch(const Label& label) {
   const std::array<float, 4>& j = label.jacobian;
   // Singular values from the parts that do and do not commute with rotations.
   const float keep = std::hypot(j[0] + j[3], j[2] - j[1]), flip = std::hypot(j[0] - j[3], j[1] + j[2]);
-  const float largest = 0.5f * (keep + flip), smallest = 0.5f * (keep - flip);
+  const float largest = 0.5f * (keep + flip), smallest = 0.5f * std::abs(keep - flip);
   constexpr float kTorn = 1e3f;
   if (!(smallest > 1.0f / kTorn) || !(largest < kTorn)) return kTorn;
   return std::max(largest, 1.0f / smallest);
 }
 
+Label labelOf(const SurfaceMesh& mesh, std::uint32_t v, const Vec2f& coordinate,
+              const TexelGradient& gradient) {
+  const auto scale = float(mesh.spacingAt(v));
+  const Vec3f &d = mesh.orientation[v], b = rowAxis(d, mesh.normals[v]);
+  return {coordinate,
+          {gradient.s.dot(d) * scale, gradient.s.dot(b) * scale, gradient.t.dot(d) * scale,
+           gradient.t.dot(b) * scale}};
+}
+
 Labels labelsOf(const SurfaceMesh& mesh, const std::vector<Vec2f>& coordinate,
                 const std::vector<TexelGradient>& gradient) {
   Labels labels(coordinate.size());
-  forEachIndex(labels.size(), [&](std::uint32_t v) {
-    const auto scale = float(mesh.spacingAt(v));
-    const Vec3f &d = mesh.orientation[v], b = rowAxis(d, mesh.normals[v]);
-    const TexelGradient& g = gradient[v];
-    labels[v] = {coordinate[v],
-                 {g.s.dot(d) * scale, g.s.dot(b) * scale, g.t.dot(d) * scale, g.t.dot(b) * scale}};
-  });
+  forEachIndex(labels.size(),
+               [&](std::uint32_t v) { labels[v] = labelOf(mesh, v, coordinate[v], gradient[v]); });
   return labels;
 }
 
@@ -80,7 +96,8 @@ Labels blockLabels(const MeshView& view, const TexelImage& image, float size, st
         if (cost(other) < cost(chosen)) chosen = other;
       }
     }
-    labels[seeds[i]] = unstretched(chosen, Complexf(1.0f));
+    const auto way = int(randomBits(seed, kWayOfBlock + i) % std::uint64_t(countOf(image.ways)));
+    labels[seeds[i]] = unstretched(chosen, layOf(wayAt(image.ways, way)));
     part[seeds[i]] = i;
     ring[seeds[i]] = 0;
     queue.push_back(seeds[i]);
@@ -100,18 +117,20 @@ Labels blockLabels(const MeshView& view, const TexelImage& image, float size, st
     const std::uint32_t v = queue[i];
     Vec2f texel(0.0f, 0.0f);
     Complexf turn(0.0f);
+    bool mirrored = false;  // as all of the part
     int found = 0;
     for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
       const std::uint32_t u = view.graph.neighbor[h];
       if (part[u] != part[v] || ring[u] >= ring[v]) continue;
-      const Label& label = labels[u];
       const Complexf& rotation = view.connection.rotation[h];
-      texel += label.at(-conjugateProduct(rotation, view.connection.edge[h]));
-      turn += conjugateProduct(rotation, Complexf(label.jacobian[0], label.jacobian[2]));
+      texel += labels[u].at(-conjugateProduct(rotation, view.connection.edge[h]));
+      const Lay lay = seenFrom(layOf(labels[u]), std::conj(rotation));
+      turn += lay.turn;
+      mirrored = lay.mirrored;
       ++found;
     }
     const float norm = std::abs(turn);
-    labels[v] = unstretched(texel / float(found), norm > 1e-6f ? turn / norm : Complexf(1.0f));
+    labels[v] = unstretched(texel / float(found), {norm > 1e-6f ? turn / norm : Complexf(1.0f), mirrored});
   }
   for (Label& label : labels) label.texel = image.brought(label.texel);
   return labels;

@@ -2,6 +2,7 @@
 // state that the optimisation leaves behind and that is carried from frame to frame.
 #pragma once
 
+#include "texture/complex.h"
 #include "texture/neighborhood.h"
 #include "texture/texel_image.h"
 
@@ -26,13 +27,29 @@ struct Label {
 };
 using Labels = std::vector<Label>;
 
-// The label that lays the exemplar down unstretched; `turn` takes the vertex's axes to the exemplar's.
-Label unstretched(const Vec2f& texel, const Complexf& turn);
+// How an exemplar lies that is not stretched: an offset on the surface is mirrored (first component negated),
+// if at all, then turned, and is one in the exemplar.
+struct Lay {
+  Complexf turn{1.0f};  // unit
+  bool mirrored = false;
+};
+
+// The same, for axes that `rotation` takes to those it was for.
+inline Lay seenFrom(const Lay& lay, const Complexf& rotation) {
+  return {lay.mirrored ? conjugateProduct(rotation, lay.turn) : product(lay.turn, rotation), lay.mirrored};
+}
+
+// The unstretched one nearest to a label; upright where none is.
+Lay layOf(const Label& label);
+
+Label unstretched(const Vec2f& texel, const Lay& lay);
 
 // How far a label is from that: the larger of its greatest magnification and its greatest reduction, 1 =
-// unstretched, very large where it is torn or mirrored.
+// unstretched, very large where it is torn.
 float stretch(const Label& label);
 
+Label labelOf(const SurfaceMesh& mesh, std::uint32_t v, const Vec2f& coordinate,
+              const TexelGradient& gradient);
 Labels labelsOf(const SurfaceMesh& mesh, const std::vector<Vec2f>& coordinate,
                 const std::vector<TexelGradient>& gradient);
 TexelGradient gradientOf(const Label& label, const Vec3f& orientation, const Vec3f& normal, double spacing);

@@ -28,8 +28,8 @@ constexpr float kFar = std::numeric_limits<float>::max();
 // One neighbourhood's values, gathered once for all its candidates.
 struct Gathered {
   Values value;
-  std::array<std::span<const Vec2f>, 4> offset;  // by way
-  std::array<std::vector<Vec2f>, 4> turned;      // those of the ways but the first
+  std::array<std::span<const Vec2f>, kMostWays> offset;  // by way
+  std::array<std::vector<Vec2f>, kMostWays> turned;      // those of the ways but the first
   std::span<const float> falloff;
   float mass = 0.0f;
 };
@@ -46,8 +46,8 @@ void gather(const Windows& windows, std::size_t p, const Values& value, Gathered
   result.value.resize(count);
   for (std::size_t i = 0; i < count; ++i) result.value[i] = value[n.vertex[begin + i]];
   result.offset[0] = {n.offset.data() + begin, count};
-  for (int i = 1; i < windows.turns; ++i) {
-    const Way way = wayAt(windows.turns, i);
+  for (int i = 1; i < countOf(windows.ways); ++i) {
+    const Way way = wayAt(windows.ways, i);
     std::vector<Vec2f>& turned = result.turned[way];
     turned.resize(count);
     for (std::size_t k = 0; k < count; ++k) turned[k] = laid(way, n.offset[begin + k]);
@@ -113,9 +113,9 @@ void fillQuery(const Windows& windows, std::size_t p, const Values& value, Windo
   }
 }
 
-Windows makeWindows(const Level& level, const Pass& pass, int turns) {
+Windows makeWindows(const Level& level, const Pass& pass) {
   Windows windows;
-  windows.turns = turns;
+  windows.ways = level.image.ways;
   windows.neighborhoods = coverSurface(level.view, pass.window, level.wanted,
                                        pass.table && pass.probes > 0 ? &windows.pixels : nullptr);
   const Neighborhoods& n = windows.neighborhoods;
@@ -154,8 +154,8 @@ void findFirstMatches(const Level& level, const Pass& pass, const Values& value,
                       Searcher& searcher = workspace.local();
                       for (std::size_t p = range.begin(); p != range.end(); ++p) {
                         float least = kFar;
-                        for (int i = 0; i < windows.turns; ++i) {
-                          const Way way = wayAt(windows.turns, i);
+                        for (int i = 0; i < countOf(windows.ways); ++i) {
+                          const Way way = wayAt(windows.ways, i);
                           Match found[1];
                           searchWindows(windows, p, pass, value, level.image.channels, way,
                                         searcher.query.front(), found);
@@ -186,7 +186,8 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
 
   tbb::enumerable_thread_specific<Searcher> workspace(
       [&] { return Searcher(useTree ? pass.table : nullptr); });
-  const int turns = windows.turns;
+  const Ways& ways = windows.ways;
+  const int wayCount = countOf(ways);
   std::vector<Place> next;
   for (const std::vector<std::uint32_t>& batch : batches) {
     next.resize(batch.size());
@@ -228,14 +229,15 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
               const Complexf towards = conjugateProduct(n.turn[entry], offset);
               const std::uint32_t q = windows.links.window[i];
               offer(windows.texelAt(q, Vec2f(-towards.real(), -towards.imag())),
-                    turns == 1 ? Way(0)
-                               : nearestWay(turns, conjugateProduct(n.turn[entry], turnOf(windows.way[q]))));
+                    wayCount == 1
+                        ? Way(0)
+                        : nearestWay(ways, seenFrom(layOf(windows.way[q]), std::conj(n.turn[entry]))));
             }
             if (useTree) {
               // As many of each way as of one where there is no other.
               Match found[kTreeCandidates];
-              for (int t = 0; t < turns; ++t) {
-                const Way way = wayAt(turns, t);
+              for (int w = 0; w < wayCount; ++w) {
+                const Way way = wayAt(ways, w);
                 const int count = searchWindows(windows, p, pass, value, image.channels, way,
                                                 searcher.query.front(), found);
                 for (int i = 0; i < count; ++i) offer(Vec2f(found[i].center), way);
@@ -253,7 +255,7 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
             const std::uint64_t own = randomBits(key, kBatches + p);
             const auto random = [&](std::uint64_t i) { return float(randomUnit(own, i)); };
             offer(Vec2f(random(0) * float(image.width), random(1) * float(image.height)),
-                  wayAt(turns, int(random(4) * float(turns))));
+                  wayAt(ways, int(random(4) * float(wayCount))));
             const float near = 0.25f * float(n.window);
             offer(nearest.center + Vec2f((2.0f * random(2) - 1.0f) * near, (2.0f * random(3) - 1.0f) * near),
                   nearest.way);

@@ -18,7 +18,7 @@ struct Windows {
   std::vector<float> mass;      // #P: sum of g
   std::vector<Vec2f> match;     // #P: texel at the centre
   std::vector<Way> way;         // #P: how the exemplar lies there
-  int turns = 1;                // ways to choose from: 1, 2 or 4
+  Ways ways;                    // the exemplar's
   std::vector<float> distance;  // #P: D_p / m_p
   Demand demand;
 
@@ -26,8 +26,7 @@ struct Windows {
   Vec2f texelAt(std::size_t p, const Vec2f& offset) const { return match[p] + laid(way[p], offset); }
 };
 
-// turns: in how many ways the exemplar may lie (ways.h).
-Windows makeWindows(const Level& level, const Pass& pass, int turns = 1);
+Windows makeWindows(const Level& level, const Pass& pass);
 
 // Fills query.pixels and query.mask with neighbourhood p as the exemplar has it that lies like that;
 // makeWindows() must have had a pass with a tree.
@@ -41,8 +40,8 @@ void measureMatches(const TexelImage& image, const Values& value, Windows& windo
 void findFirstMatches(const Level& level, const Pass& pass, const Values& value, Windows& windows);
 
 // Offers every window the matches of its neighbours, shifted; windows alike to these; the tree's, turned in
-// all ways; and random ones. Takes the best that is nearer than the present one; parts of the exemplar used more than the mean
-// count as farther (`usage`).
+// all ways; and random ones. Takes the best that is nearer than the present one; parts of the exemplar used
+// more than the mean count as farther (`usage`).
 void improveMatches(const Level& level, const Pass& pass, int iteration, double usage, const Values& value,
                     Windows& windows);
 

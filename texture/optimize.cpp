@@ -153,7 +153,7 @@ void copyCores(Run& run) {
     const std::uint32_t p = run.byVertex.window[chosen], entry = run.byVertex.entry[chosen];
     run.state.labels[v] =
         unstretched(run.level.image.brought(run.windows.texelAt(p, run.windows.neighborhoods.offset[entry])),
-                    product(turnOf(run.windows.way[p]), run.windows.neighborhoods.turn[entry]));
+                    seenFrom(layOf(run.windows.way[p]), run.windows.neighborhoods.turn[entry]));
     if (run.pass.copyCores) run.state.value[v] = run.level.image.sample(run.state.labels[v].texel);
   });
 }
@@ -162,7 +162,7 @@ void copyCores(Run& run) {
 
 EnergyTrace optimize(const Level& level, const Pass& pass, const SynthesisOptions& options, State& state) {
   const std::size_t count = level.view.mesh.positions.size();
-  Run run{level, pass, options, state, makeWindows(level, pass, options.turns), {}, {}, {}, {}};
+  Run run{level, pass, options, state, makeWindows(level, pass), {}, {}, {}, {}};
   Windows& windows = run.windows;
   if (windows.match.empty()) return {};
   run.byVertex = overlaps(windows.neighborhoods, count);
@@ -175,7 +175,7 @@ EnergyTrace optimize(const Level& level, const Pass& pass, const SynthesisOption
     for (std::size_t p = 0; p < windows.match.size(); ++p) {
       const Label& label = state.labels[windows.neighborhoods.center[p]];
       windows.match[p] = level.image.centerFor(label.texel, reach);
-      windows.way[p] = nearestWay(options.turns, turnOf(label));
+      windows.way[p] = nearestWay(windows.ways, layOf(label));
     }
     measureMatches(level.image, state.value, windows);
   } else {

@@ -47,7 +47,8 @@ enum class Align {
 };
 
 struct OrientationOptions {
-  int symmetry = 1;  // equal directions in a full turn: 1, 2 (bricks) or 4 (squares)
+  int symmetry = 1;       // equal directions in a full turn: 1, 2 (bricks) or 4 (squares)
+  bool mirrored = false;  // the exemplar looks the same with left and right exchanged
   Align align = Align::none;
   double weight = 0.2;  // 0 not at all, 0.5 as much as the neighbouring vertices, 1 whatever they are
   double angle = 0.0;   // degrees from there to the columns, counter-clockwise seen from outside
@@ -105,6 +106,12 @@ struct GuidanceOptions {
   Foam foam;
 };
 
+// How an exemplar may be laid besides upright.
+struct Ways {
+  int turns = 1;          // 1, 2 or 4: turned by multiples of 360 / turns degrees
+  bool mirrored = false;  // each of these mirrored as well, left and right exchanged
+};
+
 struct SynthesisOptions {
   Method method = Method::coordinates;
   std::vector<int> windows{33, 17, 9};        // exemplar pixels, odd, falling
@@ -119,7 +126,7 @@ struct SynthesisOptions {
   double featureWeight = 0.3;   // of the signed feature distance channel, squared distance, colour = 1
   double gradientWeight = 0.3;  // of the gradient energy channel
   double guidanceWeight = 1.0;  // of the guidance map, where the exemplar has one
-  int turns = 1;  // 1, 2 or 4: the exemplar is used turned by multiples of 360 / turns degrees as well
+  Ways ways;
   double keepStretch = 1.22;  // carried texture that is coherent and stretched less than this is kept
   double renewalRadius =
       36.0;  // exemplar pixels: texture is renewed in discs of this size, larger than its features

@@ -104,13 +104,13 @@ Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options, 
   int largest = 3;
   for (const int window : options.windows) largest = std::max(largest, window);
   for (const Image& image : synthesizer.exemplar.match) {
-    synthesizer.tables->image.push_back(
-        makeTexelImage(image, synthesizer.exemplar.toroidal, largest / 2 + 3));
-    synthesizer.tables->image.back().guide = synthesizer.exemplar.guided ? colors : -1;
-    synthesizer.tables->image.back().guidanceWeight = synthesizer.exemplar.guidanceWeight;
-    synthesizer.tables->histogram.push_back(makeHistogramTarget(synthesizer.tables->image.back()));
-    synthesizer.tables->seamUnit.push_back(
-        seamUnit(synthesizer.tables->image.back(), seamChannels(synthesizer)));
+    TexelImage texels = makeTexelImage(image, synthesizer.exemplar.toroidal, largest / 2 + 3);
+    texels.ways = options.ways;
+    texels.guide = synthesizer.exemplar.guided ? colors : -1;
+    texels.guidanceWeight = synthesizer.exemplar.guidanceWeight;
+    synthesizer.tables->histogram.push_back(makeHistogramTarget(texels));
+    synthesizer.tables->seamUnit.push_back(seamUnit(texels, seamChannels(synthesizer)));
+    synthesizer.tables->image.push_back(std::move(texels));
   }
   if (windowsOf(synthesizer, 0).empty())
     throw std::invalid_argument("makeSynthesizer: no window fits the exemplar");

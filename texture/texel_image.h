@@ -19,6 +19,7 @@ struct TexelImage {
   int width = 0, height = 0, channels = 0;
   int margin = 0, stride = 0;  // stride = width + 2 margin, texels
   bool toroidal = false;
+  Ways ways;                    // in which it may be laid
   int guide = -1;               // the channel of the guidance map, where there is one
   float guidanceWeight = 1.0f;  // by whose root it is multiplied
   std::vector<Half8> data;      // rows from the top, margins included

@@ -1,20 +1,23 @@
-// Ways to lay an exemplar that looks the same turned: by halves or quarters of a turn.
+// Ways to lay an exemplar that looks the same turned, by halves or quarters of a turn, or mirrored.
 #pragma once
 
-#include "texture/complex.h"
 #include "texture/labels.h"
+#include "texture/options.h"
 
-#include <array>
 #include <cstdint>
 
 namespace fluidtex::texture {
 
-// How many quarter turns take an offset on the surface to one in the exemplar: 0 to 3.
+// What takes an offset on the surface to one in the exemplar: it is mirrored (first component negated) if
+// kMirrored is set, then turned by so many quarter turns, 0 to 3.
 using Way = std::uint8_t;
+inline constexpr Way kMirrored = 4;
+inline constexpr int kMostWays = 8;
 
 // An offset l on the surface, as one in the exemplar.
-inline Vec2f laid(Way way, const Vec2f& l) {
-  switch (way) {
+inline Vec2f laid(Way way, Vec2f l) {
+  if (way & kMirrored) l[0] = -l[0];
+  switch (way & 3) {
     case 1:
       return {-l[1], l[0]};
     case 2:
@@ -26,32 +29,32 @@ inline Vec2f laid(Way way, const Vec2f& l) {
   }
 }
 
-// The same, as a unit number.
-inline Complexf turnOf(Way way) {
-  const Vec2f x = laid(way, {1.0f, 0.0f});
-  return {x[0], x[1]};
+inline Lay layOf(Way way) {
+  const Vec2f x = laid(way & 3, {1.0f, 0.0f});
+  return {{x[0], x[1]}, (way & kMirrored) != 0};
 }
 
-// Of the exemplar's `turns` ways (1, 2 or 4), the i-th.
-inline Way wayAt(int turns, int i) {
-  return Way(i * (4 / turns));
+inline int countOf(const Ways& ways) {
+  return ways.mirrored ? 2 * ways.turns : ways.turns;
 }
 
-// The one nearest to a rotation, times any factor.
-inline Way nearestWay(int turns, const Complexf& turn) {
-  Way best = 0;
-  float most = turn.real();
-  for (int i = 1; i < turns; ++i) {
-    const Way way = wayAt(turns, i);
-    const float along = conjugateProduct(turnOf(way), turn).real();
+// The i-th of them; the first is upright.
+inline Way wayAt(const Ways& ways, int i) {
+  const Way turned = Way(i % ways.turns * (4 / ways.turns));
+  return i < ways.turns ? turned : turned | kMirrored;
+}
+
+// The one nearest to how something lies; mirrored as that is, where that may be.
+inline Way nearestWay(const Ways& ways, const Lay& lay) {
+  const int begin = lay.mirrored && ways.mirrored ? ways.turns : 0;
+  Way best = wayAt(ways, begin);
+  float most = conjugateProduct(layOf(best).turn, lay.turn).real();
+  for (int i = 1; i < ways.turns; ++i) {
+    const Way way = wayAt(ways, begin + i);
+    const float along = conjugateProduct(layOf(way).turn, lay.turn).real();
     if (along > most) most = along, best = way;
   }
   return best;
-}
-
-// The rotation in a label's Jacobian, times a factor.
-inline Complexf turnOf(const Label& label) {
-  return {label.jacobian[0] + label.jacobian[3], label.jacobian[2] - label.jacobian[1]};
 }
 
 }  // namespace fluidtex::texture

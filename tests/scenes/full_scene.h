@@ -180,6 +180,7 @@ file = "e.png"
 holds = "normals"
 [texture.orientation]
 symmetry = 2
+mirrored = true
 align = "field"
 weight = 0.75
 angle = 30

@@ -79,7 +79,7 @@ TEST_CASE(
   Carried carried;
   carried.previousPosition = ball.mesh.positions;
   const Complexf turn = std::polar(1.0f, 0.7f);
-  Labels labels(count, unstretched(Vec2f(5.0f, 6.0f), turn));
+  Labels labels(count, unstretched(Vec2f(5.0f, 6.0f), {turn}));
   for (Label& label : labels)  // three times along the exemplar's rows, a half along its columns
     label.jacobian = {3.0f * label.jacobian[0], 3.0f * label.jacobian[1], 0.5f * label.jacobian[2],
                       0.5f * label.jacobian[3]};

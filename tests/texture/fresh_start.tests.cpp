@@ -88,7 +88,7 @@ TEST_CASE("labels: handed on ring by ring, as far as is wanted") {
     const bool inside = x.z() > 1.9f && x.x() > 2 && x.x() < 38 && x.y() > 2 && x.y() < 38;
     placed.push_back(inside && x.x() < 10);
     wanted.push_back(inside && x.x() < 30);
-    if (placed[v]) labels[v] = unstretched(right(x), Complexf(1.0f));
+    if (placed[v]) labels[v] = unstretched(right(x), {});
   }
   handOn(image, surface.view(), wanted, placed, labels);
   for (std::uint32_t v = 0; v < labels.size(); ++v) {

@@ -56,7 +56,7 @@ TEST_CASE("label_expansion: a torn hole is closed by the picture around it") {
   Labels whole;
   std::vector<std::uint8_t> free;
   for (const Vec3f& x : surface.mesh.positions) {
-    whole.push_back(unstretched(Vec2f(10 + x.x(), 80 - x.y()), Complexf(1.0f)));
+    whole.push_back(unstretched(Vec2f(10 + x.x(), 80 - x.y()), {}));
     free.push_back(x.z() > 1.9f && x.x() > 8 && x.x() < 56 && x.y() > 8 && x.y() < 56);
   }
   Labels torn = whole;
@@ -77,7 +77,7 @@ TEST_CASE(
   Labels labels;
   std::vector<std::uint8_t> top;
   for (const Vec3f& x : surface.mesh.positions) {
-    labels.push_back(unstretched(Vec2f(10 + x.x(), 50 - x.y()), Complexf(1.0f)));
+    labels.push_back(unstretched(Vec2f(10 + x.x(), 50 - x.y()), {}));
     top.push_back(x.z() > 1.9f && x.x() > 2 && x.x() < 38 && x.y() > 2 && x.y() < 38);
   }
   const Labels before = labels;

@@ -21,10 +21,10 @@ TEST_CASE("labels: stretch is the worse of the singular values") {
   CHECK(stretch(turned(1.5f, 1)) == Approx(1.5f));
   CHECK(stretch(turned(0.5f, 1.5f)) == Approx(2.0f));
   CHECK(stretch(turned(3, 0.5f)) == Approx(3.0f));
-  CHECK(stretch(turned(1, -1)) > 100.0f);  // mirrored
+  CHECK(stretch(turned(1, -1)) == Approx(1.0f));  // mirrored
   CHECK(stretch(turned(1, 0)) > 100.0f);
   CHECK(stretch(Label{{0, 0}, {NAN, 0, 0, 1}}) > 100.0f);
-  CHECK(stretch(unstretched({3, 4}, Complexf(c, s))) == Approx(1.0f));
+  CHECK(stretch(unstretched({3, 4}, {Complexf(c, s)})) == Approx(1.0f));
 }
 
 TEST_CASE("labels: gradients in space and back") {
@@ -51,7 +51,7 @@ TEST_CASE("labels: the gradient says which texel lies one pixel further") {
   const OrientedMesh surface = flatBox(12);
   const std::uint32_t v = nearestVertex(surface.mesh, Vec3f(6, 6, 2));
   const Vec3f d = surface.mesh.orientation[v], n = surface.mesh.normals[v];
-  const TexelGradient gradient = gradientOf(unstretched({20, 20}, Complexf(1.0f)), d, n, 1.0);
+  const TexelGradient gradient = gradientOf(unstretched({20, 20}, {}), d, n, 1.0);
   // Columns run along d, rows along d x n.
   CHECK((gradient.s - d).length() < 1e-6f);
   CHECK((gradient.t - d.cross(n)).length() < 1e-6f);

@@ -88,7 +88,7 @@ TEST_CASE("look ahead: labels there and back, and the texel a label puts beside 
     const Complexf x = inAxes(surface.mesh, v, Vec3f(1, 0, 0));
     if (std::norm(x) > 0.5f) ahead[v] = {0.0f, 0.3f * x * x};
   }
-  const Labels labels(count, unstretched({10, 10}, std::polar(1.0f, 0.4f)));
+  const Labels labels(count, unstretched({10, 10}, {std::polar(1.0f, 0.4f)}));
   const Labels there = strained(labels, ahead), back = unstrained(there, ahead);
   const Connection connection = strained(surface.view(), ahead);
   const std::uint32_t v = nearestVertex(surface.mesh, Vec3f(10, 10, 2));

@@ -28,7 +28,7 @@ struct Source {
 Labels laidDown(const OrientedMesh& surface, const Vec2f& corner) {
   Labels labels;
   for (const Vec3f& x : surface.mesh.positions)
-    labels.push_back(unstretched(corner + Vec2f(x.x(), -x.y()), Complexf(1.0f)));
+    labels.push_back(unstretched(corner + Vec2f(x.x(), -x.y()), {}));
   return labels;
 }
 

@@ -224,8 +224,7 @@ TEST_CASE("renewal: whatever is proposed, the summed badness does not rise") {
                           Vec2f(3 * random(key + 3), 3 * random(key + 4));
       for (std::uint32_t v = 0; v < count; ++v) {
         const Vec3f way = surface.mesh.positions[v] - center;
-        if (way.length() < radius)
-          proposed[v] = unstretched(start + Vec2f(way.x(), -way.y()), Complexf(1.0f));
+        if (way.length() < radius) proposed[v] = unstretched(start + Vec2f(way.x(), -way.y()), {});
       }
     }
     std::vector<float> trust(count);

@@ -16,7 +16,7 @@ const Float8 kAllChannels{1, 1, 1, 1, 1, 1, 1, 1};
 // The picture texel = corner + (x, -y) on the upper side of a flat box.
 Label pictureAt(const OrientedMesh& surface, const Vec2f& corner, std::uint32_t v) {
   const Vec3f& x = surface.mesh.positions[v];
-  return unstretched(corner + Vec2f(x.x(), -x.y()), Complexf(1.0f));
+  return unstretched(corner + Vec2f(x.x(), -x.y()), {});
 }
 
 double wholeCost(const SeamModel& model, const Labels& labels) {

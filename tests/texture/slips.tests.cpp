@@ -24,8 +24,8 @@ bool inside(const Vec3f& x) {
 Labels slipped(const OrientedMesh& surface, const Vec2f& slip) {
   Labels labels;
   for (const Vec3f& x : surface.mesh.positions)
-    labels.push_back(unstretched(Vec2f(40, 60) + Vec2f(x.x(), -x.y()) + (x.x() > 16 ? slip : Vec2f(0, 0)),
-                                 Complexf(1.0f)));
+    labels.push_back(
+        unstretched(Vec2f(40, 60) + Vec2f(x.x(), -x.y()) + (x.x() > 16 ? slip : Vec2f(0, 0)), {}));
   return labels;
 }
 
@@ -43,7 +43,7 @@ Found judged(const OrientedMesh& surface, const TexelImage& image, const Labels&
     found.stretch = std::max(found.stretch, stretch(labels[v]));
     found.moved = std::max(found.moved, texelDifference(image, labels[v].texel, before[v].texel).length());
     for (std::uint32_t h = surface.graph.first[v]; h < surface.graph.first[v + 1]; ++h) {
-      const Label straight = unstretched(labels[v].texel, Complexf(1.0f));
+      const Label straight = unstretched(labels[v].texel, {});
       const Label& other = labels[surface.graph.neighbor[h]];
       if (!inside(surface.mesh.positions[surface.graph.neighbor[h]])) continue;
       found.edge = std::max(
@@ -141,7 +141,7 @@ TEST_CASE("slips: whatever the vertices' axes, across the exemplar's edges, on a
     const Vec3f &x = surface.mesh.positions[v], &d = surface.mesh.orientation[v];
     const Vec2f slip = x.x() > 16 ? Vec2f(0.4f, 0.3f) : Vec2f(0, 0);
     before.push_back(
-        unstretched(image.brought(corner + Vec2f(x.x(), -x.y()) + slip), Complexf(d.x(), -d.y())));
+        unstretched(image.brought(corner + Vec2f(x.x(), -x.y()) + slip), {Complexf(d.x(), -d.y())}));
   }
   Labels result[2] = {before, before};
   for (int i = 0; i < 2; ++i) {
