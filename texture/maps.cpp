@@ -56,7 +56,7 @@ void lookUp(const std::string& name, const ExemplarMap& map, bool toroidal, Text
 void lookUpColor(const Image& color, bool toroidal, TexturedSurface& surface) {
   const TexelToImage toColor(surface, color);
   if (color.channels != 4) throw std::invalid_argument("lookUpColor: colours must be RGBA");
-  const Image around = meansAround(color, toroidal);
+  const Image around = lightnessAround(color, toroidal);
   surface.color.resize(surface.positions.size());
   forEachIndex(surface.color.size(), [&](std::uint32_t v) {
     const float weight = leftOf(surface.fading, v);

@@ -1,6 +1,7 @@
 #include "texture/shown_color.h"
 
 #include "texture/channels.h"
+#include "texture/parallel.h"
 #include "texture/srgb.h"
 
 #include <algorithm>
@@ -11,27 +12,35 @@ namespace fluidtex::texture {
 namespace {
 
 constexpr int kHalvings = 3;
-// Differences of luminance, squared, below which two places count as equally bright.
+// Differences of lightness, squared, below which two places count as equally bright.
 constexpr float kSame = 1e-3f;
 
-// What is shown at a place, and the mean around it; premultiplied.
+// How bright the eye finds a premultiplied colour.
+float lightness(const float* rgb) {
+  return encodeSrgb(luminance(rgb));
+}
+
+// What is shown at a place, premultiplied, and the mean lightness around it.
 struct Reading {
-  Vec4f color, mean;
+  Vec4f color;
+  float mean = 0.0f;
 };
 
 Reading readAt(const Image& colors, const Image& around, bool toroidal, const Vec2f& texel) {
   constexpr float kScale = 1.0f / float(1 << kHalvings), kShift = 0.5f * float((1 << kHalvings) - 1);
-  Reading result{samplePremultiplied(colors, toroidal, texel), Vec4f(0.0f)};
-  sampleBilinear(around, toroidal, (texel - Vec2f(kShift, kShift)) * kScale, result.mean.asPointer());
+  Reading result{samplePremultiplied(colors, toroidal, texel)};
+  sampleBilinear(around, toroidal, (texel - Vec2f(kShift, kShift)) * kScale, &result.mean);
   return result;
 }
 
 }  // namespace
 
-Image meansAround(const Image& color, bool toroidal) {
-  Image result = color;
-  for (std::size_t i = 0; i < result.data.size(); i += 4)
-    for (std::size_t k = 0; k < 3; ++k) result.data[i + k] *= result.data[i + 3];
+Image lightnessAround(const Image& color, bool toroidal) {
+  Image result{color.width, color.height, 1, std::vector<float>(color.data.size() / 4)};
+  forEachIndex(result.data.size(), [&](std::uint32_t i) {
+    const float* rgba = color.data.data() + 4 * std::size_t(i);
+    result.data[i] = lightness((Vec3f(rgba) * rgba[3]).asPointer());
+  });
   for (int i = 0; i < kHalvings; ++i) result = halve(result, toroidal);
   return result;
 }
@@ -42,15 +51,15 @@ Vec4f shownColor(const Image& colors, const Image& around, bool toroidal, const 
   const Reading now = readAt(colors, around, toroidal, present),
                 old = readAt(colors, around, toroidal, former);
   const float angle = 0.5f * std::numbers::pi_v<float> * weight, a = std::cos(angle), b = std::sin(angle);
-  const float mean = luminance(now.mean.asPointer()) +
-                     weight * (luminance(old.mean.asPointer()) - luminance(now.mean.asPointer()));
-  const float one = luminance(now.color.asPointer()), other = luminance(old.color.asPointer());
-  const float wanted = std::clamp(
-      mean + a * (one - luminance(now.mean.asPointer())) + b * (other - luminance(old.mean.asPointer())),
-      std::min(one, other), std::max(one, other));
+  const float one = lightness(now.color.asPointer()), other = lightness(old.color.asPointer());
+  const float wanted =
+      std::clamp(now.mean + weight * (old.mean - now.mean) + a * (one - now.mean) + b * (other - old.mean),
+                 std::min(one, other), std::max(one, other));
   // The colour on the way from one to the other that is as bright; where both are, the way's own share.
-  const float way = one - other;
-  const float share = ((wanted - other) * way + kSame * (1.0f - weight)) / (way * way + kSame);
+  const float from = decodeSrgb(other), way = decodeSrgb(one) - from;
+  const float along = way != 0.0f ? (decodeSrgb(wanted) - from) / way : 0.0f;
+  const float differ = (one - other) * (one - other);
+  const float share = (along * differ + kSame * (1.0f - weight)) / (differ + kSame);
   return straight(old.color + (now.color - old.color) * share);
 }
 

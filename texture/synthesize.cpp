@@ -89,7 +89,7 @@ Fading fadingAfter(const Carried& carried, const LaterFrame& later, double secon
 Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options, CacheFolder cache) {
   Synthesizer synthesizer{
       std::move(exemplar), options, std::make_shared<SearchTables>(), std::move(cache), {}};
-  synthesizer.around = meansAround(synthesizer.exemplar.color, synthesizer.exemplar.toroidal);
+  synthesizer.around = lightnessAround(synthesizer.exemplar.color, synthesizer.exemplar.toroidal);
   const int colors = synthesizer.exemplar.colorChannels;
   // Carried colours have no feature channels: the paper's method matches by colour alone, and guidance.
   if (options.method == Method::kwatra07) {

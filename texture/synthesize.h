@@ -18,7 +18,7 @@ struct Synthesizer {
   SynthesisOptions options;
   std::shared_ptr<SearchTables> tables;
   CacheFolder cache;  // in which search tables are kept from run to run (texture/table_cache.h)
-  Image around;  // meansAround(exemplar)
+  Image around;  // lightnessAround(exemplar)
 };
 
 // Throws std::invalid_argument if no window fits the exemplar, or options.windows is empty. cache: empty for

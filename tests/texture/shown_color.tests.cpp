@@ -52,7 +52,7 @@ TEST_CASE("cubic: passes through texels, exact for a linear image, never beyond 
 }
 
 TEST_CASE("shown color: half-way between two places there is as much contrast as at either") {
-  const Image color = noise(128), around = meansAround(color, true);
+  const Image color = noise(128), around = lightnessAround(color, true);
   const auto contrast = [&](float weight) {
     double sum = 0.0, squares = 0.0;
     const int count = 4000;
@@ -74,7 +74,7 @@ TEST_CASE("shown color: half-way between two places there is as much contrast as
 }
 
 TEST_CASE("shown color: the ends are the places themselves, and the same place stays as it is") {
-  const Image color = noise(32), around = meansAround(color, false);
+  const Image color = noise(32), around = lightnessAround(color, false);
   const Vec2f a(7.25f, 11.5f), b(20.0f, 3.75f);
   float expected[4];
   sampleCubic(color, false, a, expected);
@@ -91,7 +91,7 @@ TEST_CASE("shown color: what colour a transparent texel has is never seen, still
     if (!hole) continue;
     for (std::size_t c = 0; c < 3; ++c) cut.data[i + c] = 0.0f, other.data[i + c] = float(c) * 7.0f;
   }
-  const Image aroundCut = meansAround(cut, true), aroundOther = meansAround(other, true);
+  const Image aroundCut = lightnessAround(cut, true), aroundOther = lightnessAround(other, true);
   double seenThrough = 0.0;
   for (std::uint64_t i = 0; i < 500; ++i) {
     const Vec2f a(64.0f * float(randomUnit(1, i)), 64.0f * float(randomUnit(2, i)));
