@@ -126,6 +126,9 @@ void checkKnownFlow(const Scene& scene, Reader& reader) {
     if (reader.given(key))
       reader.fault(key, "is of no use with a flow in closed form, which knows of no other bodies",
                    "leave it out, or give motion.flow = \"solver\"");
+  if (scene.sim.heat.simulated)
+    reader.fault("heat.simulate", "is of no use with a flow in closed form, which knows no temperature",
+                 "leave it out, or give motion.flow = \"solver\"");
   for (std::size_t i = 0; i < scene.sim.liquid.size(); ++i) {
     const std::string path = "liquid." + std::to_string(i) + ".from";
     if (reader.clean(path) && scene.sim.liquid[i].from > 0.0)

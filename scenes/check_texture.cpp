@@ -68,7 +68,7 @@ void checkGuidance(const Scene& scene, Reader& reader) {
   if (!reader.clean(by) || guidance.by == texture::GuidanceBy::none) return;
   if (guidance.points.empty())
     reader.fault(by, "is of no use without a level",
-                 "give two [[texture.guidance.point]] or more, each with a value and a level");
+                 "give one [[texture.guidance.point]] or more, each with a value and a level");
   if (guidance.by == texture::GuidanceBy::temperature && !scene.sim.heat.simulated)
     reader.fault(by, "\"temperature\" is not computed", "give simulate = true in [heat] too");
   const std::string full = path + ".foam.full";
@@ -106,7 +106,8 @@ void checkMaps(const Scene& scene, Reader& reader) {
       reader.fault(key, "\"" + name + "\" cannot be the name of a vertex's property",
                    "give letters, digits and _, a letter first");
     else if (texture::isReservedName(name))
-      reader.fault(key, "\"" + name + "\" is what every vertex has anyway", "give another name");
+      reader.fault(key, "\"" + name + "\" is the name of a property that vertices have anyway",
+                   "give another name");
     else
       checkMapName(map, names, reader, key);
   }

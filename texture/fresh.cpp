@@ -66,12 +66,13 @@ std::vector<std::uint8_t> droplets(const VertexGraph& graph, int window) {
   return small;
 }
 
-void calmDroplets(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& droplets, Carried& carried) {
+void calmDroplets(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& droplets, const Ways& ways,
+                  Carried& carried) {
   if (carried.empty()) return;
   forEachIndex(droplets.size(), [&](std::uint32_t v) {
     if (!droplets[v]) return;
     const Label drawnOut = labelOf(mesh, v, carried.coordinate[v], carried.gradient[v]);
-    carried.gradient[v] = gradientOf(unstretched(drawnOut.texel, layOf(drawnOut)), mesh.orientation[v],
+    carried.gradient[v] = gradientOf(unstretched(drawnOut.texel, layOf(drawnOut, ways)), mesh.orientation[v],
                                      mesh.normals[v], mesh.spacingAt(v));
   });
 }

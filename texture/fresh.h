@@ -1,6 +1,7 @@
 // Where a new surface has no texture yet that could be believed, and where it is too small to need any.
 #pragma once
 
+#include "texture/options.h"
 #include "texture/surface.h"
 #include "texture/tangent.h"
 
@@ -28,8 +29,10 @@ std::vector<std::uint8_t> droplets(const VertexGraph& graph, int window);
 
 // Texture on droplets is never renewed, so that the flow would deform it without an end, and within some
 // frames no coordinate beside a vertex could be foretold from the vertex's own. There each keeps its
-// coordinate, with a gradient that lies unstretched, turned as the carried one is. `mesh` must be oriented.
-void calmDroplets(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& droplets, Carried& carried);
+// coordinate, with a gradient that lies unstretched, turned and, where `ways` allow it, mirrored as the
+// carried one is. `mesh` must be oriented.
+void calmDroplets(const SurfaceMesh& mesh, const std::vector<std::uint8_t>& droplets, const Ways& ways,
+                  Carried& carried);
 
 // Whether any entry is set.
 bool any(const std::vector<std::uint8_t>& mask);

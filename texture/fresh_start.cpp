@@ -77,6 +77,7 @@ void startAfresh(const MeshView& view, const TexelImage& image, const std::vecto
     }
     std::stable_sort(places.begin(), places.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
+    chosen[p] = places.front().second;
     float least = std::numeric_limits<float>::infinity();
     for (int i = 0; i < kCompared; ++i) {
       const float d = unsuitability(view, image, blocks, p, places[std::size_t(i)].second, value);

@@ -12,8 +12,9 @@ namespace fluidtex::texture {
 
 // Lays one block of the exemplar over the members of each disc: of many random places those are looked at
 // that the surface uses least, and of these the one is taken that fits guidance and correlates most with
-// `value`, the picture that is there. Blocks are as large as discs of `radius` (DiscOptions), and go on over
-// members beyond. All other labels stay.
+// `value`, the picture that is there. Blocks are as large as discs of `radius` (DiscOptions), and lie
+// in any of the exemplar's ways; members beyond take what the nearest block goes on with. All other labels
+// stay.
 void startAfresh(const MeshView& view, const TexelImage& image, const std::vector<Disc>& discs, double radius,
                  const Values& value, std::uint64_t seed, Labels& labels);
 

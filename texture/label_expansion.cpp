@@ -45,8 +45,8 @@ struct Proposal {
 };
 
 // One vertex's label as the disc's centre sees it: the centre lies at -l in the vertex's surroundings.
-Proposal broughtToCenter(const Label& label, const Vec2f& l, const Complexf& turn) {
-  const Label used = stretch(label) > kMostStretch ? unstretched(label.texel, layOf(label)) : label;
+Proposal broughtToCenter(const Label& label, const Ways& ways, const Vec2f& l, const Complexf& turn) {
+  const Label used = stretch(label) > kMostStretch ? unstretched(label.texel, layOf(label, ways)) : label;
   const Complexf back = std::conj(turn);  // from the centre's axes to the vertex's
   const std::array<float, 4>& j = used.jacobian;
   const float c = back.real(), s = back.imag();
@@ -182,8 +182,8 @@ class Expansion {
   std::size_t propose(std::uint32_t p, std::array<Proposal, kProposals>& proposals) const {
     std::size_t count = 0;
     const auto offer = [&](std::uint32_t entry) {
-      const Proposal proposal =
-          broughtToCenter(m_labels[m_discs.vertex[entry]], m_discs.offset[entry], m_discs.turn[entry]);
+      const Proposal proposal = broughtToCenter(m_labels[m_discs.vertex[entry]], m_model.image.ways,
+                                                m_discs.offset[entry], m_discs.turn[entry]);
       for (std::size_t i = 0; i < count; ++i)
         if (texelDifference(m_model.image, proposals[i].label.texel, proposal.label.texel).length() <
             kCoherent)

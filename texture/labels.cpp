@@ -21,13 +21,14 @@ constexpr std::uint64_t kWayOfBlock = 1ull << 40;  // keys of their own
 
 }  // namespace
 
-Lay layOf(const Label& label) {
+Lay layOf(const Label& label, const Ways& ways) {
   const std::array<float, 4>& j = label.jacobian;
   // The parts that do and do not commute with rotations: the nearest rotation, and the nearest mirror image.
   const Complexf keep(j[0] + j[3], j[2] - j[1]), flip(j[3] - j[0], -j[1] - j[2]);
-  const float kept = std::abs(keep), flipped = std::abs(flip), size = std::max(kept, flipped);
-  if (!(size > 1e-6f)) return {};
-  return kept >= flipped ? Lay{keep / size, false} : Lay{flip / size, true};
+  const bool mirrored = ways.mirrored && isMirrored(label);
+  const Complexf& part = mirrored ? flip : keep;
+  const float size = std::abs(part);
+  return size > 1e-6f ? Lay{part / size, mirrored} : Lay{};
 }
 
 Label unstretched(const Vec2f& texel, const Lay& lay) {
@@ -124,7 +125,7 @@ Labels blockLabels(const MeshView& view, const TexelImage& image, float size, st
       if (part[u] != part[v] || ring[u] >= ring[v]) continue;
       const Complexf& rotation = view.connection.rotation[h];
       texel += labels[u].at(-conjugateProduct(rotation, view.connection.edge[h]));
-      const Lay lay = seenFrom(layOf(labels[u]), std::conj(rotation));
+      const Lay lay = seenFrom(layOf(labels[u], image.ways), std::conj(rotation));
       turn += lay.turn;
       mirrored = lay.mirrored;
       ++found;
@@ -188,8 +189,10 @@ void handOn(const TexelImage& image, const MeshView& view, const std::vector<std
             std::vector<std::uint8_t> placed, Labels& labels, HandOn how) {
   std::vector<std::uint32_t> front, next;
   std::vector<std::uint8_t> reached = placed;
-  const auto mayTake = [&](const Label& label, const Complexf& edge, const Complexf& rotation) {
-    return how == HandOn::everywhere || liesOn(image, label.at(-conjugateProduct(rotation, edge)));
+  const auto mayTake = [&](std::uint32_t h) {
+    const Label& label = labels[view.graph.neighbor[h]];
+    return how == HandOn::everywhere ||
+           liesOn(image, label.at(-conjugateProduct(view.connection.rotation[h], view.connection.edge[h])));
   };
   for (std::uint32_t v = 0; v < placed.size(); ++v)
     if (placed[v]) front.push_back(v);
@@ -207,12 +210,14 @@ void handOn(const TexelImage& image, const MeshView& view, const std::vector<std
       std::uint32_t from = 0;
       for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
         const float distance = std::norm(view.connection.edge[h]);
-        if (placed[view.graph.neighbor[h]] && distance < nearest) nearest = distance, from = h;
+        if (placed[view.graph.neighbor[h]] && distance < nearest && mayTake(h)) nearest = distance, from = h;
       }
-      const Label& label = labels[view.graph.neighbor[from]];
-      const Complexf &edge = view.connection.edge[from], &rotation = view.connection.rotation[from];
-      if (!mayTake(label, edge, rotation)) continue;
-      labels[v] = continued(image, label, edge, rotation);
+      if (nearest == std::numeric_limits<float>::infinity()) {
+        reached[v] = 0;  // later, perhaps, from another side
+        continue;
+      }
+      labels[v] = continued(image, labels[view.graph.neighbor[from]], view.connection.edge[from],
+                            view.connection.rotation[from]);
       front.push_back(v);
     }
     for (const std::uint32_t v : front) placed[v] = 1;

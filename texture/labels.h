@@ -39,8 +39,13 @@ inline Lay seenFrom(const Lay& lay, const Complexf& rotation) {
   return {lay.mirrored ? conjugateProduct(rotation, lay.turn) : product(lay.turn, rotation), lay.mirrored};
 }
 
-// The unstretched one nearest to a label; upright where none is.
-Lay layOf(const Label& label);
+// Of those that an exemplar may have, the unstretched one nearest to a label; upright where none is.
+Lay layOf(const Label& label, const Ways& ways);
+
+// Whether a label shows its mirror image.
+inline bool isMirrored(const Label& label) {
+  return label.jacobian[0] * label.jacobian[3] < label.jacobian[1] * label.jacobian[2];
+}
 
 Label unstretched(const Vec2f& texel, const Lay& lay);
 

@@ -120,12 +120,12 @@ Labels layAnew(Synthesizer& synthesizer, const Surface& surface, const SeamModel
 }
 
 std::vector<Disc> discsOf(const Synthesizer& synthesizer, const SeamModel& seams, const Labels& labels,
-                          const Wear& wear, const Carried& carried, const std::vector<Strain>& rates,
-                          double seconds) {
+                          const Wear& wear, const std::vector<std::uint8_t>& free,
+                          const std::vector<Strain>& rates, double seconds) {
   const SynthesisOptions& options = synthesizer.options;
   const double budget = options.renewalRate * seconds;
   const double worn = kDiscsOfAll * wornShare(rates, seconds, options.keepStretch);
-  return worstDiscs(seams, labels, wear, carried.trust, carried.fading.weight,
+  return worstDiscs(seams, labels, wear, free,
                     {options.keepStretch, options.renewalRadius, budget, std::max(budget, worn)},
                     options.seed);
 }
@@ -172,11 +172,11 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   const SeamModel seams = seamModel(synthesizer, view, 0);
   const Labels before = strained(labels, ahead);
 
-  const std::vector<Disc> discs = discsOf(synthesizer, seams, labels, wear, carried, rates, secondsSinceLast);
+  const std::vector<std::uint8_t> free = renewable(synthesizer, view.graph, carried);
+  const std::vector<Disc> discs = discsOf(synthesizer, seams, labels, wear, free, rates, secondsSinceLast);
   std::vector<std::uint8_t> inDiscs(count, 0);
   for (const Disc& disc : discs)
     for (const std::uint32_t v : disc.members) inDiscs[v] = 1;
-  const std::vector<std::uint8_t> free = renewable(synthesizer, view.graph, carried);
   const std::vector<std::uint8_t> lost = lostLabels(seams, before, carried.trust);
   const std::vector<std::uint8_t> wanted = freeWhereEither(free, inDiscs, lost);
   if (!any(wanted)) return result;

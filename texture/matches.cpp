@@ -255,7 +255,7 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
             const std::uint64_t own = randomBits(key, kBatches + p);
             const auto random = [&](std::uint64_t i) { return float(randomUnit(own, i)); };
             offer(Vec2f(random(0) * float(image.width), random(1) * float(image.height)),
-                  wayAt(ways, int(random(4) * float(wayCount))));
+                  wayAt(ways, int(randomBelow(own, 4, std::uint64_t(wayCount)))));
             const float near = 0.25f * float(n.window);
             offer(nearest.center + Vec2f((2.0f * random(2) - 1.0f) * near, (2.0f * random(3) - 1.0f) * near),
                   nearest.way);

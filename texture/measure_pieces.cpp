@@ -1,3 +1,4 @@
+#include "texture/chips.h"
 #include "texture/measure.h"
 #include "texture/measure_gradient.h"
 #include "texture/measure_tiles.h"
@@ -8,8 +9,6 @@
 
 namespace fluidtex::texture {
 namespace {
-
-constexpr std::size_t kChip = 25;  // vertices
 
 double squaredDifference(const float* a, const float* b) {
   double sum = 0.0;

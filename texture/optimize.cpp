@@ -175,7 +175,7 @@ EnergyTrace optimize(const Level& level, const Pass& pass, const SynthesisOption
     for (std::size_t p = 0; p < windows.match.size(); ++p) {
       const Label& label = state.labels[windows.neighborhoods.center[p]];
       windows.match[p] = level.image.centerFor(label.texel, reach);
-      windows.way[p] = nearestWay(windows.ways, layOf(label));
+      windows.way[p] = nearestWay(windows.ways, layOf(label, windows.ways));
     }
     measureMatches(level.image, state.value, windows);
   } else {

@@ -32,8 +32,8 @@ constexpr float kEarliest = 0.5f;
 constexpr float kFadesWithin = 1.8f;
 
 bool lost(const TexelImage& image, const Label& label, float trust) {
-  if (!believed(trust)) return true;
-  return !liesOn(image, label.texel);
+  if (!believed(trust) || !liesOn(image, label.texel)) return true;
+  return isMirrored(label) && !image.ways.mirrored;
 }
 
 float stretchBadness(const TexelImage& image, const Label& label, float trust) {
@@ -151,15 +151,15 @@ float fadingSpeed(float strainRate, double keepStretch, double fade) {
 }
 
 std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,
-                             const std::vector<float>& trust, const std::vector<float>& fading,
-                             const DiscOptions& options, std::uint64_t seed) {
+                             const std::vector<std::uint8_t>& free, const DiscOptions& options,
+                             std::uint64_t seed) {
   const std::size_t count = labels.size();
   const std::vector<float>& bad = wear.bad;
-  const auto young = [&](std::uint32_t v) { return fading[v] > 0.0f && believed(trust[v]); };
+  const auto stays = [&](std::uint32_t v) { return free[v] == 0; };
   const auto kept = float(std::log(options.keepStretch));
   const auto urgent = [&](std::uint32_t v) { return wear.stretch[v] >= kUrgent * kept; };
   std::vector<std::uint32_t> candidates = gathered<std::uint32_t>(count, [&](std::uint32_t v, auto& list) {
-    if (!young(v) && bad[v] > kept * (kEarliest + (1.0f - kEarliest) * noiseAt(labels[v].texel, seed)))
+    if (free[v] && bad[v] > kept * (kEarliest + (1.0f - kEarliest) * noiseAt(labels[v].texel, seed)))
       list.push_back(v);
   });
   std::sort(candidates.begin(), candidates.end(),
@@ -175,20 +175,20 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
     if (covered + 1.0 > budget * double(count)) continue;
     if (near[center]) continue;
     Disc disc{center, surroundings.within(center, kDiscShare * options.radius)};
-    const auto fresh = std::count_if(disc.members.begin(), disc.members.end(), young);
-    if (float(fresh) > kMostYoung * float(disc.members.size())) {
+    const auto staying = std::count_if(disc.members.begin(), disc.members.end(), stays);
+    if (float(staying) > kMostYoung * float(disc.members.size())) {
       for (const std::uint32_t v : surroundings.within(center, double(kTooYoung) * options.radius))
         near[v] = 1;
       continue;
     }
-    std::erase_if(disc.members, young);
+    std::erase_if(disc.members, stays);
     covered += double(disc.members.size());
     for (const std::uint32_t v : surroundings.within(center, kDiscsApart * options.radius)) near[v] = 1;
     discs.push_back(std::move(disc));
   }
   const auto reach = int(std::ceil((kDiscsApart - kDiscShare) * options.radius));
   fillBetween(
-      model.view.graph, reach, [&](std::uint32_t v) { return urgent(v) && !young(v); }, discs);
+      model.view.graph, reach, [&](std::uint32_t v) { return urgent(v) && free[v]; }, discs);
   return discs;
 }
 

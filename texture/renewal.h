@@ -12,8 +12,7 @@
 namespace fluidtex::texture {
 
 // How bad each vertex's label is: log stretch() + kSeamWeight * seamCostAround() + guidanceCost(). A label
-// beyond the edge of an exemplar that does not wrap, or whose `trust` is low, counts as stretched
-// kLostStretch times.
+// that is lost (lostLabels) counts as stretched kLostStretch times.
 std::vector<float> badness(const SeamModel& model, const Labels& labels, const std::vector<float>& trust);
 
 // Whether a carried label means anything: where trust is low, nothing was there before.
@@ -55,20 +54,20 @@ double wornShare(const std::vector<Strain>& rates, double seconds, double keepSt
 
 // Discs around the worst places, worst first, until the budget is used: where wear is worse than that of
 // texture stretched by keepStretch. The threshold varies from half of that (log), smoothly over the exemplar,
-// so that neighbours do not renew at once. What still takes the place of older texture (`fading`, its weight)
-// is no member, and discs that hold much of it are left for later. What is urgent and lies
-// between discs, within as much again as they reach, joins the nearest whatever the budget.
+// so that neighbours do not renew at once. What is not `free` (#V: what still fades, and droplets) is no
+// member, and discs that hold much of it are left for later. What is urgent and lies between discs, within as
+// much again as they reach, joins the nearest whatever the budget.
 std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,
-                             const std::vector<float>& trust, const std::vector<float>& fading,
-                             const DiscOptions& options, std::uint64_t seed);
+                             const std::vector<std::uint8_t>& free, const DiscOptions& options,
+                             std::uint64_t seed);
 
 // 1/s, how fast the old texture gives way where it is renewed: in `fade` seconds, or in the time in which
 // texture is stretched 1.8 times (log) what keepStretch says, if that is shorter. strainRate: 1/s,
 // logarithmic.
 float fadingSpeed(float strainRate, double keepStretch, double fade);
 
-// 1 where labels must be renewed whatever else is: beyond the edge of an exemplar that does not wrap, or
-// hardly trusted.
+// 1 where labels must be renewed whatever else is: hardly trusted, beyond the edge of an exemplar that does
+// not wrap, or folded to mirror images that the exemplar must not show.
 std::vector<std::uint8_t> lostLabels(const SeamModel& model, const Labels& labels,
                                      const std::vector<float>& trust);
 

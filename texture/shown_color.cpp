@@ -45,11 +45,10 @@ Image lightnessAround(const Image& color, bool toroidal) {
   return result;
 }
 
-Vec4f shownColor(const Image& colors, const Image& around, bool toroidal, const Vec2f& present,
+Vec4f shownColor(const Image& color, const Image& around, bool toroidal, const Vec2f& present,
                  const Vec2f& former, float weight) {
-  if (weight == 0.0f) return straight(samplePremultiplied(colors, toroidal, present));
-  const Reading now = readAt(colors, around, toroidal, present),
-                old = readAt(colors, around, toroidal, former);
+  if (weight == 0.0f) return straight(samplePremultiplied(color, toroidal, present));
+  const Reading now = readAt(color, around, toroidal, present), old = readAt(color, around, toroidal, former);
   const float angle = 0.5f * std::numbers::pi_v<float> * weight, a = std::cos(angle), b = std::sin(angle);
   const float one = lightness(now.color.asPointer()), other = lightness(old.color.asPointer());
   const float wanted =

@@ -4,6 +4,7 @@
 #include "texture/labels.h"
 #include "texture/options.h"
 
+#include <cassert>
 #include <cstdint>
 
 namespace fluidtex::texture {
@@ -40,6 +41,7 @@ inline int countOf(const Ways& ways) {
 
 // The i-th of them; the first is upright.
 inline Way wayAt(const Ways& ways, int i) {
+  assert(i >= 0 && i < countOf(ways));
   const Way turned = Way(i % ways.turns * (4 / ways.turns));
   return i < ways.turns ? turned : turned | kMirrored;
 }

@@ -188,7 +188,7 @@ class FrameLoop {
       result.singularities = texture::singularities(surface.levels[0], symmetry);
       texture::calmDroplets(surface.levels[0],
                             texture::droplets(graph, *std::min_element(windows.begin(), windows.end())),
-                            carried);
+                            m_scene.texture.synthesis.ways, carried);
       guide(m_guidance, motion, carried, 1.0 / m_scene.sim.frameRate, surface);
     }
     {

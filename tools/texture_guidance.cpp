@@ -60,9 +60,8 @@ std::vector<float> levelsOn(const TextureGuidance& guidance, const sim::Frame& f
     case GuidanceBy::curvature:
       return along(texture::meanCurvature(mesh));
     case GuidanceBy::age:
+    case GuidanceBy::renewal:  // which of them age is, tools/textured decides
       return along(ages(carried, mesh.positions.size()));
-    case GuidanceBy::renewal:
-      return along(carried.age.empty() ? std::vector<float>(mesh.positions.size(), 0.0f) : carried.age);
     case GuidanceBy::foam:
       mesh.foam = transport::foamAfter(mesh.positions, frame, carried, seconds, guidance.options.foam);
       return along(mesh.foam);

@@ -24,6 +24,7 @@ texture::TexturedSurface textured(const scenes::Scene& scene, texture::Synthesiz
                                   const std::function<void(double)>& progress) {
   const double seconds = 1.0 / scene.sim.frameRate;
   const LaterFrames later = scene.texture.laterFrames;
+  const bool byAge = scene.texture.guidance.by == texture::GuidanceBy::age;
   if (scene.texture.synthesis.method == Method::none) {
     stats = {};
     stats.renewed = 0.0;
@@ -42,11 +43,12 @@ texture::TexturedSurface textured(const scenes::Scene& scene, texture::Synthesiz
         texture::synthesize(synthesizer, std::move(surface), {}, frame, seconds, stats, progress);
     result.trust = carried.trust;
     result.previousPosition = carried.previousPosition;
+    if (byAge) keepAge(carried, seconds, result);
     return result;
   }
   texture::TexturedSurface result =
       texture::synthesize(synthesizer, std::move(surface), carried, frame, seconds, stats, progress);
-  if (scene.texture.guidance.by == texture::GuidanceBy::age) keepAge(carried, seconds, result);
+  if (byAge) keepAge(carried, seconds, result);
   return result;
 }
 

@@ -93,6 +93,23 @@ std::vector<Vec3f> gridOrientation(const Source& source, const sim::Frame& frame
   return directionsOnGrid(next.positions, frame, source.surface.positions, extended, turning);
 }
 
+// Above it no component is unknown altogether, and 0 for that.
+constexpr double kAllKnown = 0.7;
+
+// d(velocity) / d(axis) by differences over `h` to both sides, or to the one where velocity is known.
+Vec3d slopeAt(VelocitySampler& sampler, const Vec3d& x, int axis, double h) {
+  Vec3d step(0.0);
+  step[axis] = h;
+  const auto known = [](const VelocitySample& sample) { return sample.known > kAllKnown; };
+  VelocitySample ahead = sampler.velocity(x + step), behind = sampler.velocity(x - step);
+  double width = 2.0 * h;
+  if (known(ahead) != known(behind)) {
+    (known(ahead) ? behind : ahead) = sampler.velocity(x);
+    width = h;
+  }
+  return known(ahead) && known(behind) ? (ahead.velocity - behind.velocity) / width : Vec3d(0.0);
+}
+
 }  // namespace
 
 std::vector<Vec3f> moved(const std::vector<Vec3f>& positions, const sim::Frame& frame) {
@@ -117,15 +134,14 @@ std::array<std::vector<Vec3f>, 3> velocitySlopes(const std::vector<Vec3f>& posit
   std::array<std::vector<Vec3f>, 3> slope;
   slope.fill(std::vector<Vec3f>(positions.size(), Vec3f(0.0f)));
   if (frame.substeps.empty()) return slope;
-  const auto h = float(frame.substeps.back().u->voxelSize()[0]);
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<Vec3f> ahead = positions, behind = positions;
-    for (std::size_t v = 0; v < positions.size(); ++v) ahead[v][axis] += h, behind[v][axis] -= h;
-    const std::vector<Vec3f> to = velocityAt(ahead, frame), from = velocityAt(behind, frame);
-    texture::forEachIndex(positions.size(), [&](std::uint32_t v) {
-      slope[std::size_t(axis)][v] = (to[v] - from[v]) / (2.0f * h);
-    });
-  }
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), texture::kGrain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      VelocitySampler sampler(frame.substeps.back());
+                      const double h = sampler.voxelSize();
+                      for (std::size_t v = range.begin(); v != range.end(); ++v)
+                        for (std::size_t axis = 0; axis < 3; ++axis)
+                          slope[axis][v] = Vec3f(slopeAt(sampler, Vec3d(positions[v]), int(axis), h));
+                    });
   return slope;
 }
 

@@ -1,7 +1,7 @@
 #include "transport/foam.h"
 
-#include "texture/fresh.h"
 #include "texture/parallel.h"
+#include "texture/renewal.h"
 #include "transport/carry.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::vector<float> foamAfter(const std::vector<texture::Vec3f>& positions, const
     float size = 0.0f;
     for (const std::vector<texture::Vec3f>& along : slope) size += along[v].lengthSqr();
     foam[v] = smoothStep(float(options.from), float(options.full), std::sqrt(size));
-    if (!carried.foam.empty() && carried.trust[v] >= texture::kLowTrust)
+    if (!carried.foam.empty() && texture::believed(carried.trust[v]))
       foam[v] = std::max(foam[v], kept * carried.foam[v]);
   });
   return foam;

@@ -12,7 +12,7 @@ namespace fluidtex::transport {
 // How much of the surface is foam at each position, 0..1, at the end of a frame. Water that is sheared,
 // turned or squeezed fast takes air in: there is at least as much foam as the size of the velocity's gradient
 // (1/s, the root of the sum of its squares) asks for, smoothly from options.from to options.full. What
-// `carried` brings along fades by exp(-seconds / options.lifetime), and is believed as far as its trust goes.
+// `carried` brings along fades by exp(-seconds / options.lifetime), where it is believed (texture/renewal.h).
 // In the first frame, and where no velocity is known, nothing is added. carried: one entry per position, or
 // empty.
 std::vector<float> foamAfter(const std::vector<texture::Vec3f>& positions, const sim::Frame& frame,

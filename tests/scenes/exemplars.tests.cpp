@@ -142,12 +142,18 @@ TEST_CASE("cooling lava: the images that ship are the generator's, the higher th
   CHECK(glowing[3] > 0.7 * count[3]);
 }
 
-TEST_CASE("foam: the images that ship are the generator's, the higher the level, the more is white",
+TEST_CASE("foam: the images that ship are the generator's, toroidal, the higher the level, the more is white",
           "[scenes]") {
   const FoamyWater options;
   const FoamImages foam = makeFoam(options);
   CHECK((shipped("foam.png", options.size) == foam.pixels));
   CHECK((shipped("foam_guidance.png", options.size, 1) == foam.guidance));
+  for (const bool columns : {true, false}) {
+    double largest = 0.0;
+    for (int i = 0; i + 1 < options.size; ++i)
+      largest = std::max(largest, step(foam.pixels, options.size, i, i + 1, columns));
+    CHECK(step(foam.pixels, options.size, options.size - 1, 0, columns) <= largest);
+  }
   double white[4] = {}, count[4] = {};
   for (std::size_t i = 0; i < foam.guidance.size(); ++i) {
     const std::size_t stage = foam.guidance[i] / 64;

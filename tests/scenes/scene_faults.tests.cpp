@@ -102,7 +102,7 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
        "s.toml:6:10: error: texture.guidance.map: missing key; write for example map = "
        "\"exemplars/green_scales.png\""},
       {"[texture.guidance]\nby = 'height'\nmap = 'e.png'",
-       "s.toml:7:1: error: texture.guidance.by: is of no use without a level; give two "
+       "s.toml:7:1: error: texture.guidance.by: is of no use without a level; give one "
        "[[texture.guidance.point]] or more, each with a value and a level"},
       {"[texture.guidance]\nby = 'temperature'\nmap = 'e.png'\npoint = [{ value = 0, level = 1 }]",
        "s.toml:7:1: error: texture.guidance.by: \"temperature\" is not computed; give simulate = true in "
@@ -120,7 +120,8 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
        "s.toml:7:1: error: texture.map.0.name: \"a b\" cannot be the name of a vertex's property; give "
        "letters, digits and _, a letter first"},
       {"[[texture.map]]\nname = 'age'\nfile = 'e.png'",
-       "s.toml:7:1: error: texture.map.0.name: \"age\" is what every vertex has anyway; give another name"},
+       "s.toml:7:1: error: texture.map.0.name: \"age\" is the name of a property that vertices have anyway; "
+       "give another name"},
       {"[[texture.map]]\nname = 'a'\nfile = 'e.png'\n[[texture.map]]\nname = 'a'\nfile = 'e.png'",
        "s.toml:10:1: error: texture.map.1.name: \"a\" is the name of an earlier map too; give each map a "
        "name of its own"},
@@ -198,6 +199,10 @@ TEST_CASE("scene faults: a flow in closed form and what it knows nothing of", "[
        "s.toml:8:3: error: drain: is of no use with a flow in closed form, which knows of no other bodies; "
        "leave "
        "it out, or give motion.flow = \"solver\""},
+      {"[motion]\nflow = 'rest'\n[heat]\nsimulate = true\n",
+       "s.toml:9:1: error: heat.simulate: is of no use with a flow in closed form, which knows no "
+       "temperature; "
+       "leave it out, or give motion.flow = \"solver\""},
       {"[motion]\nflow = 'rest'\n[[liquid]]\n" + ball + "\nfrom = 1",
        "s.toml:10:1: error: liquid.1.from: a flow in closed form moves what is there from the start; leave "
        "it "

@@ -142,4 +142,13 @@ inline SurfaceMesh boxMesh(const openvdb::Vec3d& lower, const openvdb::Vec3d& up
   return mesh;
 }
 
+// Two meshes as one.
+inline SurfaceMesh together(SurfaceMesh a, const SurfaceMesh& b) {
+  const auto base = std::uint32_t(a.positions.size());
+  a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
+  a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
+  for (const Vec3I& t : b.triangles) a.triangles.emplace_back(t[0] + base, t[1] + base, t[2] + base);
+  return a;
+}
+
 }  // namespace fluidtex::testing

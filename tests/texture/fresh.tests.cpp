@@ -12,15 +12,6 @@ using namespace fluidtex::testing;
 
 namespace {
 
-// Two meshes as one.
-SurfaceMesh together(SurfaceMesh a, const SurfaceMesh& b) {
-  const auto base = std::uint32_t(a.positions.size());
-  a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
-  a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
-  for (const Vec3I& t : b.triangles) a.triangles.emplace_back(t[0] + base, t[1] + base, t[2] + base);
-  return a;
-}
-
 // Fresh within `half` of the middle of the flat box's upper side, in squares.
 std::vector<std::uint8_t> square(const SurfaceMesh& mesh, const Vec3f& middle, float halfX, float halfY) {
   std::vector<std::uint8_t> mask(mesh.positions.size());
@@ -91,7 +82,7 @@ TEST_CASE(
   const Carried before = carried;
   std::vector<std::uint8_t> mask(count, 1);
   mask[0] = 0;
-  calmDroplets(ball.mesh, mask, carried);
+  calmDroplets(ball.mesh, mask, {}, carried);
   CHECK(carried.coordinate == before.coordinate);
   CHECK(carried.gradient[0].s == before.gradient[0].s);
   const Labels calm = labelsOf(ball.mesh, carried.coordinate, carried.gradient);

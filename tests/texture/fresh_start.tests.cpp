@@ -2,8 +2,11 @@
 
 #include "tests/texture/oriented_mesh.h"
 #include "tests/texture/test_images.h"
+#include "texture/ways.h"
 
 #include <catch2/catch.hpp>
+
+#include <set>
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
@@ -55,6 +58,30 @@ TEST_CASE(
       if (member[u] != member[v]) continue;
       CHECK((labels[v].at(surface.connection.edge[h]) - labels[u].texel).length() < 0.02f);
     }
+  }
+}
+
+TEST_CASE("fresh start: blocks lie in all ways that the exemplar may") {
+  const OrientedMesh surface = flatBox(120);
+  TexelImage image = makeTexelImage(noiseImage(200, 200, 3, 1), true, 4);
+  std::vector<Disc> discs;
+  for (float x = 12; x < 120; x += 19)
+    for (float y = 12; y < 120; y += 19) discs.push_back(discAround(surface, {x, y, 2}, 8.0f));
+  for (const Ways& ways : {Ways{1}, Ways{2, true}}) {
+    image.ways = ways;
+    Labels labels = magnified(surface);
+    startAfresh(surface.view(), image, discs, 10.0, lookUp(image, labels), 7, labels);
+    std::set<Way> found;
+    for (const Disc& disc : discs) {
+      const Way way = nearestWay({4, true}, layOf(labels[disc.center], {4, true}));
+      found.insert(way);
+      for (const std::uint32_t v : disc.members) {
+        const Vec3f l = surface.mesh.positions[v] - surface.mesh.positions[disc.center];
+        const Vec2f expected = labels[disc.center].texel + laid(way, Vec2f(l.x(), -l.y()));
+        CHECK(texelDifference(image, labels[v].texel, expected).length() < 0.02f);
+      }
+    }
+    CHECK(found == (ways.mirrored ? std::set<Way>{0, 2, kMirrored, kMirrored + 2} : std::set<Way>{0}));
   }
 }
 

@@ -139,3 +139,23 @@ TEST_CASE("labels: on an exemplar that wraps, whole turns make no difference") {
   CHECK(texelDifference(wrapping, {39, 29}, {1, 1}) == Vec2f(-2, -2));
   CHECK(texelDifference(ending, {39, 29}, {1, 1}) == Vec2f(38, 28));
 }
+
+TEST_CASE("labels: what would lead off the exemplar is handed on from another side") {
+  const OrientedMesh surface = flatBox(24);
+  const TexelImage image = makeTexelImage(noiseImage(100, 100, 3, 1), false, 4);
+  const std::size_t count = surface.mesh.positions.size();
+  // A strip between a picture that ends at its left side and one that goes on at its right.
+  Labels labels(count);
+  std::vector<std::uint8_t> wanted, placed;
+  for (std::uint32_t v = 0; v < count; ++v) {
+    const Vec3f& x = surface.mesh.positions[v];
+    const bool inside = x.z() > 1.9f && x.x() > 2 && x.x() < 22 && x.y() > 2 && x.y() < 22;
+    const bool strip = inside && x.x() > 7.5f && x.x() < 14.5f;
+    wanted.push_back(strip);
+    placed.push_back(inside && !strip);
+    labels[v] = unstretched(Vec2f(x.x() < 11 ? 91.6f + x.x() : 20 + x.x(), 60 - x.y()), {});
+  }
+  handOn(image, surface.view(), wanted, placed, labels, HandOn::inside);
+  for (std::uint32_t v = 0; v < count; ++v)
+    if (wanted[v]) CHECK(labels[v].texel[0] == Approx(20 + surface.mesh.positions[v].x()).margin(1e-3));
+}

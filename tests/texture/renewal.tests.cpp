@@ -36,24 +36,22 @@ TEST_CASE(
   const TexelImage image = makeTexelImage(blobImage(100, 100, 3, 10.0, 1), false, 4);
   const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
   const std::size_t count = surface.mesh.positions.size();
-  const std::vector<float> trusted(count, 1.0f), doubted(count, 0.1f), settled(count, 0.0f);
+  const std::vector<float> trusted(count, 1.0f), doubted(count, 0.1f);
+  const std::vector<std::uint8_t> free(count, 1);
   const DiscOptions all{1.35, 8.0, 1.0, 1.0};
   // The share of the upper side's middle that discs cover: no picture fits around the box's edges.
   const auto middle = [](const Vec3f& x) { return onTop(x - Vec3f(12, 12, 0)); };
-  const auto covered = [&](const Labels& labels, const std::vector<float>& fading) {
+  const auto covered = [&](const Labels& labels, const std::vector<std::uint8_t>& mask) {
     std::size_t found = 0, size = 0;
-    for (const Disc& disc :
-         worstDiscs(model, labels, wearAround(model, labels, trusted), trusted, fading, all, 1))
+    for (const Disc& disc : worstDiscs(model, labels, wearAround(model, labels, trusted), mask, all, 1))
       for (const std::uint32_t v : disc.members) found += middle(surface.mesh.positions[v]);
     for (const Vec3f& x : surface.mesh.positions) size += middle(x);
     return double(found) / double(size);
   };
-  CHECK(covered(picture(surface, 1.0f), settled) == 0.0);
-  CHECK(covered(picture(surface, 1.6f), settled) > 0.2);
-  CHECK(covered(picture(surface, 1 / 1.6f), settled) > 0.2);
-  // What has just been laid down rests.
-  const std::vector<float> fading(count, 0.5f);
-  CHECK(covered(picture(surface, 1.6f), fading) == 0.0);
+  CHECK(covered(picture(surface, 1.0f), free) == 0.0);
+  CHECK(covered(picture(surface, 1.6f), free) > 0.2);
+  CHECK(covered(picture(surface, 1 / 1.6f), free) > 0.2);
+  CHECK(covered(picture(surface, 1.6f), std::vector<std::uint8_t>(count, 0)) == 0.0);
 
   const auto lostOnTop = [&](const Labels& labels, const std::vector<float>& trust) {
     const std::vector<std::uint8_t> lost = lostLabels(model, labels, trust);
@@ -69,12 +67,27 @@ TEST_CASE(
   CHECK(lostOnTop(picture(surface, 1.0f), doubted) == 1.0);
 }
 
+TEST_CASE("renewal: mirror images are lost where the exemplar must not show them") {
+  const OrientedMesh surface = flatBox(10);
+  TexelImage image = makeTexelImage(blobImage(100, 100, 3, 10.0, 1), false, 4);
+  const std::vector<float> trusted(surface.mesh.positions.size(), 1.0f);
+  for (const bool allowed : {false, true}) {
+    image.ways.mirrored = allowed;
+    const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
+    for (const bool mirrored : {false, true}) {
+      const Labels labels(trusted.size(), unstretched({50, 50}, {std::polar(1.0f, 0.8f), mirrored}));
+      const auto expected = std::uint8_t(mirrored && !allowed);
+      CHECK(lostLabels(model, labels, trusted) == std::vector<std::uint8_t>(trusted.size(), expected));
+    }
+  }
+}
+
 TEST_CASE("renewal: discs keep to their size, their distance and the budget, worst first") {
   const OrientedMesh surface = flatBox(60);
   const TexelImage image = makeTexelImage(blobImage(200, 200, 3, 10.0, 1), false, 4);
   const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
   const std::size_t count = surface.mesh.positions.size();
-  const std::vector<float> trusted(count, 1.0f), settled(count, 0.0f);
+  const std::vector<std::uint8_t> free(count, 1);
   // The right half is stretched more than the left one.
   Labels labels;
   Wear wear;
@@ -86,7 +99,7 @@ TEST_CASE("renewal: discs keep to their size, their distance and the budget, wor
   wear.stretch.assign(count, 0.3f);  // nothing urgent
   for (const double budget : {0.1, 0.4}) {
     const DiscOptions options{1.35, 10.0, budget, budget};
-    const std::vector<Disc> discs = worstDiscs(model, labels, wear, trusted, settled, options, 1);
+    const std::vector<Disc> discs = worstDiscs(model, labels, wear, free, options, 1);
     REQUIRE_FALSE(discs.empty());
     std::size_t covered = 0;
     for (std::size_t i = 0; i < discs.size(); ++i) {
@@ -113,7 +126,7 @@ TEST_CASE(
   const SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
   const std::size_t count = surface.mesh.positions.size();
   const Labels labels = picture(surface, 0.4f);
-  const std::vector<float> trusted(count, 1.0f), settled(count, 0.0f);
+  const std::vector<std::uint8_t> free(count, 1);
   const auto much = float(std::log(2.5));
   // The share that is covered by as much as is urgent: all, nothing, the half with x below 30.
   const auto covered = [&](const auto& urgent, double urgentBudget) {
@@ -122,7 +135,7 @@ TEST_CASE(
     std::vector<int> discsOf(count, 0);
     std::size_t sum = 0;
     const DiscOptions options{1.35, 10.0, 0.05, urgentBudget};
-    for (const Disc& disc : worstDiscs(model, labels, wear, trusted, settled, options, 1))
+    for (const Disc& disc : worstDiscs(model, labels, wear, free, options, 1))
       for (const std::uint32_t v : disc.members) {
         CHECK(++discsOf[v] == 1);
         ++sum;

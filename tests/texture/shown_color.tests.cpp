@@ -1,6 +1,7 @@
 #include "texture/shown_color.h"
 
 #include "texture/random.h"
+#include "texture/srgb.h"
 
 #include <catch2/catch.hpp>
 
@@ -71,6 +72,23 @@ TEST_CASE("shown color: half-way between two places there is as much contrast as
   // A plain mean would have 0.71 of it. What lies on one side of the mean at both places does not overshoot.
   CHECK(contrast(0.5f) > 0.85 * alone);
   CHECK(contrast(0.5f) < 1.05 * alone);
+}
+
+TEST_CASE("shown color: a bright place comes evenly to the eye, however dark it was before") {
+  Image color{64, 32, 4, {}};
+  for (int i = 0; i < 64 * 32; ++i) {
+    const float grey = i % 64 < 32 ? 0.01f : 0.9f;
+    color.data.insert(color.data.end(), {grey, grey, grey, 1.0f});
+  }
+  const Image around = lightnessAround(color, false);
+  float last = encodeSrgb(0.01f);
+  for (int step = 1; step <= 10; ++step) {
+    const Vec4f shown = shownColor(color, around, false, {48, 16}, {16, 16}, 1.0f - 0.1f * float(step));
+    const float now = encodeSrgb(shown[0]);
+    CHECK(now - last > 0.01f);
+    CHECK(now - last < 0.16f);  // of 0.86; a tenth of the light would be 0.25
+    last = now;
+  }
 }
 
 TEST_CASE("shown color: the ends are the places themselves, and the same place stays as it is") {

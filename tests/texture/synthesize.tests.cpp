@@ -365,3 +365,25 @@ TEST_CASE("synthesize: droplets keep what was carried to them, whatever it is wo
     CHECK((second.coordinate == carried.coordinate) == (subdivisions == 2));
   }
 }
+
+TEST_CASE("synthesize: a droplet beside a ball whose texture is renewed keeps what was carried") {
+  const SynthesisOptions options = smallOptions();
+  Synthesizer synthesizer =
+      makeSynthesizer(makeExemplar(blobImage(64, 64, 4, 12.0, 2), true, options, 1), options);
+  Surface both;
+  both.levels.push_back(together(sphereMesh(6), sphereMesh(2, 1.0, {4.0, 0.0, 0.0})));
+  orient(both, {});
+  SynthesisStats stats;
+  const TexturedSurface first = synthesize(synthesizer, both, {}, 1, 0.0, stats);
+  Carried carried = carriedFrom(first);
+  carried.trust.assign(first.positions.size(), 0.0f);
+  const TexturedSurface second = synthesize(synthesizer, both, carried, 2, 0.1, stats);
+  CHECK(stats.renewed > 0.3);
+  std::size_t droplet = 0;
+  for (std::size_t v = 0; v < first.positions.size(); ++v) {
+    if (first.positions[v].x() < 2.0f) continue;
+    ++droplet;
+    CHECK(second.coordinate[v] == carried.coordinate[v]);
+  }
+  CHECK(droplet == 42);
+}

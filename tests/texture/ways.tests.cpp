@@ -33,7 +33,7 @@ TEST_CASE("ways: a label lies as its way does, seen from any axes, stretched or 
     const Way way = wayAt(all, i);
     const Label label = unstretched({5, 6}, layOf(way));
     CHECK((apply(label, {3, 1}) - laid(way, {3, 1})).length() < 1e-6f);
-    CHECK(nearestWay(all, layOf(label)) == way);
+    CHECK(nearestWay(all, layOf(label, all)) == way);
     const Complexf rotation = std::polar(1.0f, 0.6f), x = product(rotation, Complexf(3, 1));
     const Label seen = unstretched(label.texel, seenFrom(layOf(way), rotation));
     CHECK((apply(seen, {3, 1}) - apply(label, {x.real(), x.imag()})).length() < 1e-5f);
@@ -41,8 +41,10 @@ TEST_CASE("ways: a label lies as its way does, seen from any axes, stretched or 
     const Label drawnOut{
         seen.texel,
         {seen.jacobian[0] * 1.3f, seen.jacobian[1] * 0.8f, seen.jacobian[2] * 1.3f, seen.jacobian[3] * 0.8f}};
-    CHECK(nearestWay(all, layOf(drawnOut)) == way);
-    CHECK(layOf(drawnOut).mirrored == layOf(way).mirrored);
+    CHECK(nearestWay(all, layOf(drawnOut, all)) == way);
+    CHECK(layOf(drawnOut, all).mirrored == layOf(way).mirrored);
+    CHECK(isMirrored(drawnOut) == layOf(way).mirrored);
+    CHECK_FALSE(layOf(drawnOut, {4}).mirrored);
   }
 }
 

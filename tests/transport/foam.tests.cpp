@@ -54,6 +54,16 @@ TEST_CASE("foam: what was carried fades, and goes where the surface is not the s
   for (const float foam : foamAfter(x, sim::Frame{}, {}, 0.5, options)) CHECK(foam == 0.0f);
 }
 
+TEST_CASE("foam: none comes up where the velocity ends", "[transport]") {
+  // Known below 0.5 only, and the same everywhere.
+  const sim::Frame frame =
+      steadyFrame({0.1, -20, 5}, 0.1, 1, [](const Vec3d&) { return Vec3d(30.0, 20.0, 10.0); });
+  std::vector<Vec3f> x;
+  for (float at = -0.6f; at < 0.9f; at += 0.01f) x.push_back(Vec3f(at));
+  for (const float foam : foamAfter(x, frame, {}, 0.1, {.from = 0.1, .full = 1.0, .lifetime = 1.0}))
+    CHECK(foam == 0.0f);
+}
+
 TEST_CASE("foam: carried along with the surface, where there is any", "[transport]") {
   const Vec3d shift(0.13, -0.07, 0.21);
   const sim::Frame frame = steadyFrame({0.1, -20, 20}, 0.1, 2, [&](const Vec3d&) { return shift / 0.1; });
