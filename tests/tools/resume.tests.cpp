@@ -1,9 +1,11 @@
 // fluidtex run --resume: after kills, interrupts and other wishes.
 #include "tests/tools/program.h"
+#include "tools/ply.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 
@@ -130,6 +132,32 @@ TEST_CASE("fluidtex run --resume: with more frames it goes on as if they had alw
   CHECK(runProgram({"run", kSmallScene, "--set", "frames=3", "--resume", "--out", out.string()}).exitCode ==
         0);
   CHECK(reported(out) == upTo(3));
+}
+
+TEST_CASE("fluidtex run --resume: foam goes on as it was", "[tools]") {
+  const Scratch scratch;
+  const fs::path whole = scratch.path / "whole", out = scratch.path / "out";
+  const std::string exemplars = FLUIDTEX_SOURCE "/scenes/exemplars/";
+  const auto run = [&](const char* frames, const fs::path& to, const Words& more) {
+    Words words{"run", kSmallScene, "--no-render", "--out", to.string(), "--set",
+                std::string("frames=") + frames, "--exemplar", exemplars + "foam.png", "--set",
+                "texture.guidance.by=foam", "--set",
+                "texture.guidance.map=" + exemplars + "foam_guidance.png", "--set",
+                // So that what is carried counts, not what comes up.
+                "texture.guidance.foam={ from = 0.5, full = 1.0, lifetime = 30.0 }", "--set",
+                "texture.guidance.point=[{ value = 0.0, level = 0.0 }, { value = 1.0, level = 1.0 }]"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Finished finished = runProgram(words);
+    INFO(finished.all());
+    REQUIRE(finished.exitCode == 0);
+  };
+  run("4", whole, {});
+  run("3", out, {});
+  run("4", out, {"--resume"});
+  CHECK(differing(resultsIn(out), resultsIn(whole)).empty());
+  const auto last = fluidtex::tools::readPly(whole / "surface" / "0004.ply", 384, 384);
+  const std::vector<float>& foam = last.maps.at("foam");
+  CHECK(*std::max_element(foam.begin(), foam.end()) > 0.5f);
 }
 
 TEST_CASE("fluidtex run --resume: what cannot be finished is refused at once, and nothing is lost",
