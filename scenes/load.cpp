@@ -69,9 +69,14 @@ std::vector<Node> readOverrides(const Overrides& overrides, Faults& faults) {
     layers.push_back(layer("exemplar", name));
     // Whether it wraps, and the maps over it, were said of the scene's own picture; --set may say it of this
     // one.
-    const Node unguided{Table{{"by", Node{std::string("none"), origin}}}, origin};
-    layers.insert(layers.begin(),
-                  {layer("toroidal", false), layer("guidance", unguided.value), layer("map", List{})});
+    layers.insert(layers.begin(), {layer("toroidal", false), layer("map", List{})});
+    const auto givesMap = [](const std::string& assignment) {
+      return assignment.starts_with("texture.guidance.map");
+    };
+    if (std::none_of(overrides.set.begin(), overrides.set.end(), givesMap)) {
+      const Node unguided{Table{{"by", Node{std::string("none"), origin}}}, origin};
+      layers.insert(layers.begin(), layer("guidance", unguided.value));
+    }
   }
   return layers;
 }

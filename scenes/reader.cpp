@@ -106,7 +106,7 @@ void Reader::enter(const std::string& key, Need need) {
 }
 
 std::size_t Reader::enterList(const std::string& key, std::size_t, Need need) {
-  const Node* node = look(key, need, "give at least one [[" + key + "]]");
+  const Node* node = look(key, need, "give at least one [[" + pathOf(key) + "]]");
   Level inner;
   inner.path = pathOf(key);
   inner.insideList = true;
@@ -119,9 +119,10 @@ std::size_t Reader::enterList(const std::string& key, std::size_t, Need need) {
       const std::string wrong = inner.list
                                     ? "an empty list"
                                     : "wrong type, " + kindName(*node) + " where a list of tables is wanted";
-      m_faults.add(node->origin, inner.path, wrong,
-                   outer ? "head each member with [[" + key + "]]"
-                         : "write for example " + key + " = [ { ... }, { ... } ]");
+      m_faults.add(
+          node->origin, inner.path, wrong,
+          outer ? "head each member with [[" + inner.path + "]], or write " + inner.path + " = [ { ... } ]"
+                : "write for example " + key + " = [ { ... }, { ... } ]");
       inner.broken = true;
     }
   }

@@ -91,6 +91,8 @@ void applyMaps(const ApplyWishes& wishes) {
     }
     writeAtomically(run.surfaceOf(frame), [&](const fs::path& file) { writePly(surface, file); });
   }
+  for (const auto& [name, map] : maps)
+    fmt::print("{} {} in {} surfaces\n", name, name == kColor ? "replaced" : "written", run.frames.size());
 }
 
 void addApply(CLI::App& app, int& exitCode) {

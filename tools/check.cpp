@@ -12,11 +12,13 @@
 namespace fluidtex::tools {
 namespace {
 
-// Near the dam break's measured peaks: 0.28 GB at 8,000 points, 0.57 GB at 58,000. What a cell takes is mostly the
-// velocities of a frame's substeps, a dozen at a CFL number of 1. Leads, not promises.
+// Near the dam break's measured peaks: 0.28 GB at 8,000 points, 0.57 GB at 58,000. What a cell takes is
+// mostly the velocities of a frame's substeps, a dozen at a CFL number of 1. Leads, not promises.
 constexpr double kBytesPerLiquidCell = 5000.0;
 constexpr double kBytesPerPoint = 1000.0;
 constexpr double kBytesProgram = 250e6;
+// Of an exemplar that cover the surface: with less, no feature of a usual one is seen whole.
+constexpr double kFewExemplars = 0.25;
 
 void check(const CommonOptions& options) {
   const scenes::Scene scene = loadScene(options);
@@ -47,7 +49,11 @@ void check(const CommonOptions& options) {
   fmt::print("exemplar  {}, {} x {} pixels{}\n", scene.texture.exemplar.file.string(), exemplar.color.width,
              exemplar.color.height, scene.texture.exemplar.toroidal ? ", toroidal" : "");
   const double pixels = double(exemplar.color.width) * exemplar.color.height;
-  fmt::print("texture   one point shows one pixel: {:.2g} exemplars cover the surface\n", points / pixels);
+  fmt::print(
+      "texture   one point shows one pixel: {:.2g} exemplars cover the surface{}\n", points / pixels,
+      points < kFewExemplars * pixels ? "; more points, or a smaller image, would show more of it" : "");
+  fmt::print("guidance  {}\n",
+             exemplar.guided ? scene.texture.exemplar.guidance.string() : std::string("none"));
   fmt::print("pictures  {} x {}, {} paths a pixel\n", scene.render.width, scene.render.height,
              scene.render.samples);
   const double bytes =

@@ -295,6 +295,19 @@ TEST_CASE("scene: another exemplar is not taken to wrap because the scene's own 
   CHECK(loadScene(file, overrides).texture.exemplar.toroidal);
 }
 
+TEST_CASE("scene: another exemplar is guided if it is given a map of its own", "[scenes]") {
+  const SceneFolder folder;
+  const std::filesystem::path file = folder.write("s.toml", kFullScene);
+  Overrides overrides;
+  REQUIRE(loadScene(file).texture.guidance.by != texture::GuidanceBy::none);
+  overrides.exemplar = folder.path() / "e.png";
+  CHECK(loadScene(file, overrides).texture.guidance.by == texture::GuidanceBy::none);
+  overrides.set = {"texture.guidance.map=" + (folder.path() / "e.png").string()};
+  const Scene guided = loadScene(file, overrides);
+  CHECK(guided.texture.guidance.by == loadScene(file).texture.guidance.by);
+  CHECK(guided.texture.exemplar.guidance == folder.path() / "e.png");
+}
+
 TEST_CASE("scene: the resolved scene is the same wherever the file is named from", "[scenes]") {
   const SceneFolder folder;
   const std::filesystem::path file = folder.write("s.toml", kFullScene),

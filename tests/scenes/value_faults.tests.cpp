@@ -76,7 +76,7 @@ TEST_CASE("scene faults: wrong type", "[scenes]") {
        "file = \"rock.obj\""},
       {"[solid]\nname = 'a'",
        "s.toml:6:2: error: solid: wrong type, a table where a list of tables is wanted; head each member "
-       "with [[solid]]"},
+       "with [[solid]], or write solid = [ { ... } ]"},
       {"[quality]\npreview = 3",
        "s.toml:7:1: error: quality.preview: wrong type, a whole number where a table is wanted; head it with "
        "[quality.preview]"},
