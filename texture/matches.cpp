@@ -1,5 +1,5 @@
-// Candidates from neighbours and at random as in PatchMatch [Barnes09], from lists of similar windows
-// [Tong02], from a tree [Kwatra05].
+// Candidates from neighbours [Ashikhmin01] and at random, from lists of similar windows [Tong02], from a tree
+// [Kwatra05].
 #include "texture/matches.h"
 
 #include "texture/complex.h"

@@ -113,14 +113,9 @@ std::vector<std::uint8_t> makeLava(const Lava& options) {
 
 CoolingLava makeCoolingLava(const Lava& options) {
   const Crust crust(options);
-  CoolingLava lava{
+  return {
       rendered(options.size, options.samples, [&](double x, double y) { return crust.colorAtStage(x, y); }),
-      {}};
-  for (int j = 0; j < options.size; ++j)
-    for (int i = 0; i < options.size; ++i)
-      lava.guidance.push_back(static_cast<std::uint8_t>(
-          std::lround(255.0 * crust.stageAt((i + 0.5) / options.size, (j + 0.5) / options.size))));
-  return lava;
+      levelMap(options.size, [&](double x, double y) { return crust.stageAt(x, y); })};
 }
 
 }  // namespace fluidtex::exemplars

@@ -95,6 +95,15 @@ double encoded(double linear) {
   return value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
 }
 
+std::vector<std::uint8_t> levelMap(int size, const std::function<double(double x, double y)>& level) {
+  std::vector<std::uint8_t> pixels;
+  for (int j = 0; j < size; ++j)
+    for (int i = 0; i < size; ++i)
+      pixels.push_back(
+          static_cast<std::uint8_t>(std::lround(255.0 * level((i + 0.5) / size, (j + 0.5) / size))));
+  return pixels;
+}
+
 std::vector<std::uint8_t> rendered(int size, int samples, const std::function<Color(double, double)>& color) {
   const double step = 1.0 / (double(size) * samples);
   std::vector<std::uint8_t> pixels;

@@ -39,6 +39,9 @@ Cell cellAt(std::uint64_t seed, std::uint64_t stream, double x, double y, int ce
 // sRGB of a linear value, IEC 61966-2-1; cut to 0..1.
 double encoded(double linear);
 
+// size x size pixels, one byte each, row by row from the top: a level of 0..1 in the middle of each.
+std::vector<std::uint8_t> levelMap(int size, const std::function<double(double x, double y)>& level);
+
 // size x size pixels, sRGB, three bytes each, row by row from the top: the mean of samples x samples colours
 // in each. The image is the unit square, x to the right, y down.
 std::vector<std::uint8_t> rendered(int size, int samples,
