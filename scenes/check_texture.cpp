@@ -97,6 +97,9 @@ void checkMaps(const Scene& scene, Reader& reader) {
     const texture::MapOptions& map = scene.texture.exemplar.maps[i];
     const std::string& name = map.name;
     const std::string path = "texture.map." + std::to_string(i), key = path + ".name";
+    if (reader.clean(path + ".weight") && map.weight > 0.0 && map.holds != texture::MapHolds::values)
+      reader.fault(path + ".weight", "vectors turn with the texture and cannot be matched",
+                   "leave weight out, or match a map of values, the heights for example");
     if (!reader.clean(key)) continue;
     const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
     if (!reader.given(key))

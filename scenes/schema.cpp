@@ -217,6 +217,7 @@ void describeTexture(Visitor& visitor, Scene& scene) {
           visitor.text("name", map.name);
           visitor.file("file", map.file, {});
           choice(visitor, "holds", map.holds, {"values", "normals", "directions"});
+          visitor.number("weight", map.weight, kNotNegative);
         });
         visitor.table("orientation", [&] { describeOrientation(visitor, scene); });
         visitor.table("transport", [&] {

@@ -2,9 +2,11 @@
 
 #include "texture/channels.h"
 #include "texture/maps.h"
+#include "texture/matched_maps.h"
 #include "texture/read_image.h"
 #include "texture/search.h"
 #include "texture/srgb.h"
+#include "texture/texel_image.h"
 
 #include <tbb/parallel_for.h>
 
@@ -31,14 +33,14 @@ Image encodedColors(const Image& premultiplied, int channels) {
   return result;
 }
 
-// `image` with one more channel, scaled.
-Image withChannel(const Image& image, const Image& channel, float scale) {
-  Image result{image.width, image.height, image.channels + 1, {}};
-  result.data.resize(image.data.size() + channel.data.size());
+// `image` with the channels of another one, scaled.
+Image withChannels(const Image& image, const Image& more, float scale) {
+  Image result{image.width, image.height, image.channels + more.channels, {}};
+  result.data.resize(image.data.size() + more.data.size());
   tbb::parallel_for(0, image.height, [&](int y) {
     for (int x = 0; x < image.width; ++x) {
       float* end = std::copy_n(image.at(x, y), image.channels, result.at(x, y));
-      *end = *channel.at(x, y) * scale;
+      std::transform(more.at(x, y), more.at(x, y) + more.channels, end, [&](float v) { return v * scale; });
     }
   });
   return result;
@@ -70,12 +72,16 @@ void check(const Image& color, bool toroidal, const SynthesisOptions& synthesis,
   if (!visible) throw ExemplarError(name + " is fully transparent, so there is no texture to take from it.");
 }
 
+Image premultipliedColors(Image color) {
+  for (std::size_t i = 0; i < color.data.size(); i += 4)
+    for (std::size_t c = 0; c < 3; ++c) color.data[i + c] *= color.data[i + 3];
+  return color;
+}
+
 // Exemplar::match, from straight colours.
-std::vector<Image> matchImages(const Image& color, int colorChannels, Image guidance, bool toroidal,
-                               const SynthesisOptions& synthesis, int levels) {
-  Image premultiplied = color;
-  for (std::size_t i = 0; i < premultiplied.data.size(); i += 4)
-    for (std::size_t c = 0; c < 3; ++c) premultiplied.data[i + c] *= premultiplied.data[i + 3];
+std::vector<Image> matchImages(const Image& color, int colorChannels, Image guidance, Image maps,
+                               bool toroidal, const SynthesisOptions& synthesis, int levels) {
+  Image premultiplied = premultipliedColors(color);
 
   // The channels are made at full size and reduced with the colours, each in its own space.
   std::vector<std::pair<Image, float>> channels;
@@ -83,6 +89,7 @@ std::vector<Image> matchImages(const Image& color, int colorChannels, Image guid
   const Image luminance = featureLuminance(encoded);
   if (!guidance.data.empty())
     channels.emplace_back(std::move(guidance), float(std::sqrt(synthesis.guidanceWeight)));
+  if (maps.channels > 0) channels.emplace_back(std::move(maps), 1.0f);
   if (synthesis.featureWeight > 0.0)
     channels.emplace_back(featureDistance(luminance, toroidal), float(std::sqrt(synthesis.featureWeight)));
   if (synthesis.gradientWeight > 0.0)
@@ -96,19 +103,21 @@ std::vector<Image> matchImages(const Image& color, int colorChannels, Image guid
       for (auto& channel : channels) channel.first = halve(channel.first, toroidal);
     }
     Image match = std::move(encoded);
-    for (const auto& [channel, scale] : channels) match = withChannel(match, channel, scale);
+    for (const auto& [channel, scale] : channels) match = withChannels(match, channel, scale);
     images.push_back(std::move(match));
   }
   return images;
 }
 
 // The same, or what an earlier run has kept.
-std::vector<Image> keptMatchImages(const Image& color, int colorChannels, Image guidance, bool toroidal,
-                                   const SynthesisOptions& synthesis, int levels, const CacheFolder& cache) {
+std::vector<Image> keptMatchImages(const Image& color, int colorChannels, Image guidance, Image maps,
+                                   bool toroidal, const SynthesisOptions& synthesis, int levels,
+                                   const CacheFolder& cache) {
   // To be raised whenever the images are made in another way.
-  constexpr std::int64_t kVersion = 1;
+  constexpr std::int64_t kVersion = 2;
   const auto made = [&] {
-    return matchImages(color, colorChannels, std::move(guidance), toroidal, synthesis, levels);
+    return matchImages(color, colorChannels, std::move(guidance), std::move(maps), toroidal, synthesis,
+                       levels);
   };
   if (cache.path.empty()) return made();
   const auto bits = [](double value) { return std::bit_cast<std::int64_t>(value); };
@@ -116,12 +125,13 @@ std::vector<Image> keptMatchImages(const Image& color, int colorChannels, Image 
                                    color.width,
                                    color.height,
                                    colorChannels,
+                                   maps.channels,
                                    toroidal,
                                    levels,
                                    bits(synthesis.featureWeight),
                                    bits(synthesis.gradientWeight),
                                    bits(synthesis.guidanceWeight)};
-  const std::string name = keptName(".match", settings, {color.data, guidance.data});
+  const std::string name = keptName(".match", settings, {color.data, guidance.data, maps.data});
   const auto eachPart = [](auto& image, const auto& visit) {
     visit(image.width), visit(image.height), visit(image.channels), visit(image.data);
   };
@@ -138,8 +148,15 @@ std::vector<Image> keptMatchImages(const Image& color, int colorChannels, Image 
   return images;
 }
 
-Exemplar prepare(Image color, Image guidance, bool toroidal, const SynthesisOptions& synthesis, int levels,
-                 const std::string& name, const CacheFolder& cache) {
+// Lanes of a texel that colours, guidance and the two found channels leave.
+int lanesForMaps(const Exemplar& exemplar, const SynthesisOptions& synthesis) {
+  return kMaxChannels - exemplar.colorChannels - exemplar.guided - (synthesis.featureWeight > 0.0) -
+         (synthesis.gradientWeight > 0.0);
+}
+
+Exemplar prepare(Image color, Image guidance, std::map<std::string, ExemplarMap> maps, bool toroidal,
+                 const SynthesisOptions& synthesis, int levels, const std::string& name,
+                 const CacheFolder& cache) {
   check(color, toroidal, synthesis, name);
   Exemplar exemplar;
   exemplar.toroidal = toroidal;
@@ -149,8 +166,15 @@ Exemplar prepare(Image color, Image guidance, bool toroidal, const SynthesisOpti
   exemplar.colorChannels = least < most ? 4 : 3;
   exemplar.guided = !guidance.data.empty();
   exemplar.guidanceWeight = float(synthesis.guidanceWeight);
-  exemplar.match = keptMatchImages(color, exemplar.colorChannels, std::move(guidance), toroidal, synthesis,
-                                   std::max(levels, 1), cache);
+  MatchedMaps matched;
+  if (std::any_of(maps.begin(), maps.end(), [](const auto& map) { return map.second.weight > 0.0f; }))
+    matched = matchedMaps(maps, color, encodedColors(premultipliedColors(color), exemplar.colorChannels),
+                          toroidal, lanesForMaps(exemplar, synthesis));
+  exemplar.mapChannels = matched.image.channels;
+  exemplar.mapsKept = matched.kept;
+  exemplar.maps = std::move(maps);
+  exemplar.match = keptMatchImages(color, exemplar.colorChannels, std::move(guidance),
+                                   std::move(matched.image), toroidal, synthesis, std::max(levels, 1), cache);
   exemplar.color = std::move(color);
   return exemplar;
 }
@@ -223,7 +247,8 @@ void cubic(const Image& image, bool toroidal, const Vec2f& texel, const Read& re
 }  // namespace
 
 void sampleCubic(const Image& image, bool toroidal, const Vec2f& texel, float* out) {
-  cubic(image, toroidal, texel, [](const float* at, int k) { return at[k]; }, out);
+  cubic(
+      image, toroidal, texel, [](const float* at, int k) { return at[k]; }, out);
 }
 
 Vec4f samplePremultiplied(const Image& color, bool toroidal, const Vec2f& texel) {
@@ -235,8 +260,9 @@ Vec4f samplePremultiplied(const Image& color, bool toroidal, const Vec2f& texel)
 }
 
 Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
-                      Image guidance, const CacheFolder& cache) {
-  return prepare(std::move(color), std::move(guidance), toroidal, synthesis, levels, "the image", cache);
+                      Image guidance, const CacheFolder& cache, std::map<std::string, ExemplarMap> maps) {
+  return prepare(std::move(color), std::move(guidance), std::move(maps), toroidal, synthesis, levels,
+                 "the image", cache);
 }
 
 Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels,
@@ -249,11 +275,10 @@ Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& sy
                           " pixels, and its exemplar " + options.file.string() + " " + sizeOf(color) +
                           "; a guidance map must be of the same size.");
   }
-  Exemplar exemplar = prepare(std::move(color), std::move(guidance), options.toroidal, synthesis, levels,
-                              options.file.string(), cache);
-  for (const MapOptions& map : options.maps)
-    exemplar.maps[map.name] = loadMap(map, exemplar.color.width, options.toroidal);
-  return exemplar;
+  std::map<std::string, ExemplarMap> maps;
+  for (const MapOptions& map : options.maps) maps[map.name] = loadMap(map, color.width, options.toroidal);
+  return prepare(std::move(color), std::move(guidance), std::move(maps), options.toroidal, synthesis, levels,
+                 options.file.string(), cache);
 }
 
 }  // namespace fluidtex::texture

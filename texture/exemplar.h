@@ -18,20 +18,24 @@ struct Image {
   const float* at(int x, int y) const { return data.data() + (std::size_t(y) * width + x) * channels; }
 };
 
-// Bilinear, texel centres at integers; outside it is clamped, or wrapped where `toroidal`. Writes image.channels values.
+// Bilinear, texel centres at integers; outside it is clamped, or wrapped where `toroidal`. Writes
+// image.channels values.
 void sampleBilinear(const Image& image, bool toroidal, const Vec2f& texel, float* out);
 
-// The same by Catmull and Rom's cubics over 4 x 4 texels, held between the values of the four nearest: half-way between
-// texels bilinear interpolation loses half of the finest detail, this a fifth, and it does not ring.
+// The same by Catmull and Rom's cubics over 4 x 4 texels, held between the values of the four nearest:
+// half-way between texels bilinear interpolation loses half of the finest detail, this a fifth, and it does
+// not ring.
 void sampleCubic(const Image& image, bool toroidal, const Vec2f& texel, float* out);
 
 // Numbers or vectors over the same picture, ready to be looked up at vertices.
 struct ExemplarMap {
   Image image;
   MapHolds holds = MapHolds::values;
+  float weight = 0.0f;  // in matching, see MapOptions
 };
-// The same of RGBA with straight alpha, premultiplied before it is interpolated, so that it does not matter what
-// colour a transparent texel has; straight() takes alpha out again, and leaves black where there is none.
+// The same of RGBA with straight alpha, premultiplied before it is interpolated, so that it does not matter
+// what colour a transparent texel has; straight() takes alpha out again, and leaves black where there is
+// none.
 Vec4f samplePremultiplied(const Image& color, bool toroidal, const Vec2f& texel);
 inline Vec4f straight(const Vec4f& premultiplied) {
   const float alpha = premultiplied[3];
@@ -44,16 +48,19 @@ struct Exemplar {
   // Linear RGBA at full size, straight alpha; what the colour of a vertex is looked up in.
   Image color;
   // match[L]: what windows are compared and averaged by, reduced by 2^L: sRGB-encoded premultiplied R, G, B,
-  // (A where the image has alpha that varies,) the guidance map, then the feature-distance and gradient
-  // channels, each multiplied by the square root of its weight. A channel of weight 0 is left out. Texel x of
-  // level L lies at 2^L x + (2^L - 1) / 2 of level 0.
+  // (A where the image has alpha that varies,) the guidance map, the maps that are matched, then the
+  // feature-distance and gradient channels, each multiplied by the square root of its weight. A channel of
+  // weight 0 is left out. Texel x of level L lies at 2^L x + (2^L - 1) / 2 of level 0.
   std::vector<Image> match;
   int colorChannels = 3;  // of match: 3 or 4, the first ones
   // The guidance map is the channel right after the colours, multiplied by the root of its weight.
   bool guided = false;
   float guidanceWeight = 1.0f;
-  // Further maps over the same picture, ready to be looked up at vertices (texture/maps.h).
+  // Further maps over the same picture, ready to be looked up at vertices (texture/maps.h), and how many
+  // channels of `match` those of weight have become (texture/matched_maps.h).
   std::map<std::string, ExemplarMap> maps;
+  int mapChannels = 0;
+  double mapsKept = 1.0;  // MatchedMaps::kept
 };
 
 // The input is wrong; the message is one sentence that names the file.
@@ -71,6 +78,7 @@ Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& sy
 
 // The same from pixels in memory (linear RGBA); guidance: one channel, 0..1, of the same size, or empty.
 Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
-                      Image guidance = {}, const CacheFolder& cache = {});
+                      Image guidance = {}, const CacheFolder& cache = {},
+                      std::map<std::string, ExemplarMap> maps = {});
 
 }  // namespace fluidtex::texture

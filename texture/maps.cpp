@@ -18,7 +18,7 @@ ExemplarMap loadMap(const MapOptions& options, int exemplarWidth, bool toroidal)
   if (options.holds != MapHolds::values && image.channels != 3)
     throw ExemplarError(options.file.string() +
                         " is grey; a map of vectors must have x, y and z as red, green and blue.");
-  return {vertexMap(std::move(image), exemplarWidth, toroidal), options.holds};
+  return {vertexMap(std::move(image), exemplarWidth, toroidal), options.holds, float(options.weight)};
 }
 
 std::vector<std::string> mapNames(const std::string& name, int channels) {

@@ -12,10 +12,11 @@ namespace fluidtex::texture {
 class TexelToImage {
  public:
   TexelToImage(const TexturedSurface& surface, const Image& image)
-      : m_scale(float(image.width) / float(surface.exemplarWidth),
-                float(image.height) / float(surface.exemplarHeight)) {
+      : TexelToImage(surface.exemplarWidth, surface.exemplarHeight, image) {}
+  TexelToImage(int exemplarWidth, int exemplarHeight, const Image& image)
+      : m_scale(float(image.width) / float(exemplarWidth), float(image.height) / float(exemplarHeight)) {
     if (image.data.empty()) throw std::invalid_argument("map of the exemplar: it has no pixels");
-    if (surface.exemplarWidth < 1 || surface.exemplarHeight < 1)
+    if (exemplarWidth < 1 || exemplarHeight < 1)
       throw std::invalid_argument("map of the exemplar: the surface does not know the exemplar's size");
   }
   // Centres lie at integers, in the exemplar as in the image.

@@ -54,6 +54,13 @@ void check(const CommonOptions& options) {
       points < kFewExemplars * pixels ? "; more points, or a smaller image, would show more of it" : "");
   fmt::print("guidance  {}\n",
              exemplar.guided ? scene.texture.exemplar.guidance.string() : std::string("none"));
+  for (const texture::MapOptions& map : scene.texture.exemplar.maps)
+    fmt::print("map       {}, {}\n", map.name,
+               map.weight > 0.0 ? fmt::format("matched with weight {:g}", map.weight) : "looked up");
+  if (exemplar.mapChannels > 0)
+    fmt::print("matching  maps take {} channel{}, which hold{} {:.0f}% of their differences\n",
+               exemplar.mapChannels, exemplar.mapChannels > 1 ? "s" : "", exemplar.mapChannels > 1 ? "" : "s",
+               100.0 * exemplar.mapsKept);
   fmt::print("pictures  {} x {}, {} paths a pixel\n", scene.render.width, scene.render.height,
              scene.render.samples);
   const double bytes =

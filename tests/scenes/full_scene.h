@@ -178,6 +178,10 @@ level = 0.75
 name = "height"
 file = "e.png"
 holds = "normals"
+[[texture.map]]
+name = "bumps"
+file = "e.png"
+weight = 0.5
 [texture.orientation]
 symmetry = 2
 mirrored = true

@@ -318,7 +318,8 @@ TEST_CASE("scene: the resolved scene is the same wherever the file is named from
   exemplar.exemplar = "../e.png";
   // Guidance and maps are of the scene's own exemplar, and left out with another.
   exemplar.set = {"texture.toroidal=true", "texture.guidance.by=field",
-                  "texture.map=[{ name = 'height', file = '../e.png', holds = 'normals' }]"};
+                  "texture.map=[{ name = 'height', file = '../e.png', holds = 'normals' }, "
+                  "{ name = 'bumps', file = '../e.png', weight = 0.5 }]"};
   const std::string relative = loadScene("../s.toml").resolved,
                     chosen = loadScene("../s.toml", exemplar).resolved;
   std::filesystem::current_path(before);

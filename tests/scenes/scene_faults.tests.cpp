@@ -125,6 +125,9 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
       {"[[texture.map]]\nname = 'a'\nfile = 'e.png'\n[[texture.map]]\nname = 'a'\nfile = 'e.png'",
        "s.toml:10:1: error: texture.map.1.name: \"a\" is the name of an earlier map too; give each map a "
        "name of its own"},
+      {"[[texture.map]]\nname = 'a'\nfile = 'e.png'\nholds = 'normals'\nweight = 1",
+       "s.toml:10:1: error: texture.map.0.weight: vectors turn with the texture and cannot be matched; leave "
+       "weight out, or match a map of values, the heights for example"},
       {"[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 }, { time = 1 } ]",
        "s.toml:8:30: error: solid.0.keyframe.1.time: 1 s is not after the one before, at 1 s; give them in "
        "the order of time"},

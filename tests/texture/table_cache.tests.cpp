@@ -167,3 +167,22 @@ TEST_CASE(
   CHECK(warnings == 1);
   CHECK(readBytes(file) == whole);
 }
+
+TEST_CASE("table cache: maps that are matched make it another image, by their pixels and weights") {
+  const Scratch scratch;
+  const Image color = blobImage(40, 40, 4, 8.0, 1);
+  std::size_t files = 0;
+  for (const std::uint64_t seed : {2u, 3u})
+    for (const float weight : {0.5f, 1.0f}) {
+      const std::map<std::string, ExemplarMap> maps{
+          {"height", {blobImage(40, 40, 1, 8.0, seed), MapHolds::values, weight}}};
+      const Exemplar plain = makeExemplar(color, false, {}, 2, {}, {}, maps);
+      for (int call = 0; call < 2; ++call) {
+        const Exemplar kept = makeExemplar(color, false, {}, 2, {}, scratch.path, maps);
+        CHECK(kept.match[0].data == plain.match[0].data);
+        CHECK(kept.match[1].data == plain.match[1].data);
+        CHECK(kept.mapChannels == 1);
+      }
+      CHECK(tablesIn(scratch.path).size() == ++files);
+    }
+}
