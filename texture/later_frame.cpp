@@ -31,6 +31,23 @@ constexpr float kHalfRadius = 0.8f;
 // off there: all of a 33 pixel window's, 47, makes no better texture and takes longer.
 constexpr int kHalfReach = 20;
 
+// What the steps of one frame share.
+struct Job {
+  Synthesizer& synthesizer;
+  const Surface& surface;
+  const SeamModel& seams;
+  int frame;
+  SynthesisStats& stats;
+  const Progress& progress;
+};
+
+// What is renewed.
+struct Renewal {
+  std::vector<Disc> discs;
+  std::vector<std::uint8_t> wanted;    // #V: in discs, or lost
+  std::vector<std::uint8_t> withRims;  // #V: those and rims around them, within which they are joined
+};
+
 // Texel x of the full exemplar lies at (x - 1/2) / 2 of the halved one; what a label says of its surroundings
 // in pixels stays.
 Labels halved(const Labels& labels, const TexelImage& half) {
@@ -55,9 +72,9 @@ void spread(const TexelImage& image, const MeshView& view, const std::vector<std
 
 // Lays out what is wanted at half the surface's detail, where features are half as large and their scale is
 // kept.
-void layOut(Synthesizer& synthesizer, const MeshView& view, const std::vector<std::uint8_t>& wanted,
-            int frame, Labels& labels, SynthesisStats& stats, const Progress& progress) {
-  const SearchTables& tables = *synthesizer.tables;
+void layOut(const Job& job, const std::vector<std::uint8_t>& wanted, Labels& labels) {
+  const SearchTables& tables = *job.synthesizer.tables;
+  const MeshView& view = job.seams.view;
   MeshView half{view.mesh, view.graph, view.connection, 2.0f, nullptr};
   std::vector<std::uint8_t> members(labels.size(), 0);
   for (const std::uint32_t v : selectCenters(half, kHalfRadius, grown(view.graph, wanted, kHalfReach)))
@@ -68,17 +85,18 @@ void layOut(Synthesizer& synthesizer, const MeshView& view, const std::vector<st
   state.labels = halved(labels, tables.image[1]);
   state.value = lookUp(tables.image[1], state.labels);
   Level level{half, tables.image[1], tables.histogram[1], {}, wanted};
-  const std::size_t windows = windowsOf(synthesizer, 1).size();
-  runPasses(
-      synthesizer, level,
-      {1, frame, synthesizer.options.laterIterations, 1, true, 0, std::max<std::size_t>(windows, 2) - 1},
-      state, stats, progress);
+  const std::size_t windows = windowsOf(job.synthesizer, 1).size();
+  runPasses(job.synthesizer, level,
+            {1, job.frame, job.synthesizer.options.laterIterations, 1, true, 0,
+             std::max<std::size_t>(windows, 2) - 1},
+            state, job.stats, job.progress);
   spread(tables.image.front(), half, wanted, state.labels, labels);
 }
 
 // Starts what is wide and new from nothing, where the surface has levels for it.
-void startFromNothing(Synthesizer& synthesizer, const Surface& surface, const MeshView& view,
-                      const std::vector<float>& trust, int frame, Labels& labels, SynthesisStats& stats) {
+void startFromNothing(const Job& job, const std::vector<float>& trust, Labels& labels) {
+  const auto& [synthesizer, surface, seams, frame, stats, progress] = job;
+  const MeshView& view = seams.view;
   if (surface.levels.size() < 2 || synthesizer.tables->image.size() < 2) return;
   const std::vector<std::uint8_t> wide =
       wideFresh(view.graph, freshVertices(trust), synthesizer.options.windows.front());
@@ -92,10 +110,8 @@ void startFromNothing(Synthesizer& synthesizer, const Surface& surface, const Me
 
 // What is wanted, laid anew on what was carried: discs from blocks of the exemplar, wide new surface from
 // nothing, all of it at half detail first; then within the rims around it, from where seams show least.
-Labels layAnew(Synthesizer& synthesizer, const Surface& surface, const SeamModel& seams,
-               const Carried& carried, const std::vector<Disc>& discs,
-               const std::vector<std::uint8_t>& wanted, std::vector<std::uint8_t> withRims,
-               const Labels& before, int frame, SynthesisStats& stats, const Progress& progress) {
+Labels layAnew(const Job& job, Renewal renewal, const std::vector<float>& trust, const Labels& before) {
+  const auto& [synthesizer, surface, seams, frame, stats, progress] = job;
   const SynthesisOptions& options = synthesizer.options;
   const SearchTables& tables = *synthesizer.tables;
   const TexelImage& image = tables.image.front();
@@ -104,13 +120,13 @@ Labels layAnew(Synthesizer& synthesizer, const Surface& surface, const SeamModel
   state.labels = before;
   state.average = lookUp(image, before);
   holdGuidance(image, view.mesh, state.average);
-  startAfresh(view, image, discs, options.renewalRadius, state.average, keyOf(synthesizer, frame, 0, 2),
-              state.labels);
-  startFromNothing(synthesizer, surface, view, carried.trust, frame, state.labels, stats);
-  if (tables.image.size() > 1) layOut(synthesizer, view, wanted, frame, state.labels, stats, progress);
+  startAfresh(view, image, renewal.discs, options.renewalRadius, state.average,
+              keyOf(synthesizer, frame, 0, 2), state.labels);
+  startFromNothing(job, trust, state.labels);
+  if (tables.image.size() > 1) layOut(job, renewal.wanted, state.labels);
   state.value = lookUp(image, state.labels);
 
-  const Level level{view, image, tables.histogram.front(), {}, std::move(withRims)};
+  const Level level{view, image, tables.histogram.front(), {}, std::move(renewal.withRims)};
   const std::size_t windows = windowsOf(synthesizer, 0).size();
   runPasses(synthesizer, level,
             {0, frame, options.laterIterations, 1, false, windows > 1 ? std::size_t(1) : 0}, state, stats,
@@ -173,17 +189,18 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   const Labels before = strained(labels, ahead);
 
   const std::vector<std::uint8_t> free = renewable(synthesizer, view.graph, carried);
-  const std::vector<Disc> discs = discsOf(synthesizer, seams, labels, wear, free, rates, secondsSinceLast);
+  Renewal renewal;
+  renewal.discs = discsOf(synthesizer, seams, labels, wear, free, rates, secondsSinceLast);
   std::vector<std::uint8_t> inDiscs(count, 0);
-  for (const Disc& disc : discs)
+  for (const Disc& disc : renewal.discs)
     for (const std::uint32_t v : disc.members) inDiscs[v] = 1;
   const std::vector<std::uint8_t> lost = lostLabels(seams, before, carried.trust);
-  const std::vector<std::uint8_t> wanted = freeWhereEither(free, inDiscs, lost);
-  if (!any(wanted)) return result;
+  renewal.wanted = freeWhereEither(free, inDiscs, lost);
+  if (!any(renewal.wanted)) return result;
+  renewal.withRims = freeWhereEither(free, grown(view.graph, inDiscs, kRim), lost);
 
-  Labels proposed =
-      layAnew(synthesizer, surface, seams, carried, discs, wanted,
-              freeWhereEither(free, grown(view.graph, inDiscs, kRim), lost), before, frame, stats, progress);
+  Labels proposed = layAnew({synthesizer, surface, seams, frame, stats, progress}, std::move(renewal),
+                            carried.trust, before);
   absorbChips(seams, free, proposed);
   result.labels = unstrained(settle(seams, before, proposed, carried.trust, result.renewed), ahead);
   return result;

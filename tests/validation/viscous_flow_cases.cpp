@@ -70,7 +70,8 @@ Result viscousVortices(int resolution, const Progress& progress) {
 sim::Options cavityOptions(int reynolds, int resolution) {
   sim::Options options = fullSlab(resolution);
   options.viscosity = options.density / reynolds;
-  options.cfl = 1.0;
+  // Steady in the end: what a step's interpolation loses is lost three times as seldom as with a number of 1.
+  options.cfl = 3.0;
   options.frameRate = 2.0;
   using sim::DomainFace;
   const sim::Wall still{.kind = sim::WallKind::noSlip};
