@@ -217,7 +217,7 @@ void describeTexture(Visitor& visitor, Scene& scene) {
           visitor.text("name", map.name);
           visitor.file("file", map.file, {});
           choice(visitor, "holds", map.holds, {"values", "normals", "directions"});
-          visitor.number("weight", map.weight, kNotNegative);
+          visitor.number("weight", map.weight, {.low = 0.0, .high = 100.0});
         });
         visitor.table("orientation", [&] { describeOrientation(visitor, scene); });
         visitor.table("transport", [&] {

@@ -72,86 +72,101 @@ void check(const Image& color, bool toroidal, const SynthesisOptions& synthesis,
   if (!visible) throw ExemplarError(name + " is fully transparent, so there is no texture to take from it.");
 }
 
+bool anyMatched(const std::map<std::string, ExemplarMap>& maps) {
+  return std::any_of(maps.begin(), maps.end(), [](const auto& map) { return map.second.weight > 0.0f; });
+}
+
 Image premultipliedColors(Image color) {
   for (std::size_t i = 0; i < color.data.size(); i += 4)
     for (std::size_t c = 0; c < 3; ++c) color.data[i + c] *= color.data[i + 3];
   return color;
 }
 
-// Exemplar::match, from straight colours.
-std::vector<Image> matchImages(const Image& color, int colorChannels, Image guidance, Image maps,
-                               bool toroidal, const SynthesisOptions& synthesis, int levels) {
-  Image premultiplied = premultipliedColors(color);
+// Lanes of a texel that colours, guidance and the two found channels leave.
+int lanesForMaps(const Exemplar& exemplar, const SynthesisOptions& synthesis) {
+  return kMaxChannels - exemplar.colorChannels - exemplar.guided - (synthesis.featureWeight > 0.0) -
+         (synthesis.gradientWeight > 0.0);
+}
+
+// Fills match and what it says of maps, from exemplar.color and exemplar.maps.
+void makeMatch(Exemplar& exemplar, Image guidance, const SynthesisOptions& synthesis, int levels) {
+  const bool toroidal = exemplar.toroidal;
+  Image premultiplied = premultipliedColors(exemplar.color);
+  Image encoded = encodedColors(premultiplied, exemplar.colorChannels);
+  const Image luminance = featureLuminance(encoded);
 
   // The channels are made at full size and reduced with the colours, each in its own space.
   std::vector<std::pair<Image, float>> channels;
-  Image encoded = encodedColors(premultiplied, colorChannels);
-  const Image luminance = featureLuminance(encoded);
   if (!guidance.data.empty())
     channels.emplace_back(std::move(guidance), float(std::sqrt(synthesis.guidanceWeight)));
-  if (maps.channels > 0) channels.emplace_back(std::move(maps), 1.0f);
+  if (anyMatched(exemplar.maps)) {
+    MatchedMaps matched =
+        matchedMaps(exemplar.maps, exemplar.color, encoded, toroidal, lanesForMaps(exemplar, synthesis));
+    exemplar.mapChannels = matched.image.channels;
+    exemplar.mapShare = matched.share;
+    if (exemplar.mapChannels > 0) channels.emplace_back(std::move(matched.image), 1.0f);
+  }
   if (synthesis.featureWeight > 0.0)
     channels.emplace_back(featureDistance(luminance, toroidal), float(std::sqrt(synthesis.featureWeight)));
   if (synthesis.gradientWeight > 0.0)
     channels.emplace_back(gradientEnergy(luminance, toroidal), float(std::sqrt(synthesis.gradientWeight)));
 
-  std::vector<Image> images;
   for (int level = 0; level < levels; ++level) {
     if (level > 0) {
       premultiplied = halve(premultiplied, toroidal);
-      encoded = encodedColors(premultiplied, colorChannels);
+      encoded = encodedColors(premultiplied, exemplar.colorChannels);
       for (auto& channel : channels) channel.first = halve(channel.first, toroidal);
     }
     Image match = std::move(encoded);
     for (const auto& [channel, scale] : channels) match = withChannels(match, channel, scale);
-    images.push_back(std::move(match));
+    exemplar.match.push_back(std::move(match));
   }
-  return images;
 }
 
-// The same, or what an earlier run has kept.
-std::vector<Image> keptMatchImages(const Image& color, int colorChannels, Image guidance, Image maps,
-                                   bool toroidal, const SynthesisOptions& synthesis, int levels,
-                                   const CacheFolder& cache) {
+// All that makeMatch() depends on, as a file's name.
+std::string nameOfMatch(const Exemplar& exemplar, const Image& guidance, const SynthesisOptions& synthesis,
+                        int levels) {
   // To be raised whenever the images are made in another way.
   constexpr std::int64_t kVersion = 2;
-  const auto made = [&] {
-    return matchImages(color, colorChannels, std::move(guidance), std::move(maps), toroidal, synthesis,
-                       levels);
-  };
-  if (cache.path.empty()) return made();
   const auto bits = [](double value) { return std::bit_cast<std::int64_t>(value); };
-  const std::int64_t settings[] = {kVersion,
-                                   color.width,
-                                   color.height,
-                                   colorChannels,
-                                   maps.channels,
-                                   toroidal,
-                                   levels,
-                                   bits(synthesis.featureWeight),
-                                   bits(synthesis.gradientWeight),
-                                   bits(synthesis.guidanceWeight)};
-  const std::string name = keptName(".match", settings, {color.data, guidance.data, maps.data});
-  const auto eachPart = [](auto& image, const auto& visit) {
-    visit(image.width), visit(image.height), visit(image.channels), visit(image.data);
-  };
-  if (const auto kept = readKept(cache, name)) {
-    std::vector<Image> images(static_cast<std::size_t>(levels));
-    const char* at = kept->data.get();
-    for (Image& image : images) eachPart(image, ByteReader{at});
-    return images;
+  std::vector<std::int64_t> settings{kVersion,
+                                     exemplar.color.width,
+                                     exemplar.color.height,
+                                     exemplar.colorChannels,
+                                     exemplar.toroidal,
+                                     levels,
+                                     bits(synthesis.featureWeight),
+                                     bits(synthesis.gradientWeight),
+                                     bits(synthesis.guidanceWeight)};
+  std::vector<std::span<const float>> data{exemplar.color.data, guidance.data};
+  for (const auto& [name, map] : exemplar.maps) {
+    if (!(map.weight > 0.0f)) continue;
+    for (const int size : {map.image.width, map.image.height, map.image.channels}) settings.push_back(size);
+    settings.push_back(bits(map.weight));
+    data.emplace_back(map.image.data);
   }
-  std::vector<Image> images = made();
-  std::vector<char> bytes;
-  for (const Image& image : images) eachPart(image, ByteWriter{bytes});
-  writeKept(cache, name, std::move(bytes));
-  return images;
+  return keptName(".match", settings, data);
 }
 
-// Lanes of a texel that colours, guidance and the two found channels leave.
-int lanesForMaps(const Exemplar& exemplar, const SynthesisOptions& synthesis) {
-  return kMaxChannels - exemplar.colorChannels - exemplar.guided - (synthesis.featureWeight > 0.0) -
-         (synthesis.gradientWeight > 0.0);
+// makeMatch(), or what an earlier run has kept of it.
+void keptOrMadeMatch(Exemplar& exemplar, Image guidance, const SynthesisOptions& synthesis, int levels,
+                     const CacheFolder& cache) {
+  if (cache.path.empty()) return makeMatch(exemplar, std::move(guidance), synthesis, levels);
+  const auto eachPart = [](auto& result, const auto& visit) {
+    visit(result.mapChannels), visit(result.mapShare);
+    for (auto& image : result.match)
+      visit(image.width), visit(image.height), visit(image.channels), visit(image.data);
+  };
+  const std::string name = nameOfMatch(exemplar, guidance, synthesis, levels);
+  if (const auto kept = readKept(cache, name)) {
+    exemplar.match.resize(std::size_t(levels));
+    const char* at = kept->data.get();
+    return eachPart(exemplar, ByteReader{at});
+  }
+  makeMatch(exemplar, std::move(guidance), synthesis, levels);
+  std::vector<char> bytes;
+  eachPart(exemplar, ByteWriter{bytes});
+  writeKept(cache, name, std::move(bytes));
 }
 
 Exemplar prepare(Image color, Image guidance, std::map<std::string, ExemplarMap> maps, bool toroidal,
@@ -166,16 +181,12 @@ Exemplar prepare(Image color, Image guidance, std::map<std::string, ExemplarMap>
   exemplar.colorChannels = least < most ? 4 : 3;
   exemplar.guided = !guidance.data.empty();
   exemplar.guidanceWeight = float(synthesis.guidanceWeight);
-  MatchedMaps matched;
-  if (std::any_of(maps.begin(), maps.end(), [](const auto& map) { return map.second.weight > 0.0f; }))
-    matched = matchedMaps(maps, color, encodedColors(premultipliedColors(color), exemplar.colorChannels),
-                          toroidal, lanesForMaps(exemplar, synthesis));
-  exemplar.mapChannels = matched.image.channels;
-  exemplar.mapsKept = matched.kept;
-  exemplar.maps = std::move(maps);
-  exemplar.match = keptMatchImages(color, exemplar.colorChannels, std::move(guidance),
-                                   std::move(matched.image), toroidal, synthesis, std::max(levels, 1), cache);
   exemplar.color = std::move(color);
+  exemplar.maps = std::move(maps);
+  // Colours that are carried have no maps beside them.
+  if (synthesis.method != Method::coordinates)
+    for (auto& [own, map] : exemplar.maps) map.weight = 0.0f;
+  keptOrMadeMatch(exemplar, std::move(guidance), synthesis, std::max(levels, 1), cache);
   return exemplar;
 }
 

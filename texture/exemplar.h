@@ -27,12 +27,6 @@ void sampleBilinear(const Image& image, bool toroidal, const Vec2f& texel, float
 // not ring.
 void sampleCubic(const Image& image, bool toroidal, const Vec2f& texel, float* out);
 
-// Numbers or vectors over the same picture, ready to be looked up at vertices.
-struct ExemplarMap {
-  Image image;
-  MapHolds holds = MapHolds::values;
-  float weight = 0.0f;  // in matching, see MapOptions
-};
 // The same of RGBA with straight alpha, premultiplied before it is interpolated, so that it does not matter
 // what colour a transparent texel has; straight() takes alpha out again, and leaves black where there is
 // none.
@@ -42,6 +36,13 @@ inline Vec4f straight(const Vec4f& premultiplied) {
   if (!(alpha > 1e-6f)) return Vec4f(0.0f);
   return {premultiplied[0] / alpha, premultiplied[1] / alpha, premultiplied[2] / alpha, alpha};
 }
+
+// Numbers or vectors over the same picture, ready to be looked up at vertices.
+struct ExemplarMap {
+  Image image;
+  MapHolds holds = MapHolds::values;
+  float weight = 0.0f;  // in matching, see MapOptions
+};
 
 struct Exemplar {
   bool toroidal = false;
@@ -60,7 +61,7 @@ struct Exemplar {
   // channels of `match` those of weight have become (texture/matched_maps.h).
   std::map<std::string, ExemplarMap> maps;
   int mapChannels = 0;
-  double mapsKept = 1.0;  // MatchedMaps::kept
+  double mapShare = 1.0;  // MatchedMaps::share
 };
 
 // The input is wrong; the message is one sentence that names the file.
@@ -76,7 +77,9 @@ struct ExemplarError : std::runtime_error {
 Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels,
                       const CacheFolder& cache = {});
 
-// The same from pixels in memory (linear RGBA); guidance: one channel, 0..1, of the same size, or empty.
+// The same from pixels in memory (linear RGBA); guidance: one channel, 0..1, of the same size, or empty;
+// maps: by name, of any size. Throws std::invalid_argument where the image is not RGBA, or a map of weight
+// holds vectors.
 Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
                       Image guidance = {}, const CacheFolder& cache = {},
                       std::map<std::string, ExemplarMap> maps = {});

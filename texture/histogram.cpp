@@ -72,6 +72,17 @@ HistogramTarget makeHistogramTarget(const TexelImage& image) {
   target.low = low;
   for (int c = 0; c < kMaxChannels; ++c)
     target.scale[c] = high[c] > low[c] ? float(kHistogramBins) / (high[c] - low[c]) : 0.0f;
+  const auto variance = [&](int c) {
+    Float8 only{};
+    only[c] = 1.0f;
+    const float difference = randomDifference(image, only);
+    return 0.5f * difference * difference;
+  };
+  target.counts.fill(1.0f);
+  for (int c = image.firstMap; c < image.firstMap + image.maps; ++c) {
+    const float colors = (variance(0) + variance(1) + variance(2)) / 3.0f;
+    target.counts[std::size_t(c)] = std::min(1.0f, variance(c) / std::max(colors, 1e-12f));
+  }
   target.bins.resize(image.data.size());
   forEachIndex(target.bins.size(), [&](std::uint32_t i) { target.bins[i] = binsOf(target, image.at(i)); });
   const std::size_t width = std::size_t(image.width), count = width * std::size_t(image.height);
@@ -116,8 +127,8 @@ HistogramWeights::HistogramWeights(const HistogramTarget& target, const Histogra
   for (int c = 0; c < image.channels; ++c)
     for (int b = 0; b < kHistogramBins; ++b)
       if (c != image.guide)
-        m_excess[c][b] =
-            float(strength * kHistogramBins) * std::max(0.0f, surface.share[c][b] - expected.share[c][b]);
+        m_excess[c][b] = float(strength * kHistogramBins) * target.counts[std::size_t(c)] *
+                         std::max(0.0f, surface.share[c][b] - expected.share[c][b]);
   if (reads < m_bins.size()) return;
   m_all.resize(m_bins.size());
   forEachIndex(m_all.size(), [&](std::uint32_t i) { m_all[i] = of(m_bins[i]); });

@@ -25,6 +25,9 @@ using Bins = std::array<std::uint8_t, kMaxChannels>;
 struct HistogramTarget {
   Float8 low{}, scale{};  // bin = clamp((value - low) * scale)
   Histogram exemplar;
+  // How much a channel counts: 1; of matched maps, whose amplitude is a matter of choice, its variance in
+  // mean colour channels', 1 at most.
+  std::array<float, kMaxChannels> counts{};
   std::vector<Bins> bins;  // of every texel of image.data
 };
 
@@ -36,8 +39,8 @@ Histogram histogramOf(const HistogramTarget& target, const Values& values, int c
 Histogram expectedHistogram(const HistogramTarget& target, const TexelImage& image, const Demand& demand);
 
 // For texel i of image.data: 1 / (1 + strength * excess), where excess sums over the channels by how much the
-// surface's share of the texel's bin exceeds the expected one, in mean shares (1 / kHistogramBins). The
-// guidance map is left out. Refers to the target.
+// surface's share of the texel's bin exceeds the expected one, in mean shares (1 / kHistogramBins), times
+// what the channel counts. The guidance map is left out. Refers to the target.
 class HistogramWeights {
  public:
   // reads: about how many will be asked for; if fewer than there are texels, each is found when it is.

@@ -45,7 +45,7 @@ void trim(const fs::path& folder) {
 }  // namespace
 
 std::string keptName(const std::string& kind, std::span<const std::int64_t> settings,
-                     std::initializer_list<std::span<const float>> data) {
+                     std::span<const std::span<const float>> data) {
   XXH3_state_t state;
   XXH3_128bits_reset_withSeed(&state, XXH3_64bits(settings.data(), settings.size_bytes()));
   for (const std::span<const float>& part : data) {

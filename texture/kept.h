@@ -25,7 +25,7 @@ struct CacheFolder {
 
 // A file's name: the hash of settings and data (128 bits, hexadecimal), then `kind`, its ending.
 std::string keptName(const std::string& kind, std::span<const std::int64_t> settings,
-                     std::initializer_list<std::span<const float>> data);
+                     std::span<const std::span<const float>> data);
 
 struct KeptBytes {
   std::unique_ptr<char[]> data;

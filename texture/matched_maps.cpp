@@ -15,71 +15,96 @@
 namespace fluidtex::texture {
 namespace {
 
-// Plain colours have no differences that a map's could be measured by: it counts at least as much as colours
-// whose channels deviate by a tenth.
-constexpr double kLeastColorVariance = 3 * 0.1 * 0.1;
+// Below this the colours are plain, and no map can be measured by their differences.
+constexpr double kLeastColorVariance = 3 * 0.02 * 0.02;
+// Of its mean square, a map's variance below this is rounding.
+constexpr double kRounding = 1e-10;
+// A component with less of all differences is not worth a channel.
+constexpr double kLeastShare = 1e-4;
 
-// One row a texel, one column a number.
-using Numbers = Eigen::MatrixXf;
-
-// Of all columns together, about their means.
-double variance(const Numbers& numbers) {
-  const Eigen::MatrixXd centered = numbers.cast<double>().rowwise() - numbers.cast<double>().colwise().mean();
-  return centered.squaredNorm() / double(numbers.rows());
+std::size_t pixelsOf(const Image& image) {
+  return std::size_t(image.width) * std::size_t(image.height);
 }
 
-Numbers numbersOf(const Image& image) {
-  Numbers result(Eigen::Index(image.width) * image.height, image.channels);
-  for (Eigen::Index i = 0; i < result.rows(); ++i)
-    for (int c = 0; c < image.channels; ++c) result(i, c) = image.data[std::size_t(i * image.channels + c)];
+struct Moments {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
+};
+
+// Of the channels; each pixel counts as often as weight(pixel) says.
+template <typename Weight>
+Moments momentsOf(const Image& image, const Weight& weight) {
+  const auto channels = std::size_t(image.channels);
+  Moments result{Eigen::VectorXd::Zero(image.channels),
+                 Eigen::MatrixXd::Zero(image.channels, image.channels)};
+  double all = 0.0;
+  for (std::size_t i = 0; i < pixelsOf(image); ++i) {
+    const double w = weight(i);
+    all += w;
+    for (std::size_t c = 0; c < channels; ++c)
+      result.mean[Eigen::Index(c)] += w * image.data[i * channels + c];
+  }
+  result.mean /= std::max(all, 1e-12);
+  std::vector<double> off(channels);
+  for (std::size_t i = 0; i < pixelsOf(image); ++i) {
+    const double w = weight(i);
+    for (std::size_t c = 0; c < channels; ++c)
+      off[c] = image.data[i * channels + c] - result.mean[Eigen::Index(c)];
+    for (std::size_t c = 0; c < channels; ++c)
+      for (std::size_t d = 0; d <= c; ++d)
+        result.covariance(Eigen::Index(c), Eigen::Index(d)) += w * off[c] * off[d];
+  }
+  result.covariance /= std::max(all, 1e-12);
+  result.covariance = result.covariance.selfadjointView<Eigen::Lower>();
   return result;
 }
 
 // What a vertex that shows a texel's centre is given of the map.
-Numbers readAtTexels(const Image& map, const Image& color, bool toroidal) {
+Image readAtTexels(const Image& map, const Image& color, bool toroidal) {
+  if (map.width == color.width && map.height == color.height) return map;
   const TexelToImage toMap(color.width, color.height, map);
-  Numbers result(Eigen::Index(color.width) * color.height, map.channels);
+  Image result{color.width, color.height, map.channels, {}};
+  result.data.resize(pixelsOf(color) * std::size_t(map.channels));
   tbb::parallel_for(0, color.height, [&](int y) {
-    std::vector<float> value(std::size_t(map.channels));
-    for (int x = 0; x < color.width; ++x) {
-      sampleCubic(map, toroidal, toMap({float(x), float(y)}), value.data());
-      for (int c = 0; c < map.channels; ++c)
-        result(Eigen::Index(y) * color.width + x, c) = value[std::size_t(c)];
-    }
+    for (int x = 0; x < color.width; ++x)
+      sampleCubic(map, toroidal, toMap({float(x), float(y)}), result.at(x, y));
   });
   return result;
 }
 
-// About the mean of what is seen, which takes the place of what is not.
-void centerWhereSeen(const Eigen::VectorXf& alpha, Numbers& numbers) {
-  const double seen = std::max(alpha.cast<double>().sum(), 1e-12);
-  const Eigen::RowVectorXd mean = alpha.cast<double>().transpose() * numbers.cast<double>() / seen;
-  numbers.rowwise() -= mean.cast<float>();
-  numbers.array().colwise() *= alpha.array();
-}
-
-// The first `most` principal components of centred numbers, and the share of the variance that they hold.
-std::pair<Numbers, double> reduced(const Numbers& numbers, int most) {
-  if (numbers.cols() <= most) return {numbers, 1.0};
-  const Eigen::MatrixXd all = numbers.cast<double>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(all.transpose() * all);  // ascending
-  Eigen::MatrixXd axes = solver.eigenvectors().rightCols(most).rowwise().reverse();
-  for (Eigen::Index k = 0; k < axes.cols(); ++k) {
-    Eigen::Index largest = 0;
-    axes.col(k).cwiseAbs().maxCoeff(&largest);
-    if (axes(largest, k) < 0.0) axes.col(k) *= -1.0;  // a solver is free to choose the sign
+// The channels of all maps of weight, centred and scaled.
+Image weighted(const std::map<std::string, ExemplarMap>& maps, const Image& color, double colorVariance,
+               bool toroidal) {
+  const auto alpha = [&](std::size_t i) { return double(color.data[4 * i + 3]); };
+  std::vector<Image> parts;
+  Image all{color.width, color.height, 0, {}};
+  for (const auto& [name, map] : maps) {
+    if (!(map.weight > 0.0f)) continue;
+    if (map.holds != MapHolds::values)
+      throw std::invalid_argument("matchedMaps: " + name + " holds vectors, which turn with the texture");
+    if (map.image.data.empty()) throw std::invalid_argument("matchedMaps: " + name + " has no pixels");
+    Image part = readAtTexels(map.image, color, toroidal);
+    const Moments moments = momentsOf(part, alpha);
+    const double variance = moments.covariance.trace();
+    if (!(variance > kRounding * (moments.mean.squaredNorm() + variance))) continue;
+    // The variance of all texels, of which those that are not seen have none, is to be weight times the
+    // colours'.
+    double seen = 0.0;
+    for (std::size_t i = 0; i < pixelsOf(color); ++i) seen += alpha(i) * alpha(i);
+    const double scale = std::sqrt(map.weight * colorVariance / (variance * seen / double(pixelsOf(color))));
+    const auto channels = std::size_t(part.channels);
+    for (std::size_t i = 0; i < part.data.size(); ++i)
+      part.data[i] =
+          float((part.data[i] - moments.mean[Eigen::Index(i % channels)]) * scale * alpha(i / channels));
+    all.channels += part.channels;
+    parts.push_back(std::move(part));
   }
-  const double sum = solver.eigenvalues().cwiseMax(0.0).sum();
-  const double held = solver.eigenvalues().tail(most).cwiseMax(0.0).sum();
-  return {(all * axes).cast<float>(), sum > 0.0 ? held / sum : 1.0};
-}
-
-Image imageOf(const Numbers& numbers, const Image& color) {
-  Image result{color.width, color.height, int(numbers.cols()), {}};
-  result.data.reserve(std::size_t(numbers.size()));
-  for (Eigen::Index i = 0; i < numbers.rows(); ++i)
-    for (Eigen::Index c = 0; c < numbers.cols(); ++c) result.data.push_back(numbers(i, c));
-  return result;
+  all.data.reserve(pixelsOf(color) * std::size_t(all.channels));
+  for (int y = 0; y < all.height; ++y)
+    for (int x = 0; x < all.width; ++x)
+      for (const Image& part : parts)
+        all.data.insert(all.data.end(), part.at(x, y), part.at(x, y) + part.channels);
+  return all;
 }
 
 }  // namespace
@@ -87,24 +112,33 @@ Image imageOf(const Numbers& numbers, const Image& color) {
 MatchedMaps matchedMaps(const std::map<std::string, ExemplarMap>& maps, const Image& color,
                         const Image& encoded, bool toroidal, int most) {
   if (most < 1) throw std::invalid_argument("matchedMaps: there is no channel for them");
-  Numbers all(Eigen::Index(color.width) * color.height, 0);
-  const Eigen::VectorXf alpha = numbersOf(color).col(3);
-  const double colors = std::max(variance(numbersOf(encoded)), kLeastColorVariance);
-  for (const auto& [name, map] : maps) {
-    if (!(map.weight > 0.0f)) continue;
-    if (map.holds != MapHolds::values)
-      throw std::invalid_argument("matchedMaps: " + name + " holds vectors, which turn with the texture");
-    Numbers numbers = readAtTexels(map.image, color, toroidal);
-    centerWhereSeen(alpha, numbers);
-    const double own = variance(numbers);
-    if (!(own > 1e-12)) continue;  // the same everywhere
-    const Eigen::Index before = all.cols();
-    all.conservativeResize(Eigen::NoChange, before + numbers.cols());
-    all.rightCols(numbers.cols()) = float(std::sqrt(map.weight * colors / own)) * numbers;
+  const auto once = [](std::size_t) { return 1.0; };
+  const double colors = std::max(momentsOf(encoded, once).covariance.trace(), kLeastColorVariance);
+  const Image all = weighted(maps, color, colors, toroidal);
+  if (all.channels == 0) return {};
+
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(momentsOf(all, once).covariance);
+  const Eigen::VectorXd held = solver.eigenvalues().cwiseMax(0.0).reverse();  // falling
+  const double sum = held.sum();
+  int count = 0;
+  while (count < std::min(most, all.channels) && held[count] > kLeastShare * sum) ++count;
+  Eigen::MatrixXd axes = solver.eigenvectors().rightCols(count).rowwise().reverse();
+  for (Eigen::Index k = 0; k < axes.cols(); ++k) {
+    Eigen::Index largest = 0;
+    axes.col(k).cwiseAbs().maxCoeff(&largest);
+    if (axes(largest, k) < 0.0) axes.col(k) *= -1.0;  // a solver is free to choose the sign
   }
-  if (all.cols() == 0) return {};
-  const auto [channels, kept] = reduced(all, most);
-  return {imageOf(channels, color), kept};
+  MatchedMaps result{{color.width, color.height, count, {}}, held.head(count).sum() / sum};
+  result.image.data.resize(pixelsOf(color) * std::size_t(count));
+  tbb::parallel_for(0, color.height, [&](int y) {
+    for (int x = 0; x < color.width; ++x)
+      for (int k = 0; k < count; ++k) {
+        double value = 0.0;
+        for (int c = 0; c < all.channels; ++c) value += axes(c, k) * all.at(x, y)[c];
+        result.image.at(x, y)[k] = float(value);
+      }
+  });
+  return result;
 }
 
 }  // namespace fluidtex::texture

@@ -145,7 +145,7 @@ struct MapOptions {
   std::string name;  // of a vertex's property in the PLY
   std::filesystem::path file;
   MapHolds holds = MapHolds::values;
-  double weight = 0.0;  // in matching: 1 as much as the colours; 0 it is only looked up
+  double weight = 0.0;  // in matching: 1 counts as much as the colours; 0 is only looked up
 };
 
 struct ExemplarOptions {

@@ -108,6 +108,8 @@ Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options, 
     texels.ways = options.ways;
     texels.guide = synthesizer.exemplar.guided ? colors : -1;
     texels.guidanceWeight = synthesizer.exemplar.guidanceWeight;
+    texels.firstMap = colors + (synthesizer.exemplar.guided ? 1 : 0);
+    texels.maps = synthesizer.exemplar.mapChannels;
     synthesizer.tables->histogram.push_back(makeHistogramTarget(texels));
     synthesizer.tables->seamUnit.push_back(seamUnit(texels, seamChannels(synthesizer)));
     synthesizer.tables->image.push_back(std::move(texels));

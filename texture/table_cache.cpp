@@ -29,7 +29,8 @@ SearchTable cachedSearchTable(const Image& match, bool toroidal, int window, std
   if (!folder.path.empty()) {
     const std::int64_t settings[] = {kVersion, match.width, match.height,    match.channels,    toroidal,
                                      window,   similar,     kDescriptorSize, std::int64_t(seed)};
-    name = keptName(".table", settings, {match.data});
+    const std::span<const float> pixels[] = {match.data};
+    name = keptName(".table", settings, pixels);
     if (const auto kept = readKept(folder, name)) {
       const char* at = kept->data.get();
       eachPart(table, ByteReader{at});

@@ -22,6 +22,7 @@ struct TexelImage {
   Ways ways;                    // in which it may be laid
   int guide = -1;               // the channel of the guidance map, where there is one
   float guidanceWeight = 1.0f;  // by whose root it is multiplied
+  int firstMap = 0, maps = 0;   // the channels of matched maps
   std::vector<Half8> data;      // rows from the top, margins included
 
   Float8 at(std::size_t texel) const { return widened(data[texel]); }

@@ -54,13 +54,19 @@ void check(const CommonOptions& options) {
       points < kFewExemplars * pixels ? "; more points, or a smaller image, would show more of it" : "");
   fmt::print("guidance  {}\n",
              exemplar.guided ? scene.texture.exemplar.guidance.string() : std::string("none"));
-  for (const texture::MapOptions& map : scene.texture.exemplar.maps)
+  for (const texture::MapOptions& map : scene.texture.exemplar.maps) {
+    const bool matched = map.weight > 0.0 && exemplar.mapChannels > 0;
     fmt::print("map       {}, {}\n", map.name,
-               map.weight > 0.0 ? fmt::format("matched with weight {:g}", map.weight) : "looked up");
+               matched ? fmt::format("matched with weight {:g}", map.weight)
+               : map.weight > 0.0
+                   ? "looked up: matched it would be by method = \"coordinates\", if it were not "
+                     "the same everywhere"
+                   : "looked up");
+  }
   if (exemplar.mapChannels > 0)
     fmt::print("matching  maps take {} channel{}, which hold{} {:.0f}% of their differences\n",
                exemplar.mapChannels, exemplar.mapChannels > 1 ? "s" : "", exemplar.mapChannels > 1 ? "" : "s",
-               100.0 * exemplar.mapsKept);
+               100.0 * exemplar.mapShare);
   fmt::print("pictures  {} x {}, {} paths a pixel\n", scene.render.width, scene.render.height,
              scene.render.samples);
   const double bytes =

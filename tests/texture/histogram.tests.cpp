@@ -64,3 +64,19 @@ TEST_CASE("histogram: a plain image is no trouble") {
                                  0);
   for (std::size_t i = 0; i < image.data.size(); ++i) CHECK(weights[i] == 1.0f);
 }
+
+TEST_CASE("histogram: a matched map counts by its share of the differences, at most as a colour") {
+  const auto counts = [](float amplitude) {
+    const Image picture = imageOf(32, 32, 4, [&](int x, int y, int c) {
+      const auto value = float(randomUnit(std::uint64_t(c) + 1, std::uint64_t(y * 32 + x)));
+      return c == 3 ? amplitude * value : value;
+    });
+    TexelImage image = makeTexelImage(picture, false, 4);
+    image.firstMap = 3, image.maps = 1;
+    return makeHistogramTarget(image).counts;
+  };
+  CHECK(counts(0.1f)[3] == Approx(0.01).epsilon(0.1));
+  CHECK(counts(1e-4f)[3] < 1e-6f);
+  CHECK(counts(2.0f)[3] == 1.0f);
+  CHECK(counts(0.1f)[2] == 1.0f);
+}

@@ -182,6 +182,7 @@ TEST_CASE("table cache: maps that are matched make it another image, by their pi
         CHECK(kept.match[0].data == plain.match[0].data);
         CHECK(kept.match[1].data == plain.match[1].data);
         CHECK(kept.mapChannels == 1);
+        CHECK(kept.mapShare == plain.mapShare);
       }
       CHECK(tablesIn(scratch.path).size() == ++files);
     }
