@@ -260,6 +260,7 @@ void buildWorld(World& world, const texture::TexturedSurface& surface, const std
 
   Stage& stage = world.stage;
   stage.liquid = &surface;
+  stage.colorBetween = view.colorBetween;
   stage.meshes = surroundingMeshes(options.surroundings, view.domainSize);
   for (const Solid& solid : solids)
     stage.meshes.push_back({MeshKind::matt, solid.positions, solid.triangles, Vec3f(solid.color)});

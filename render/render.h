@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace fluidtex::render {
@@ -22,11 +23,16 @@ struct Solid {
   Vec3d color;  // linear
 };
 
+// Linear RGBA, straight alpha, of the liquid inside a triangle, at barycentric weights; nothing where its
+// vertices' colours hold. Called from any thread.
+using ColorBetween = std::function<std::optional<texture::Vec4f>(std::uint32_t, const texture::Vec3f&)>;
+
 struct View {
   Vec3d domainSize;  // the domain is [0, domainSize]; tank and ground are built around it
   // 0 at the first, 1 at the last frame of the animation: where a turning camera stands
   double progress = 0.0;
-  int frame = 1;  // keys the random numbers
+  int frame = 1;              // keys the random numbers
+  ColorBetween colorBetween;  // empty: colours of the liquid's vertices, interpolated
 };
 
 // Same input, same bytes, on any number of threads. An empty surface gives a picture of the surroundings.

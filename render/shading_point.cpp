@@ -43,7 +43,11 @@ Vec3f facing(const Vec3f& normal, const Vec3f& toViewer) {
 
 }  // namespace
 
-Vec4f liquidColor(const texture::TexturedSurface& liquid, std::uint32_t triangle, const Vec3f& weights) {
+Vec4f liquidColor(const Stage& stage, std::uint32_t triangle, const Vec3f& weights) {
+  const texture::TexturedSurface& liquid = *stage.liquid;
+  if (stage.colorBetween) {
+    if (const auto color = stage.colorBetween(triangle, weights)) return *color;
+  }
   if (liquid.color.empty()) return Vec4f(kPlain[0], kPlain[1], kPlain[2], 1.0f);
   // Weighted by alpha: what colour a see-through corner has does not matter.
   const texture::Vec3I& corner = liquid.triangles[triangle];
@@ -59,7 +63,7 @@ Vec4f liquidColor(const texture::TexturedSurface& liquid, std::uint32_t triangle
 
 float liquidOpacity(const Stage& stage, const Ray& ray) {
   if (ray.geometry != kLiquid) return 1.0f;
-  return liquidColor(*stage.liquid, ray.triangle, Vec3f(1.0f - ray.u - ray.v, ray.u, ray.v))[3];
+  return liquidColor(stage, ray.triangle, Vec3f(1.0f - ray.u - ray.v, ray.u, ray.v))[3];
 }
 
 ShadingPoint shadingPoint(const Stage& stage, const Ray& ray) {
@@ -74,7 +78,7 @@ ShadingPoint shadingPoint(const Stage& stage, const Ray& ray) {
   Vec3f lift(0.0f);
   if (ray.geometry == kLiquid) {
     const texture::TexturedSurface& liquid = *stage.liquid;
-    const Vec4f color = liquidColor(liquid, ray.triangle, c.weights);
+    const Vec4f color = liquidColor(stage, ray.triangle, c.weights);
     for (int k = 0; k < 3; ++k) point.material.base[k] = std::clamp(color[k], 0.0f, 1.0f);
     point.material.gloss = stage.gloss;
     point.material.roughness = stage.roughness;

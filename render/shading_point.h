@@ -4,6 +4,7 @@
 #include "render/embree_scene.h"
 #include "render/material.h"
 #include "render/options.h"
+#include "render/render.h"
 
 namespace fluidtex::render {
 
@@ -15,6 +16,7 @@ struct Stage {
   Vec3f domainSize{1.0f};
   float gloss = 1.0f, roughness = 0.05f;  // of the liquid's coat
   bool seeThrough = false;                // some of the liquid has alpha < 1
+  ColorBetween colorBetween;              // see View
 };
 
 inline constexpr std::uint32_t kLiquid = 0;  // the liquid's geometry number; mesh i has i + 1
@@ -29,7 +31,7 @@ struct ShadingPoint {
 };
 
 // Linear colour and alpha of the liquid inside a triangle, at barycentric weights.
-Vec4f liquidColor(const texture::TexturedSurface& liquid, std::uint32_t triangle, const Vec3f& weights);
+Vec4f liquidColor(const Stage& stage, std::uint32_t triangle, const Vec3f& weights);
 
 // Of the hit alone: 1 except on liquid with alpha below 1.
 float liquidOpacity(const Stage& stage, const Ray& ray);

@@ -67,9 +67,10 @@ std::vector<Node> readOverrides(const Overrides& overrides, Faults& faults) {
       return Node{Table{{"texture", Node{Table{{key, Node{value, origin}}}, origin}}}, origin};
     };
     layers.push_back(layer("exemplar", name));
-    // Whether it wraps, and the maps over it, were said of the scene's own picture; --set may say it of this
-    // one.
-    layers.insert(layers.begin(), {layer("toroidal", false), layer("map", List{})});
+    // Whether it wraps, the maps over it and a finer picture were said of the scene's own picture; --set may
+    // say it of this one.
+    layers.insert(layers.begin(),
+                  {layer("toroidal", false), layer("map", List{}), layer("between", std::string("points"))});
     const auto givesMap = [](const std::string& assignment) {
       return assignment.starts_with("texture.guidance.map");
     };

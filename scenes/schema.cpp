@@ -177,6 +177,11 @@ void describeTexture(Visitor& visitor, Scene& scene) {
       [&] {
         visitor.file("exemplar", texture.exemplar.file, {});
         visitor.flag("toroidal", texture.exemplar.toroidal);
+        choice(visitor, "between", texture.exemplar.between, {"points", "exemplar", "file"});
+        if (texture.exemplar.between == texture::Between::file)
+          visitor.file("between_file", texture.exemplar.betweenFile, {});
+        else
+          visitor.absent("between_file");
         const bool spacingGiven =
             visitor.alternative(texture.spacing > 0.0, kDensityKeys, Need::optional) == 1;
         if (spacingGiven) {

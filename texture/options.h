@@ -148,11 +148,20 @@ struct MapOptions {
   double weight = 0.0;  // in matching: 1 counts as much as the colours; 0 is only looked up
 };
 
+// What pictures show between the points.
+enum class Between {
+  points,    // their colours, interpolated
+  exemplar,  // the exemplar, looked up at every place
+  file,      // the same picture in another resolution
+};
+
 struct ExemplarOptions {
   std::filesystem::path file;
   bool toroidal = false;           // its left edge continues at its right, its top at its bottom
   std::filesystem::path guidance;  // an image of its size, read as numbers 0..1; empty: none
   std::vector<MapOptions> maps;
+  Between between = Between::points;
+  std::filesystem::path betweenFile;
 };
 
 struct Options {

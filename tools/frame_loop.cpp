@@ -8,6 +8,7 @@
 #include "texture/synthesize.h"
 #include "tools/atomic_file.h"
 #include "tools/cache_folder.h"
+#include "tools/color_between.h"
 #include "tools/earlier_run.h"
 #include "tools/errors.h"
 #include "tools/onto_mesh.h"
@@ -79,6 +80,7 @@ class FrameLoop {
         m_scale(textureScale(scene)),
         m_guidance(textureGuidance(scene)),
         m_solids(scene.sim) {
+    if (options.render) m_detail = detailOf(scene);
     m_surface.spacing = scene.texture.spacing;
     m_report.scene = Json::parse(scene.resolved);
     m_report.seed = scene.seed;
@@ -211,8 +213,10 @@ class FrameLoop {
       {
         Stopwatch watch(seconds.render);
         const double progress = m_scene.frames > 1 ? double(motion.index - 1) / (m_scene.frames - 1) : 0.0;
-        picture = render::render(m_surface, m_solids.at(motion.time), m_scene.render,
-                                 {m_scene.sim.size, progress, motion.index}, reporter("render"));
+        picture =
+            render::render(m_surface, m_solids.at(motion.time), m_scene.render,
+                           {m_scene.sim.size, progress, motion.index, colorBetween(m_detail, m_surface)},
+                           reporter("render"));
       }
       Stopwatch watch(seconds.write);
       writeAtomically(m_options.out / "frames" / (name + ".png"),
@@ -290,6 +294,7 @@ class FrameLoop {
   std::optional<sim::Motion> m_motion;
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
   VisibleSolids m_solids;
+  std::optional<texture::Detail> m_detail;
   Report m_report;
   Progress* m_progress = nullptr;
 };

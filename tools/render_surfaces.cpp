@@ -1,7 +1,9 @@
 // fluidtex render SCENE --from DIR: pictures and video of surfaces that are there already.
 #include "render/frame_name.h"
 #include "render/render.h"
+#include "texture/read_image.h"
 #include "tools/atomic_file.h"
+#include "tools/color_between.h"
 #include "tools/common_options.h"
 #include "tools/errors.h"
 #include "tools/ply.h"
@@ -32,12 +34,16 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
       tbb::global_control::max_allowed_parallelism,
       std::size_t(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()));
   VisibleSolids solids(scene.sim);
+  const std::optional<texture::Detail> detail = detailOf(scene);
+  // Coordinates count in pixels of the exemplar, whose size does not matter to vertices' colours.
+  texture::Image exemplar{.width = 1, .height = 1};
+  if (detail) exemplar = texture::readImage(scene.texture.exemplar.file);
   for (int frame = first; frame <= last; ++frame) {
-    // The size of the exemplar does not matter to colours.
-    const texture::TexturedSurface surface = readPly(surfaceOf(frame), 1, 1);
+    const texture::TexturedSurface surface = readPly(surfaceOf(frame), exemplar.width, exemplar.height);
     const double progress = scene.frames > 1 ? double(frame - 1) / (scene.frames - 1) : 0.0;
-    const render::Picture picture = render::render(surface, solids.at((frame - 1) / scene.sim.frameRate),
-                                                   scene.render, {scene.sim.size, progress, frame});
+    const render::Picture picture =
+        render::render(surface, solids.at((frame - 1) / scene.sim.frameRate), scene.render,
+                       {scene.sim.size, progress, frame, colorBetween(detail, surface)});
     writeAtomically(out / "frames" / (render::frameName(frame) + ".png"),
                     [&](const fs::path& file) { writePng(picture, file); });
     if (!options.quiet) fmt::print(stderr, "frame {}\n", frame);

@@ -91,7 +91,22 @@ TEST_CASE("shading point: opacity is the liquid's alpha, 1 for solids, and fades
 TEST_CASE("shading point: the colour of a corner that is not there does not show", "[render]") {
   auto ball = fluidtex::render::shapes::sphere(Vec3f(0.0f), 1.0f, 0, Vec4f(0.2f, 0.4f, 0.6f, 1.0f));
   ball.color[ball.triangles[0][1]] = Vec4f(1.0f, 0.0f, 1.0f, 0.0f);
-  const Vec4f inside = liquidColor(ball, 0, Vec3f(0.25f, 0.5f, 0.25f));
+  Stage stage;
+  stage.liquid = &ball;
+  const Vec4f inside = liquidColor(stage, 0, Vec3f(0.25f, 0.5f, 0.25f));
   REQUIRE((inside - Vec4f(0.2f, 0.4f, 0.6f, 0.5f)).length() < 1e-6f);
-  REQUIRE(liquidColor(ball, 0, Vec3f(0.0f, 1.0f, 0.0f))[3] == 0.0f);
+  REQUIRE(liquidColor(stage, 0, Vec3f(0.0f, 1.0f, 0.0f))[3] == 0.0f);
+}
+
+TEST_CASE("shading point: what is looked up between vertices goes before their colours", "[render]") {
+  const auto ball = fluidtex::render::shapes::sphere(Vec3f(0.0f), 1.0f, 0, Vec4f(0.2f, 0.4f, 0.6f, 1.0f));
+  Stage stage;
+  stage.liquid = &ball;
+  stage.colorBetween = [](std::uint32_t triangle, const Vec3f& weights) -> std::optional<Vec4f> {
+    if (triangle != 1) return std::nullopt;
+    return Vec4f(weights[0], weights[1], weights[2], 0.5f);
+  };
+  REQUIRE(liquidColor(stage, 0, Vec3f(0.25f, 0.5f, 0.25f)) == Vec4f(0.2f, 0.4f, 0.6f, 1.0f));
+  REQUIRE(liquidColor(stage, 1, Vec3f(0.25f, 0.5f, 0.25f)) == Vec4f(0.25f, 0.5f, 0.25f, 0.5f));
+  REQUIRE(liquidOpacity(stage, hitOn(kLiquid, 1, 0.5f, 0.25f, Vec3f(0.0f, 0.0f, -1.0f))) == 0.5f);
 }

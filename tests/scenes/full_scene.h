@@ -129,6 +129,8 @@ until = 2
 [texture]
 exemplar = "e.png"
 toroidal = true
+between = "file"
+between_file = "e.png"
 points = 1234
 method = "kwatra07"
 later_frames = "advect"

@@ -317,7 +317,8 @@ TEST_CASE("scene: the resolved scene is the same wherever the file is named from
   Overrides exemplar;
   exemplar.exemplar = "../e.png";
   // Guidance and maps are of the scene's own exemplar, and left out with another.
-  exemplar.set = {"texture.toroidal=true", "texture.guidance.by=field",
+  exemplar.set = {"texture.toroidal=true", "texture.between=file", "texture.between_file=../e.png",
+                  "texture.guidance.by=field",
                   "texture.map=[{ name = 'height', file = '../e.png', holds = 'normals' }, "
                   "{ name = 'bumps', file = '../e.png', weight = 0.5 }]"};
   const std::string relative = loadScene("../s.toml").resolved,
