@@ -267,8 +267,8 @@ void buildWorld(World& world, const texture::TexturedSurface& surface, const std
   stage.domainSize = Vec3f(view.domainSize);
   stage.gloss = std::clamp(static_cast<float>(options.gloss), 0.0f, 1.0f);
   stage.roughness = std::clamp(static_cast<float>(options.roughness), 0.005f, 1.0f);
-  stage.seeThrough = std::any_of(surface.color.begin(), surface.color.end(),
-                                 [](const Vec4f& color) { return color[3] < 1.0f; });
+  stage.seeThrough = view.seeThrough || std::any_of(surface.color.begin(), surface.color.end(),
+                                                    [](const Vec4f& color) { return color[3] < 1.0f; });
 
   world.scene.add(surface.positions, surface.triangles);
   for (const Mesh& mesh : stage.meshes) world.scene.add(mesh.positions, mesh.triangles);

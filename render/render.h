@@ -33,6 +33,7 @@ struct View {
   double progress = 0.0;
   int frame = 1;              // keys the random numbers
   ColorBetween colorBetween;  // empty: colours of the liquid's vertices, interpolated
+  bool seeThrough = false;    // colorBetween may give alpha below 1
 };
 
 // Same input, same bytes, on any number of threads. An empty surface gives a picture of the surroundings.

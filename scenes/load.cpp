@@ -70,7 +70,8 @@ std::vector<Node> readOverrides(const Overrides& overrides, Faults& faults) {
     // Whether it wraps, the maps over it and a finer picture were said of the scene's own picture; --set may
     // say it of this one.
     layers.insert(layers.begin(),
-                  {layer("toroidal", false), layer("map", List{}), layer("between", std::string("points"))});
+                  {layer("toroidal", false), layer("map", List{}), layer("between", std::string("points")),
+                   layer("between_file", std::string())});
     const auto givesMap = [](const std::string& assignment) {
       return assignment.starts_with("texture.guidance.map");
     };

@@ -3,6 +3,7 @@
 #include "texture/shown_color.h"
 #include "texture/texel_place.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -10,7 +11,8 @@
 namespace fluidtex::texture {
 namespace {
 
-// Neighbours of one piece lie a texel apart, and less than this however much texture is squeezed.
+// Neighbours of one piece lie about a texel apart; those of texture that is squeezed further than this are
+// taken for a joint.
 constexpr float kOnePiece = 3.0f;  // texels
 
 // Brings q within half an exemplar of `near`.
@@ -36,11 +38,15 @@ std::optional<Vec2f> placeBetween(const std::vector<Vec2f>& places, const Vec3I&
 
 }  // namespace
 
-Detail makeDetail(Image color, bool toroidal) {
+Detail makeDetail(Image color, bool toroidal, int exemplarWidth) {
   if (color.channels != 4 || color.data.empty())
     throw std::invalid_argument("makeDetail: the picture must be RGBA");
-  Image around = lightnessAround(color, toroidal);
-  return {std::move(color), std::move(around), toroidal};
+  const int finer = int(std::lround(std::log2(double(color.width) / double(std::max(exemplarWidth, 1)))));
+  const int halvings = std::max(0, kMeanHalvings + finer);
+  bool seeThrough = false;
+  for (std::size_t i = 3; i < color.data.size(); i += 4) seeThrough = seeThrough || color.data[i] < 1.0f;
+  Image around = lightnessAround(color, toroidal, halvings);
+  return {std::move(color), std::move(around), halvings, toroidal, seeThrough};
 }
 
 std::optional<Vec4f> colorBetween(const Detail& detail, const TexturedSurface& surface,
@@ -57,12 +63,16 @@ std::optional<Vec4f> colorBetween(const Detail& detail, const TexturedSurface& s
     left += weights[k] * own;
     fading += own > 0.0f;
   }
-  if (fading == 0) return shownColor(detail.color, detail.around, detail.toroidal, toPicture(*now), {}, 0.0f);
+  const auto shown = [&](const Vec2f& present, const Vec2f& past, float weight) {
+    return shownColor(detail.color, detail.around, detail.toroidal, toPicture(present), toPicture(past),
+                      weight, detail.halvings);
+  };
+  if (fading == 0) return shown(*now, *now, 0.0f);
   // A corner that fades from nothing has no former place.
   if (fading < 3) return std::nullopt;
   const auto former = placeBetween(surface.fading.coordinate, corner, weights, detail.toroidal, surface);
   if (!former) return std::nullopt;
-  return shownColor(detail.color, detail.around, detail.toroidal, toPicture(*now), toPicture(*former), left);
+  return shown(*now, *former, left);
 }
 
 }  // namespace fluidtex::texture

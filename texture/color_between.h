@@ -11,12 +11,14 @@ namespace fluidtex::texture {
 // The exemplar's picture in any resolution, ready to be looked up between vertices.
 struct Detail {
   Image color;   // linear RGBA, straight alpha
-  Image around;  // lightnessAround(color)
+  Image around;  // lightnessAround(color), over as much of the picture as of the exemplar
+  int halvings = 0;
   bool toroidal = false;
+  bool seeThrough = false;  // some alpha is below 1
 };
 
 // Throws std::invalid_argument if the colours are not RGBA or there are none.
-Detail makeDetail(Image color, bool toroidal);
+Detail makeDetail(Image color, bool toroidal, int exemplarWidth);
 
 // What the surface shows inside a triangle, at barycentric weights: the picture at the exemplar coordinate
 // there, mixed with that at the former place while it fades, as at vertices (shown_color.h). Nothing where

@@ -11,7 +11,6 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr int kHalvings = 3;
 // Differences of lightness, squared, below which two places count as equally bright.
 constexpr float kSame = 1e-3f;
 
@@ -26,29 +25,30 @@ struct Reading {
   float mean = 0.0f;
 };
 
-Reading readAt(const Image& colors, const Image& around, bool toroidal, const Vec2f& texel) {
-  constexpr float kScale = 1.0f / float(1 << kHalvings), kShift = 0.5f * float((1 << kHalvings) - 1);
+Reading readAt(const Image& colors, const Image& around, bool toroidal, const Vec2f& texel, int halvings) {
+  const auto size = float(1 << halvings), shift = 0.5f * (size - 1.0f);
   Reading result{samplePremultiplied(colors, toroidal, texel)};
-  sampleBilinear(around, toroidal, (texel - Vec2f(kShift, kShift)) * kScale, &result.mean);
+  sampleBilinear(around, toroidal, (texel - Vec2f(shift, shift)) * (1.0f / size), &result.mean);
   return result;
 }
 
 }  // namespace
 
-Image lightnessAround(const Image& color, bool toroidal) {
+Image lightnessAround(const Image& color, bool toroidal, int halvings) {
   Image result{color.width, color.height, 1, std::vector<float>(color.data.size() / 4)};
   forEachIndex(result.data.size(), [&](std::uint32_t i) {
     const float* rgba = color.data.data() + 4 * std::size_t(i);
     result.data[i] = lightness((Vec3f(rgba) * rgba[3]).asPointer());
   });
-  for (int i = 0; i < kHalvings; ++i) result = halve(result, toroidal);
+  for (int i = 0; i < halvings; ++i) result = halve(result, toroidal);
   return result;
 }
 
 Vec4f shownColor(const Image& color, const Image& around, bool toroidal, const Vec2f& present,
-                 const Vec2f& former, float weight) {
+                 const Vec2f& former, float weight, int halvings) {
   if (weight == 0.0f) return straight(samplePremultiplied(color, toroidal, present));
-  const Reading now = readAt(color, around, toroidal, present), old = readAt(color, around, toroidal, former);
+  const Reading now = readAt(color, around, toroidal, present, halvings),
+                old = readAt(color, around, toroidal, former, halvings);
   const float angle = 0.5f * std::numbers::pi_v<float> * weight, a = std::cos(angle), b = std::sin(angle);
   const float one = lightness(now.color.asPointer()), other = lightness(old.color.asPointer());
   const float wanted =

@@ -1,6 +1,7 @@
 // fluidtex check SCENE: validate only, and print what a run would do.
 #include "sim/mac_grid.h"
 #include "texture/exemplar.h"
+#include "tools/color_between.h"
 #include "tools/common_options.h"
 #include "tools/errors.h"
 #include "tools/liquid_plan.h"
@@ -26,6 +27,7 @@ void check(const CommonOptions& options) {
   parseFrames(options.frames, scene.frames, first, last);
   const texture::Exemplar exemplar =
       texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis, scene.texture.surface.levels);
+  const std::optional<texture::Detail> detail = detailOf(scene.texture);
   if (options.quiet) return;
   const double h = scene.sim.voxelSize();
   const LiquidPlan liquid = planLiquid(scene.sim);
@@ -67,6 +69,9 @@ void check(const CommonOptions& options) {
     fmt::print("matching  maps take {} channel{}, which hold{} {:.0f}% of their differences\n",
                exemplar.mapChannels, exemplar.mapChannels > 1 ? "s" : "", exemplar.mapChannels > 1 ? "" : "s",
                100.0 * exemplar.mapShare);
+  if (detail)
+    fmt::print("between   the points, a picture of {} x {} pixels is looked up\n", detail->color.width,
+               detail->color.height);
   fmt::print("pictures  {} x {}, {} paths a pixel\n", scene.render.width, scene.render.height,
              scene.render.samples);
   const double bytes =

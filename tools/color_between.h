@@ -2,7 +2,6 @@
 #pragma once
 
 #include "render/render.h"
-#include "scenes/scene.h"
 #include "texture/color_between.h"
 
 #include <optional>
@@ -10,8 +9,9 @@
 namespace fluidtex::tools {
 
 // The picture to look up, read from its file; nothing where points' colours are interpolated: because the
-// scene wants so, or because its colours are not those of exemplar coordinates. Throws ExemplarError.
-std::optional<texture::Detail> detailOf(const scenes::Scene& scene);
+// scene wants so, or because its colours are not those of exemplar coordinates. Throws ExemplarError: it
+// cannot be read, or has not the exemplar's shape.
+std::optional<texture::Detail> detailOf(const texture::Options& options);
 
 // Looks `detail` up on `surface`; empty without one. Both must outlive the result.
 render::ColorBetween colorBetween(const std::optional<texture::Detail>& detail,

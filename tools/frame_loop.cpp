@@ -72,6 +72,7 @@ class FrameLoop {
         m_options(options),
         m_stop(stop),
         m_last(options.lastFrame > 0 ? options.lastFrame : scene.frames),
+        m_detail(options.render ? detailOf(scene.texture) : std::nullopt),
         m_synthesizer(
             texture::makeSynthesizer(texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis,
                                                            scene.texture.surface.levels, kept()),
@@ -80,7 +81,6 @@ class FrameLoop {
         m_scale(textureScale(scene)),
         m_guidance(textureGuidance(scene)),
         m_solids(scene.sim) {
-    if (options.render) m_detail = detailOf(scene);
     m_surface.spacing = scene.texture.spacing;
     m_report.scene = Json::parse(scene.resolved);
     m_report.seed = scene.seed;
@@ -213,10 +213,10 @@ class FrameLoop {
       {
         Stopwatch watch(seconds.render);
         const double progress = m_scene.frames > 1 ? double(motion.index - 1) / (m_scene.frames - 1) : 0.0;
-        picture =
-            render::render(m_surface, m_solids.at(motion.time), m_scene.render,
-                           {m_scene.sim.size, progress, motion.index, colorBetween(m_detail, m_surface)},
-                           reporter("render"));
+        picture = render::render(m_surface, m_solids.at(motion.time), m_scene.render,
+                                 {m_scene.sim.size, progress, motion.index, colorBetween(m_detail, m_surface),
+                                  m_detail && m_detail->seeThrough},
+                                 reporter("render"));
       }
       Stopwatch watch(seconds.write);
       writeAtomically(m_options.out / "frames" / (name + ".png"),
@@ -287,6 +287,8 @@ class FrameLoop {
   const RunOptions& m_options;
   const std::atomic<bool>& m_stop;
   int m_last;
+  // What pictures show between the points, where it is not their colours.
+  std::optional<texture::Detail> m_detail;
   texture::Synthesizer m_synthesizer;
   OrientationGuide m_guide;
   TextureScale m_scale;
@@ -294,7 +296,6 @@ class FrameLoop {
   std::optional<sim::Motion> m_motion;
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
   VisibleSolids m_solids;
-  std::optional<texture::Detail> m_detail;
   Report m_report;
   Progress* m_progress = nullptr;
 };

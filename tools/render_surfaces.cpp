@@ -1,11 +1,11 @@
 // fluidtex render SCENE --from DIR: pictures and video of surfaces that are there already.
 #include "render/frame_name.h"
 #include "render/render.h"
-#include "texture/read_image.h"
 #include "tools/atomic_file.h"
 #include "tools/color_between.h"
 #include "tools/common_options.h"
 #include "tools/errors.h"
+#include "tools/finished_run.h"
 #include "tools/ply.h"
 #include "tools/visible_solids.h"
 
@@ -18,6 +18,18 @@
 namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
+
+// What is looked up is the run's own exemplar, if colours were looked up there; the scene says only whether.
+texture::Options optionsOf(const FinishedRun& run, texture::Options options) {
+  const Json& texture = run.report["scene"]["texture"];
+  options.exemplar.file = run.exemplar;
+  options.exemplar.toroidal = run.toroidal;
+  options.synthesis.method =
+      texture.value("method", "") == "coordinates" ? texture::Method::coordinates : texture::Method::kwatra07;
+  options.laterFrames = texture.value("later_frames", "") == "advect" ? texture::LaterFrames::advect
+                                                                      : texture::LaterFrames::synthesize;
+  return options;
+}
 
 void renderSurfaces(const CommonOptions& options, const fs::path& from) {
   const scenes::Scene scene = loadScene(options);
@@ -34,16 +46,20 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
       tbb::global_control::max_allowed_parallelism,
       std::size_t(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()));
   VisibleSolids solids(scene.sim);
-  const std::optional<texture::Detail> detail = detailOf(scene);
   // Coordinates count in pixels of the exemplar, whose size does not matter to vertices' colours.
-  texture::Image exemplar{.width = 1, .height = 1};
-  if (detail) exemplar = texture::readImage(scene.texture.exemplar.file);
+  int width = 1, height = 1;
+  std::optional<texture::Detail> detail;
+  if (scene.texture.exemplar.between != texture::Between::points) {
+    const FinishedRun run = openRun(from, {});
+    width = run.color.width, height = run.color.height;
+    detail = detailOf(optionsOf(run, scene.texture));
+  }
   for (int frame = first; frame <= last; ++frame) {
-    const texture::TexturedSurface surface = readPly(surfaceOf(frame), exemplar.width, exemplar.height);
+    const texture::TexturedSurface surface = readPly(surfaceOf(frame), width, height);
     const double progress = scene.frames > 1 ? double(frame - 1) / (scene.frames - 1) : 0.0;
-    const render::Picture picture =
-        render::render(surface, solids.at((frame - 1) / scene.sim.frameRate), scene.render,
-                       {scene.sim.size, progress, frame, colorBetween(detail, surface)});
+    const render::Picture picture = render::render(
+        surface, solids.at((frame - 1) / scene.sim.frameRate), scene.render,
+        {scene.sim.size, progress, frame, colorBetween(detail, surface), detail && detail->seeThrough});
     writeAtomically(out / "frames" / (render::frameName(frame) + ".png"),
                     [&](const fs::path& file) { writePng(picture, file); });
     if (!options.quiet) fmt::print(stderr, "frame {}\n", frame);
