@@ -14,7 +14,7 @@ target_include_directories(fluidtex_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(fluidtex_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow
   -Wno-restrict  # g++ 12 warns falsely of "text" + std::string
-  -fno-math-errno -ffp-contract=fast
+  -fno-math-errno -ffp-contract=off
   $<IF:$<BOOL:${FLUIDTEX_NATIVE}>,-march=native,-march=x86-64-v3>)
 
 find_program(MOLD_PROGRAM mold)

@@ -95,19 +95,6 @@ void checkWall(const sim::Wall& wall, const std::string& path, Reader& reader) {
                  "give it together with wall = \"no_slip\" or \"friction\"");
 }
 
-void checkVolume(const Scene& scene, Reader& reader) {
-  const auto& sides = scene.sim.sides;
-  const bool closed =
-      scene.sim.sources.empty() && scene.sim.drains.empty() &&
-      std::all_of(sides.begin(), sides.end(), [](sim::Side side) { return side == sim::Side::wall; });
-  if (scene.sim.keepVolume && !closed && reader.clean("simulation.keep_volume")) {
-    reader.fault(
-        "simulation.keep_volume",
-        "is for scenes where no liquid comes or goes, and this one has a source, a drain or an open side",
-        "leave it out");
-  }
-}
-
 // A flow in closed form moves what is there from the start, and knows nothing else.
 void checkKnownFlow(const Scene& scene, Reader& reader) {
   using sim::MotionKind;
@@ -172,7 +159,6 @@ void checkLiquid(const Scene& scene, Reader& reader) {
   checkKnownFlow(scene, reader);
   checkHeat(scene.sim.heat.law, reader);
   checkFlows(scene, reader);
-  checkVolume(scene, reader);
 }
 
 }  // namespace fluidtex::scenes

@@ -69,7 +69,6 @@ void describeLiquid(Visitor& visitor, sim::Options& sim) {
   });
   visitor.table("simulation", [&] {
     visitor.number("cfl", sim.cfl, {.low = 0.1, .high = 4.0});
-    visitor.flag("keep_volume", sim.keepVolume);
   });
   visitor.list("wall", sim.walls, [&](sim::DomainWall& wall) {
     choice(visitor, "face", wall.face, kDomainFaces);

@@ -214,9 +214,6 @@ struct Options {
   std::vector<DomainWall> walls;  // what differs from a wall that slips; of several for one face, the last
   double cfl = 3.0;               // a substep moves nothing further than this many cells
   double frameRate = 24.0;        // frames a second
-  // Liquid that the grid has lost or gained is made up for, everywhere alike (Options without sources, drains
-  // and open sides only).
-  bool keepVolume = false;
   std::vector<LiquidBody> liquid;
   std::vector<Solid> solids;
   std::vector<Source> sources;

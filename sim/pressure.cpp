@@ -87,6 +87,20 @@ double projectedOutflow(const LiquidCells& liquid, const SurfacePressure& surfac
   return outflow;
 }
 
+// What a cell grows, more flows out of it than in.
+void addGrowth(LiquidCells& liquid, const FloatGrid& growth, double h) {
+  tbb::parallel_for(Range(0, static_cast<int>(liquid.blocks.size())), [&](const Range& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      const FloatLeaf* leaf = growth.constTree().probeConstLeaf(liquid.blocks[b].origin);
+      if (leaf == nullptr) continue;
+      const int* numbers = liquid.numbering.block(liquid.blocks[b].origin);
+      for (int c = 0; c < kLeafSize; ++c) {
+        if (numbers[c] >= 0) liquid.cells[numbers[c]].outflow -= leaf->getValue(c) * h;
+      }
+    }
+  });
+}
+
 // One step of the active set method: cells at solids that let go of them, or are pressed back. True if any
 // changed. What a cell can suck is held back by its own surface: of a drop of one cell only a share of
 // `suction`, which is that of a cell with a column of liquid below it; less than `rounding` is none.
@@ -217,9 +231,7 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   assert(dt > 0.0 && density > 0.0);
   LiquidCells liquid = gatherLiquid(phi, solid, {&u.constTree(), &v.constTree(), &w.constTree()});
   const int n = liquid.numbering.size();
-  for (LiquidCell& cell : liquid.cells) {
-    cell.outflow -= options.expansion * solid.voxelSize * (1.0 - cell.closed / kSides);
-  }
+  if (options.growth != nullptr) addGrowth(liquid, *options.growth, solid.voxelSize);
   const double pascal = density * solid.voxelSize / dt;  // of one unit of q
 
   const SurfacePressure surface = options.surfaceTension > 0.0

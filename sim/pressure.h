@@ -17,9 +17,9 @@ struct PressureOptions {
   // area, 0.1 density |g| h, keeps still water calm.
   double suction = 0.0;
   int maxSeparationPasses = 4;  // solves after the first; 0: liquid never lets go
-  // Share of its volume by which the liquid grows each second (1/s): its divergence is that instead of 0. Not
-  // where it is enclosed on all sides.
-  double expansion = 0.0;
+  // What is to flow out of the liquid's cells more than in, h^3 per second at their centres; null for
+  // nothing. Where liquid is enclosed on all sides it is evened out.
+  FloatGrid::Ptr growth = nullptr;
   // N/m: the pressure at the surface is that times its curvature, and not 0 (Young and Laplace).
   double surfaceTension = 0.0;
   bool keepPressure = false;  // fill Projection::pressure

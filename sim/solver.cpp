@@ -28,14 +28,9 @@ constexpr double kSameTime = 1e-6;
 class LentLiquid {
  public:
   explicit LentLiquid(State& state)
-      : m_state(state), m_liquid{state.phi,
-                                 {{state.u, state.v, state.w}},
-                                 std::move(state.markers),
-                                 state.steps,
-                                 state.ahead,
-                                 state.due,
-                                 {{state.au, state.av, state.aw}},
-                                 state.temperature} {}
+      : m_state(state),
+        m_liquid{state.phi,   {{state.u, state.v, state.w}},    std::move(state.markers), state.steps,
+                 state.ahead, {{state.au, state.av, state.aw}}, state.temperature,        state.owed} {}
   ~LentLiquid() {
     if (m_lent) m_state.markers = std::move(m_liquid.markers);
   }
@@ -67,6 +62,7 @@ void setTransforms(State& state, double h) {
     if (acceleration[axis] != nullptr) acceleration[axis]->setTransform(faceTransform(h, axis));
   }
   if (state.temperature) state.temperature->setTransform(cellTransform(h));
+  if (state.owed) state.owed->setTransform(cellTransform(h));
 }
 
 void store(State& state, Liquid liquid, double h) {
@@ -75,7 +71,7 @@ void store(State& state, Liquid liquid, double h) {
   state.steps = liquid.steps;
   state.ahead = liquid.ahead;
   state.temperature = liquid.temperature;
-  state.due = liquid.due;
+  state.owed = liquid.owed;
   state.u = liquid.velocity.component[0];
   state.v = liquid.velocity.component[1];
   state.w = liquid.velocity.component[2];
@@ -164,7 +160,7 @@ void checkResolution(const State& state, const Options& options) {
 Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_shared<Solids>(options)) {
   const double h = options.voxelSize();
   m_state.poured.assign(options.liquid.size(), false);
-  store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0, 0.0, 0.0, {}}, h);
+  store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0, 0.0, {}}, h);
   if (options.heat.simulated) m_state.temperature = makeTemperature(h, options.heat.ambient);
   prepare();
 }
@@ -190,21 +186,19 @@ void Solver::prepare() {
 
 // Pours what is due and takes over solids that come or go at the present time.
 void Solver::applyEvents() {
-  const double now = m_state.time, before = liquidVolume(*m_state.phi, *m_solid);
+  const double now = m_state.time;
   const auto solid = m_solids->at(now);
-  bool changed = m_state.frame == 0, measured = changed;
+  bool changed = m_state.frame == 0;
   Liquid liquid{m_state.phi->deepCopy(),
                 {{m_state.u, m_state.v, m_state.w}},
                 {},
                 m_state.steps,
                 m_state.ahead,
-                m_state.due,
                 {{m_state.au, m_state.av, m_state.aw}},
-                m_state.temperature};
+                m_state.temperature,
+                m_state.owed};
   if (const auto active = m_solids->active(now); active != m_active) {
     changeSolids(liquid, *m_solid, *solid);
-    // A solid that goes takes no liquid with it; one that comes may.
-    measured = measured || !std::includes(m_active.begin(), m_active.end(), active.begin(), active.end());
     m_active = active;
     changed = true;
   }
@@ -222,7 +216,7 @@ void Solver::applyEvents() {
     pour(
         liquid, [&](const Vec3d& x) { return distance(x); }, velocity, body.temperature, *solid);
     m_state.poured[n] = true;
-    changed = measured = true;
+    changed = true;
   }
   if (!changed) return;
   // Up to the middle of the first step.
@@ -230,7 +224,6 @@ void Solver::applyEvents() {
   const double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
   StepReport report;
   if (!settle(liquid, *solid, kick, m_options, &report, flows)) fail(now, 1.0 / m_options.frameRate, report);
-  if (measured) liquid.due += liquidVolume(*liquid.phi, *solid) - before;
   store(m_state, std::move(liquid), m_options.voxelSize());
 }
 
@@ -265,7 +258,8 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       const double after = last ? 1.0 / m_options.frameRate : remaining - dt;
       const double nextLongest =
           longestStep(m_options, speed + m_options.gravity.length() * dt, speedOf(*solid));
-      next = step(liquid, *solid, dt, evenPart(after, nextLongest), m_options, &solves, m_flows->at(then));
+      next = step(liquid, *m_solid, *solid, dt, evenPart(after, nextLongest), m_options, &solves,
+                  m_flows->at(then));
       if (next) break;
       liquid.markers = seedMarkers(*liquid.phi, *m_solid->phi, static_cast<std::uint64_t>(liquid.steps));
       if (halving == kMaxHalvings) fail(m_state.time, dt, solves);

@@ -28,7 +28,7 @@ struct State {
   FloatGrid::Ptr temperature;  // K at cell centres; null where heat is not simulated
   Markers markers;             // on both sides of the surface
   std::int64_t steps = 0;      // substeps so far
-  double due = 0.0;            // m3: the volume that has been put in, less what solids took away
+  FloatGrid::Ptr owed;         // see sim/owed_volume.h; null for nothing
   double ahead = 0.0;  // s: u, v, w are those of so much later than `time`, the middle of the next substep
   // Bodies of Options::liquid that have been put in already, by index.
   std::vector<bool> poured;

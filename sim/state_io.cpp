@@ -12,8 +12,9 @@ namespace {
 // The first four are in every state.
 constexpr int kAlways = 4;
 constexpr std::pair<const char*, FloatGrid::Ptr State::*> kGrids[] = {
-    {"phi", &State::phi}, {"u", &State::u},   {"v", &State::v},   {"w", &State::w},
-    {"au", &State::au},   {"av", &State::av}, {"aw", &State::aw}, {"temperature", &State::temperature}};
+    {"phi", &State::phi},  {"u", &State::u},   {"v", &State::v},   {"w", &State::w},
+    {"au", &State::au},    {"av", &State::av}, {"aw", &State::aw}, {"temperature", &State::temperature},
+    {"owed", &State::owed}};
 
 // A block as bytes: origin, number of markers, markers.
 void append(std::string& bytes, const MarkerBlock& block) {
@@ -72,7 +73,6 @@ void writeState(const State& state, const std::filesystem::path& file) {
   metadata.insertMeta("steps", openvdb::Int64Metadata(state.steps));
   metadata.insertMeta("time", openvdb::DoubleMetadata(state.time));
   metadata.insertMeta("ahead", openvdb::DoubleMetadata(state.ahead));
-  metadata.insertMeta("due", openvdb::DoubleMetadata(state.due));
   std::string poured;
   for (const bool done : state.poured) poured += done ? '1' : '0';
   metadata.insertMeta("poured", openvdb::StringMetadata(poured));
@@ -96,7 +96,6 @@ State readState(const std::filesystem::path& file) {
     state.steps = metadata->metaValue<std::int64_t>("steps");
     state.time = metadata->metaValue<double>("time");
     state.ahead = metadata->metaValue<double>("ahead");
-    state.due = metadata->metaValue<double>("due");
     for (const char digit : metadata->metaValue<std::string>("poured")) state.poured.push_back(digit == '1');
     for (int part = 0; part < metadata->metaValue<std::int32_t>("marker_parts"); ++part)
       extract(metadata->metaValue<std::string>(partName(part)), state.markers);

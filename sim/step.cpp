@@ -9,6 +9,7 @@
 #include "sim/level_set.h"
 #include "sim/move_surface.h"
 #include "sim/open_gaps.h"
+#include "sim/owed_volume.h"
 #include "sim/walls.h"
 
 #include <tbb/parallel_for.h>
@@ -95,14 +96,6 @@ bool moveHeat(const Liquid& liquid, Liquid& next, const SolidField& solid, const
   return done;
 }
 
-// How fast the liquid has to grow (1/s) to make up for what it has lost. The dam break loses up to 0.2 of its
-// volume a second; more than the bar would be seen to swell.
-double expansionOf(const Liquid& liquid, const SolidField& solid) {
-  constexpr double kTime = 0.1, kMost = 0.5;
-  const double volume = liquidVolume(*liquid.phi, solid);
-  return volume > 0.0 ? std::clamp((liquid.due / volume - 1.0) / kTime, -kMost, kMost) : 0.0;
-}
-
 // Open faces whose velocity is not given. At closed ones a wall holds the liquid or lets go of it, which is
 // no force that goes on: what it did in one step, given back in the next, made jets off an edge run away.
 FaceMasks drivenFaces(const FaceMasks& valid, const SolidField& solid) {
@@ -123,7 +116,9 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, double kick, co
              bool viscous, bool driven, Velocity arrived, StepReport* report) {
   PressureOptions pressure;
   pressure.keepBefore = driven && arrived.component[0] == nullptr;
-  if (options.keepVolume && liquid.due > 0.0) pressure.expansion = expansionOf(liquid, solid);
+  // Within about a frame; faster than two steps it would overshoot.
+  if (liquid.owed != nullptr)
+    pressure.growth = growthOf(*liquid.owed, std::max(1.0 / options.frameRate, 2.0 * dt));
   pressure.suction = 0.1 * options.density * options.gravity.length() * voxelSize(liquid);
   if (options.surfaceTension > 0.0) {
     // Air must open a bubble of a cell's size to get behind the liquid.
@@ -203,16 +198,18 @@ bool isEmpty(const Liquid& liquid) {
   return liquid.phi->empty();
 }
 
-std::optional<Liquid> step(Liquid& liquid, const SolidField& solid, double dt, double nextDt,
-                           const Options& options, StepReport* report, const RunningFlows& flows) {
+std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const SolidField& solid, double dt,
+                           double nextDt, const Options& options, StepReport* report,
+                           const RunningFlows& flows) {
   const double kick = std::max(0.0, dt - liquid.ahead + 0.5 * nextDt);
-  Liquid next{liquid.phi->deepCopy(), {}, {}, liquid.steps + 1, liquid.ahead - dt + kick, liquid.due, {}};
+  Liquid next{liquid.phi->deepCopy(), {}, {}, liquid.steps + 1, liquid.ahead - dt + kick, {}};
   next.markers = std::move(liquid.markers);
   liquid.markers = {};
   moveSurface(*next.phi, next.markers, liquid.velocity, *solid.phi, dt,
               static_cast<std::uint64_t>(next.steps), flows);
   dropBeyond(next.markers, solid);
 
+  next.owed = owedVolume(*liquid.phi, *next.phi, liquid.owed.get(), liquid.velocity, before, flows, dt);
   next.velocity = velocityFor(*next.phi, solid);
   carryVelocity(liquid, next, dt);
   addGravity(next.velocity, options.gravity * kick);

@@ -22,13 +22,13 @@ struct Liquid {
   Markers markers;
   std::int64_t steps = 0;  // taken so far: the seed of the markers to come
   double ahead = 0.0;      // s: the velocity is that of so much later than phi
-  double due = 0.0;        // m3: the volume that has been put in
   // m/s2 at the velocity's faces, extrapolated: what pressure and friction did in the last step; null grids
   // where there was none.
   Velocity acceleration;
   // K at cell centres of the velocity's leaves, extended into air and solids; null where heat is not
   // simulated.
   FloatGrid::Ptr temperature = nullptr;
+  FloatGrid::Ptr owed = nullptr;  // see sim/owed_volume.h; null for nothing
 };
 
 // Half the width of phi's band in voxels, for steps of at most `cfl` cells.
@@ -50,12 +50,12 @@ struct StepReport {
 
 // The liquid dt seconds later; the markers of `liquid` are used up, also where nothing comes of it (there are
 // too many to keep them twice): give it others before another try. `solid` and `flows` are those of that
-// time. The velocity moves phi, so it should be that of the middle of the step (leapfrog, second order in
-// time): gravity takes the new one to the middle of the step after, of nextDt seconds. Nothing when a solve
-// does not converge or a velocity is not finite: try a smaller dt. `report`, where given, is filled either
-// way.
-std::optional<Liquid> step(Liquid& liquid, const SolidField& solid, double dt, double nextDt,
-                           const Options& options, StepReport* report = nullptr,
+// time, `before` is the solid until then. The velocity moves phi, so it should be that of the middle of the
+// step (leapfrog, second order in time): gravity takes the new one to the middle of the step after, of nextDt
+// seconds. Nothing when a solve does not converge or a velocity is not finite: try a smaller dt. `report`,
+// where given, is filled either way.
+std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const SolidField& solid, double dt,
+                           double nextDt, const Options& options, StepReport* report = nullptr,
                            const RunningFlows& flows = {});
 
 // Adds liquid where distance(x) < 0, of that velocity and temperature. The velocity of the whole is projected

@@ -1,8 +1,8 @@
 #include "render/render.h"
 #include "render/path_tracer.h"
 #include "shapes.h"
+#include "tests/threads.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 using namespace fluidtex;
@@ -35,9 +35,9 @@ TEST_CASE("render: the same bytes on any number of threads", "[render]") {
     const auto ball = spottedBall(alpha);
     const Options options = smallPicture(97, 55, 4);
     std::vector<Picture> pictures;
-    for (const std::size_t threads : {1, 2, 5, 5}) {
-      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-      pictures.push_back(fluidtex::render::render(ball, solids, options, unitView()));
+    for (const int threads : {1, 2, 5, 5}) {
+      onThreads(threads,
+                [&] { pictures.push_back(fluidtex::render::render(ball, solids, options, unitView())); });
     }
     for (const Picture& picture : pictures) REQUIRE(picture.rgb == pictures[0].rgb);
   }

@@ -72,7 +72,6 @@ temperature = 1400
 viscosity = 10
 [simulation]
 cfl = 1.5
-keep_volume = false
 [[wall]]
 wall = "no_slip"
 wall_velocity = [0, 1, 2]

@@ -3,8 +3,8 @@
 #include "sim/solids.h"
 #include "sim/solver.h"
 #include "tests/sim/mesh_files.h"
+#include "tests/threads.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -187,16 +187,17 @@ TEST_CASE("deforming solids: the same bytes on any number of threads, and from a
     return bytes;
   };
   const auto run = [&](int threads, int cut) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    auto solver = std::make_unique<Solver>(options);
-    for (int n = 1; n <= 8; ++n) {
-      solver->next();
-      if (n == cut) {
-        writeState(solver->state(), files.folder / "state.vdb");
-        solver = std::make_unique<Solver>(options, readState(files.folder / "state.vdb"));
+    return onThreads(threads, [&] {
+      auto solver = std::make_unique<Solver>(options);
+      for (int n = 1; n <= 8; ++n) {
+        solver->next();
+        if (n == cut) {
+          writeState(solver->state(), files.folder / "state.vdb");
+          solver = std::make_unique<Solver>(options, readState(files.folder / "state.vdb"));
+        }
       }
-    }
-    return bytesOf(solver->state());
+      return bytesOf(solver->state());
+    });
   };
   const std::string whole = run(1, 0);
   CHECK((run(4, 0) == whole));

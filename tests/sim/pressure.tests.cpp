@@ -1,8 +1,8 @@
 #include "sim/pressure.h"
 
 #include "sim/mac_grid.h"
+#include "tests/threads.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 #include <cstring>
@@ -330,19 +330,21 @@ TEST_CASE("pressure: second order around a ball, from cut cells to the surface",
 
 TEST_CASE("pressure: the same bytes on any number of threads", "[sim]") {
   const auto run = [](int threads) {
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    Scene scene(32, {Shape{Sphere{Vec3d(0.5, 0.5, 0.2), 0.21}}},
-                [](const Vec3d& x) { return x.z() - 0.6 - 0.1 * std::sin(9 * x.x()) * std::cos(7 * x.y()); });
-    scene.setVelocity([](const Vec3d& x) {
-      return Vec3d(std::sin(31 * x.y()), std::cos(27 * x.z()), std::sin(20 * x.x() * x.y()));
+    return onThreads(threads, [&] {
+      Scene scene(32, {Shape{Sphere{Vec3d(0.5, 0.5, 0.2), 0.21}}}, [](const Vec3d& x) {
+        return x.z() - 0.6 - 0.1 * std::sin(9 * x.x()) * std::cos(7 * x.y());
+      });
+      scene.setVelocity([](const Vec3d& x) {
+        return Vec3d(std::sin(31 * x.y()), std::cos(27 * x.z()), std::sin(20 * x.x() * x.y()));
+      });
+      const Projection result = scene.projected();
+      std::vector<float> bytes;
+      for (const auto& grid : scene.velocity.component) {
+        for (auto it = grid->cbeginValueOn(); it; ++it) bytes.push_back(*it);
+      }
+      bytes.push_back(static_cast<float>(result.report.iterations));
+      return bytes;
     });
-    const Projection result = scene.projected();
-    std::vector<float> bytes;
-    for (const auto& grid : scene.velocity.component) {
-      for (auto it = grid->cbeginValueOn(); it; ++it) bytes.push_back(*it);
-    }
-    bytes.push_back(static_cast<float>(result.report.iterations));
-    return bytes;
   };
   const auto one = run(1), four = run(4);
   REQUIRE(one.size() == four.size());

@@ -3,8 +3,8 @@
 #include "sim/viscous_system.h"
 #include "sim/volume_fraction.h"
 #include "tests/sim/velocity_field.h"
+#include "tests/threads.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -362,8 +362,7 @@ TEST_CASE("applyViscosity: the same bits on any number of threads", "[sim]") {
   Tank many(options, pool, mixed), one(options, pool, mixed);
   CHECK(many.apply(30.0).converged);
   {
-    tbb::global_control serial(tbb::global_control::max_allowed_parallelism, 1);
-    CHECK(one.apply(30.0).converged);
+    onThreads(1, [&] { CHECK(one.apply(30.0).converged); });
   }
   for (int a = 0; a < 3; ++a) {
     for (auto it = many.velocity.component[a]->cbeginValueOn(); it; ++it)

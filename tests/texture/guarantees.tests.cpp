@@ -2,11 +2,11 @@
 // surfaces.
 #include "level_sets.h"
 #include "mesh_quality.h"
+#include "tests/threads.h"
 #include "texture/patches.h"
 #include "texture/prepare.h"
 #include "tools/benchmarks/deformed_shapes.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 #include <map>
@@ -185,14 +185,15 @@ TEST_CASE("guarantees: the same bytes on any number of threads, with the last me
   // So large that many patches are worked on at once.
   const auto grid = splashGrid(60, kVoxel, 5);
   constexpr double kSpacing = 0.06;
-  const auto run = [&](std::size_t threads) {
-    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    std::vector<SurfaceMesh> meshes{prepare(*grid, kSpacing).levels[0]};
-    Seeds moved = resting(meshes[0]);
-    for (Vec3f& p : moved.positions) p += Vec3f(0.01f * std::sin(20.0f * p.y()), 0.0f, 0.005f);
-    meshes.push_back(prepare(*grid, kSpacing, moved).levels[0]);
-    meshes.push_back(prepare(*grid, kSpacing, {moved.positions, {}, {}, {}}).levels[0]);
-    return meshes;
+  const auto run = [&](int threads) {
+    return onThreads(threads, [&] {
+      std::vector<SurfaceMesh> meshes{prepare(*grid, kSpacing).levels[0]};
+      Seeds moved = resting(meshes[0]);
+      for (Vec3f& p : moved.positions) p += Vec3f(0.01f * std::sin(20.0f * p.y()), 0.0f, 0.005f);
+      meshes.push_back(prepare(*grid, kSpacing, moved).levels[0]);
+      meshes.push_back(prepare(*grid, kSpacing, {moved.positions, {}, {}, {}}).levels[0]);
+      return meshes;
+    });
   };
   const auto one = run(1);
   REQUIRE(patchesOf(one[0].positions, 40.0f * float(kSpacing)).count() >= 8);

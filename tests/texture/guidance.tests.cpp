@@ -2,12 +2,12 @@
 
 #include "tests/texture/oriented_mesh.h"
 #include "tests/texture/test_images.h"
+#include "tests/threads.h"
 #include "texture/optimize.h"
 #include "texture/orient.h"
 #include "texture/synthesize.h"
 #include "texture/usage.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -235,12 +235,13 @@ TEST_CASE("guidance: the same on one thread and on many") {
   const SynthesisOptions options = smallOptions();
   std::vector<Vec2f> results[2];
   for (int i = 0; i < 2; ++i) {
-    tbb::global_control control(tbb::global_control::max_allowed_parallelism, i == 0 ? 1 : 4);
-    Synthesizer synthesizer = twoKindsSynthesizer(options);
-    SynthesisStats stats;
-    const TexturedSurface first = synthesize(synthesizer, guidedSphere(12, 2, byHeight), {}, 1, 0.0, stats);
-    Start start = resting(first, [](const Vec3f& x) { return 1.0f - byHeight(x); });
-    results[i] = synthesize(synthesizer, std::move(start.surface), start.carried, 2, 0.1, stats).coordinate;
+    onThreads(i == 0 ? 1 : 4, [&] {
+      Synthesizer synthesizer = twoKindsSynthesizer(options);
+      SynthesisStats stats;
+      const TexturedSurface first = synthesize(synthesizer, guidedSphere(12, 2, byHeight), {}, 1, 0.0, stats);
+      Start start = resting(first, [](const Vec3f& x) { return 1.0f - byHeight(x); });
+      results[i] = synthesize(synthesizer, std::move(start.surface), start.carried, 2, 0.1, stats).coordinate;
+    });
   }
   CHECK(results[0] == results[1]);
 }

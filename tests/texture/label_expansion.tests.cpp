@@ -2,8 +2,8 @@
 
 #include "tests/texture/oriented_mesh.h"
 #include "tests/texture/test_images.h"
+#include "tests/threads.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -39,8 +39,7 @@ TEST_CASE("label_expansion: the cost falls, held vertices stay, on any number of
   const LabelTerms terms;
   Labels result[2] = {labels, labels};
   for (int i = 0; i < 2; ++i) {
-    tbb::global_control control(tbb::global_control::max_allowed_parallelism, i == 0 ? 1 : 4);
-    CHECK(expandLabels(model, terms, free, 7, result[i]) > 0.05);
+    onThreads(i == 0 ? 1 : 4, [&] { CHECK(expandLabels(model, terms, free, 7, result[i]) > 0.05); });
   }
   CHECK(wholeCost(model, terms, result[0]) < 0.9 * wholeCost(model, terms, labels));
   for (std::size_t v = 0; v < labels.size(); ++v) {

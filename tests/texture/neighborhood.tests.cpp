@@ -1,9 +1,9 @@
 #include "texture/neighborhood.h"
 
 #include "tests/texture/oriented_mesh.h"
+#include "tests/threads.h"
 #include "texture/complex.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -202,11 +202,12 @@ TEST_CASE("neighborhood: overlaps hold every entry once, links are centres") {
 
 TEST_CASE("neighborhood: the same on one thread and on many") {
   const OrientedMesh surface = orientedMesh(torusMesh(120, 50));
-  const auto build = [&](std::size_t threads) {
-    tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    PixelNeighborhoods pixels;
-    Neighborhoods result = coverSurface(surface.view(), 9, {}, &pixels);
-    return std::make_pair(std::move(result), std::move(pixels));
+  const auto build = [&](int threads) {
+    return onThreads(threads, [&] {
+      PixelNeighborhoods pixels;
+      Neighborhoods result = coverSurface(surface.view(), 9, {}, &pixels);
+      return std::make_pair(std::move(result), std::move(pixels));
+    });
   };
   const auto [one, onePixels] = build(1);
   const auto [many, manyPixels] = build(4);

@@ -2,8 +2,8 @@
 
 #include "tests/texture/oriented_mesh.h"
 #include "tests/texture/test_images.h"
+#include "tests/threads.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -234,13 +234,14 @@ TEST_CASE("optimize: the same on one thread and on many") {
   State results[2];
   EnergyTrace traces[2];
   for (int i = 0; i < 2; ++i) {
-    tbb::global_control control(tbb::global_control::max_allowed_parallelism, i == 0 ? 1 : 4);
-    results[i].labels = blockLabels(level.view, source.image, 24.0f, 5);
-    results[i].value = lookUp(source.image, results[i].labels);
-    Pass pass;
-    pass.iterations = 3;
-    pass.table = &table;
-    traces[i] = optimize(level, pass, SynthesisOptions{}, results[i]);
+    onThreads(i == 0 ? 1 : 4, [&] {
+      results[i].labels = blockLabels(level.view, source.image, 24.0f, 5);
+      results[i].value = lookUp(source.image, results[i].labels);
+      Pass pass;
+      pass.iterations = 3;
+      pass.table = &table;
+      traces[i] = optimize(level, pass, SynthesisOptions{}, results[i]);
+    });
   }
   CHECK(traces[0] == traces[1]);
   CHECK(difference(results[0].value, results[1].value) == 0.0f);

@@ -1,9 +1,8 @@
 #include "texture/orient.h"
 
 #include "tests/texture/orientation_fields.h"
+#include "tests/threads.h"
 #include "texture/tangent.h"
-
-#include <tbb/global_control.h>
 
 #include <catch2/catch.hpp>
 
@@ -302,12 +301,13 @@ TEST_CASE("orientation: handed on at each side of a thin sheet by itself", "[tex
 
 TEST_CASE("orientation: the same bytes on any number of threads", "[texture]") {
   const auto run = [](int threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    Surface surface = sphereLevels();
-    orient(surface, {});
-    const Carried carried = carriedFrom(surface.levels[0], 0.5f);
-    orient(surface, carried);
-    return surface.levels[0].orientation;
+    return onThreads(threads, [&] {
+      Surface surface = sphereLevels();
+      orient(surface, {});
+      const Carried carried = carriedFrom(surface.levels[0], 0.5f);
+      orient(surface, carried);
+      return surface.levels[0].orientation;
+    });
   };
   const std::vector<Vec3f> one = run(1), four = run(4);
   REQUIRE(one.size() == four.size());

@@ -2,10 +2,10 @@
 
 #include "tests/texture/level_sets.h"
 #include "tests/texture/mesh_quality.h"
+#include "tests/threads.h"
 #include "texture/isosurface.h"
 #include "texture/prepare.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 #include <limits>
@@ -158,9 +158,9 @@ TEST_CASE("point scale: at rest nothing moves, unless the scale does") {
 TEST_CASE("point scale: the number of points for a spacing and back, coarser levels, any number of threads") {
   const auto grid = sphereGrid(1.0, kVoxel);
   const double spacing = spacingForPoints(*grid, 4000, kRising);
-  const auto run = [&](std::size_t threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return prepareSurface(*grid, spacing, Seeds{}, 2, SurfaceOptions{}, kRising);
+  const auto run = [&](int threads) {
+    return onThreads(threads,
+                     [&] { return prepareSurface(*grid, spacing, Seeds{}, 2, SurfaceOptions{}, kRising); });
   };
   const Surface one = run(1), two = run(2);
   CHECK(double(one.levels[0].positions.size()) == Approx(4000.0).epsilon(0.04));

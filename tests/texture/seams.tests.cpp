@@ -2,8 +2,8 @@
 
 #include "tests/texture/oriented_mesh.h"
 #include "tests/texture/test_images.h"
+#include "tests/threads.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 using namespace fluidtex::texture;
@@ -84,8 +84,7 @@ TEST_CASE("seams: the summed cost falls, held vertices stay, on any number of th
   const double before = wholeCost(model, labels);
   Labels result[2] = {labels, labels};
   for (int i = 0; i < 2; ++i) {
-    tbb::global_control control(tbb::global_control::max_allowed_parallelism, i == 0 ? 1 : 4);
-    straightenSeams(model, {}, free, nullptr, 6, result[i]);
+    onThreads(i == 0 ? 1 : 4, [&] { straightenSeams(model, {}, free, nullptr, 6, result[i]); });
   }
   CHECK(wholeCost(model, result[0]) < 0.95 * before);
   for (std::size_t v = 0; v < labels.size(); ++v) {

@@ -1,8 +1,7 @@
 #include "texture/search.h"
 
 #include "tests/texture/sample_windows.h"
-
-#include <tbb/global_control.h>
+#include "tests/threads.h"
 
 #include <catch2/catch.hpp>
 
@@ -319,9 +318,8 @@ TEST_CASE("search: numbers that are none give a valid window, and no memory is t
 
 TEST_CASE("search: the same table on one thread and on several", "[texture]") {
   const Exemplar exemplar = makeExemplar(cells(128), false, {}, 1);
-  const auto build = [&](std::size_t threads) {
-    tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    return buildSearchTable(exemplar.match[0], false, 17, 1, 4);
+  const auto build = [&](int threads) {
+    return onThreads(threads, [&] { return buildSearchTable(exemplar.match[0], false, 17, 1, 4); });
   };
   const SearchTable one = build(1), several = build(4);
   CHECK(one.basis.component == several.basis.component);

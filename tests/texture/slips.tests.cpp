@@ -2,8 +2,8 @@
 
 #include "tests/texture/oriented_mesh.h"
 #include "tests/texture/test_images.h"
+#include "tests/threads.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -145,8 +145,7 @@ TEST_CASE("slips: whatever the vertices' axes, across the exemplar's edges, on a
   }
   Labels result[2] = {before, before};
   for (int i = 0; i < 2; ++i) {
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, i == 0 ? 1 : 4);
-    closeSlips(model, free, result[i]);
+    onThreads(i == 0 ? 1 : 4, [&] { closeSlips(model, free, result[i]); });
   }
   for (std::uint32_t v = 0; v < before.size(); ++v) {
     CHECK(result[0][v].texel == result[1][v].texel);

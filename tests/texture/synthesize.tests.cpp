@@ -2,11 +2,11 @@
 
 #include "tests/texture/closed_meshes.h"
 #include "tests/texture/test_images.h"
+#include "tests/threads.h"
 #include "texture/labels.h"
 #include "texture/measure_tiles.h"
 #include "texture/orient.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -247,14 +247,15 @@ TEST_CASE("synthesize: the same on one thread and on many") {
   options.method = GENERATE(Method::coordinates, Method::kwatra07);
   TexturedSurface results[2];
   for (int i = 0; i < 2; ++i) {
-    tbb::global_control control(tbb::global_control::max_allowed_parallelism, i == 0 ? 1 : 4);
-    Synthesizer synthesizer =
-        makeSynthesizer(makeExemplar(blobImage(80, 80, 4, 12.0, 2), false, options, 2), options);
-    SynthesisStats stats;
-    const TexturedSurface first = synthesize(synthesizer, sphere(16, 2), {}, 1, 0.0, stats);
-    Carried carried = carriedFrom(first);
-    for (TexelGradient& g : carried.gradient) g.s *= 1.45f;
-    results[i] = synthesize(synthesizer, surfaceOf(first), carried, 2, 0.04, stats);
+    onThreads(i == 0 ? 1 : 4, [&] {
+      Synthesizer synthesizer =
+          makeSynthesizer(makeExemplar(blobImage(80, 80, 4, 12.0, 2), false, options, 2), options);
+      SynthesisStats stats;
+      const TexturedSurface first = synthesize(synthesizer, sphere(16, 2), {}, 1, 0.0, stats);
+      Carried carried = carriedFrom(first);
+      for (TexelGradient& g : carried.gradient) g.s *= 1.45f;
+      results[i] = synthesize(synthesizer, surfaceOf(first), carried, 2, 0.04, stats);
+    });
   }
   CHECK(results[0].color == results[1].color);
   CHECK(results[0].coordinate == results[1].coordinate);

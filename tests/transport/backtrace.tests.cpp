@@ -1,10 +1,10 @@
 #include "transport/backtrace.h"
 
+#include "tests/threads.h"
 #include "tests/transport/velocity_grids.h"
 #include "transport/carry.h"
 #include "transport/velocity_sampler.h"
 
-#include <tbb/global_control.h>
 #include <catch2/catch.hpp>
 
 #include <cstring>
@@ -319,8 +319,7 @@ TEST_CASE("back-trace: the same bytes on any number of threads and in any order 
   const sim::Frame frame = steadyFrame({0.1, -20, 20}, 0.3, 3, swirl);
   const std::vector<Vec3f> points = scattered(3000, 1.0);
   const auto run = [&](int threads, const std::vector<Vec3f>& from) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return traceBack(from, frame);
+    return onThreads(threads, [&] { return traceBack(from, frame); });
   };
   const Backtrace one = run(1, points), four = run(4, points);
   CHECK(std::memcmp(one.origin.data(), four.origin.data(), points.size() * sizeof(Vec3d)) == 0);

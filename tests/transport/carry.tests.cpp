@@ -1,9 +1,8 @@
 #include "transport/carry.h"
 
+#include "tests/threads.h"
 #include "tests/transport/textured_meshes.h"
 #include "texture/vector_maps.h"
-
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cstring>
@@ -155,8 +154,7 @@ TEST_CASE("carry: the same bytes on any number of threads", "[transport]") {
   const TexturedSurface previous = texturedMesh(sphereMesh(24), constantDirection({0.3, 0.5, 0.8}));
   const SurfaceMesh next = sphereMesh(21);
   const auto run = [&](int threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return carry(previous, frame, next);
+    return onThreads(threads, [&] { return carry(previous, frame, next); });
   };
   const Carried one = run(1), four = run(4);
   const auto same = [](const auto& a, const auto& b) {

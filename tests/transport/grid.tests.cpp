@@ -1,10 +1,9 @@
 // The paper's transport over the grid, where it must be exact or has a bound.
+#include "tests/threads.h"
 #include "tests/transport/orientation_flows.h"
 #include "transport/band.h"
 #include "transport/carry.h"
 #include "transport/coordinate_fields.h"
-
-#include <tbb/global_control.h>
 
 #include <cstring>
 
@@ -65,8 +64,9 @@ TEST_CASE("carry by the grid: whole, and the same bytes on any number of threads
   const TexturedSurface previous = texturedMesh(sphereMesh(16), constantDirection({0.3, 0.5, 0.8}));
   const SurfaceMesh next = sphereMesh(13);
   const auto run = [&](int threads) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
-    return carry(previous, frame, next, 1, {Method::grid, Turning::vector});
+    return onThreads(threads, [&] {
+      return carry(previous, frame, next, 1, {Method::grid, Turning::vector});
+    });
   };
   const Carried one = run(1), four = run(4);
   requireWhole(one, next);

@@ -1,0 +1,142 @@
+#include "sim/owed_volume.h"
+
+#include "sim/level_set.h"
+#include "tests/sim/velocity_field.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace fluidtex::sim;
+
+namespace {
+
+constexpr int kCells = 32;
+constexpr double kVoxel = 1.0 / kCells;
+
+// A ball of radius 0.2, and a film below it on the floor, thinner than a cell.
+double ball(const Vec3d& x) {
+  return (x - Vec3d(0.5)).length() - 0.2;
+}
+
+double ballAndFilm(const Vec3d& x) {
+  return std::min(ball(x), x[2] - 0.6 * kVoxel);
+}
+
+FloatGrid::Ptr phiOf(const std::function<double(const Vec3d&)>& distance) {
+  const auto phi = makePhi(kVoxel, 6 * kVoxel);
+  unite(*phi, distance, Coord(kCells), 0);
+  trimBand(*phi, *makePhi(kVoxel, 3 * kVoxel));
+  return phi;
+}
+
+SolidField box() {
+  Options options;
+  options.size = Vec3d(1.0);
+  options.resolution = kCells;
+  return *Solids(options).at(0.0);
+}
+
+Velocity flow(const std::function<Vec3d(const Vec3d&)>& field) {
+  FloatTree topology(0.0f);
+  for (int i = -8; i < kCells + 8; i += 8)
+    for (int j = -8; j < kCells + 8; j += 8)
+      for (int k = -8; k < kCells + 8; k += 8) topology.touchLeaf(Coord(i, j, k))->setValuesOn();
+  return velocityField(kVoxel, topology, field);
+}
+
+double sumOf(const FloatGrid& owed) {
+  double sum = 0.0;
+  for (auto it = owed.cbeginValueOn(); it; ++it) sum += double(*it) * kVoxel * kVoxel * kVoxel;
+  return sum;
+}
+
+double largestOf(const FloatGrid& owed) {
+  float largest = 0.0f;
+  for (auto it = owed.cbeginValueOn(); it; ++it) largest = std::max(largest, std::abs(*it));
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("owed volume: what the surface loses is owed, whatever the flow does") {
+  const SolidField solid = box();
+  const auto before = phiOf(ballAndFilm), after = phiOf(ball);
+  const double lost = liquidVolume(*before, solid) - liquidVolume(*after, solid);
+  CHECK(lost > 0.5 * kVoxel);
+  const Velocity still = flow([](const Vec3d&) { return Vec3d(0.0); });
+  // Nothing comes through the walls, though the flow leads there.
+  const Velocity turning =
+      flow([](const Vec3d& x) { return Vec3d(0.5 - x[1], x[0] - 0.5, std::sin(3.0 * x[0])); });
+  for (const Velocity* velocity : {&still, &turning}) {
+    const auto owed = owedVolume(*before, *after, nullptr, *velocity, solid, {}, 2.5 * kVoxel);
+    CHECK(std::abs(sumOf(*owed) / lost - 1.0) < 1e-4);
+    // The same again, when nothing more is lost.
+    const auto later = owedVolume(*after, *after, owed.get(), *velocity, solid, {}, 2.5 * kVoxel);
+    CHECK(std::abs(sumOf(*later) / lost - 1.0) < 1e-4);
+  }
+}
+
+TEST_CASE("owed volume: at rest nothing is owed") {
+  const SolidField solid = box();
+  const auto phi = phiOf(ballAndFilm);
+  const auto owed =
+      owedVolume(*phi, *phi, nullptr, flow([](const Vec3d&) { return Vec3d(0.0); }), solid, {}, 1.0);
+  CHECK(owed->empty());
+}
+
+TEST_CASE("owed volume: next to nothing is owed where the surface goes with the flow") {
+  const SolidField solid = box();
+  const Vec3d speed(0.5, -0.25, 0.125);
+  const double dt = 4.0 * kVoxel;
+  const auto owed = owedVolume(*phiOf(ball), *phiOf([&](const Vec3d& x) { return ball(x - dt * speed); }),
+                               nullptr, flow([&](const Vec3d&) { return speed; }), solid, {}, dt);
+  CHECK(std::abs(sumOf(*owed)) < 1e-4 * 4.19 * std::pow(0.2, 3));
+  // The fluxes blur an edge that is sharp: liquid is owed on one side of it and too much on the other.
+  CHECK(largestOf(*owed) < 0.1);
+}
+
+TEST_CASE("owed volume: beside liquid it is the liquid that owes") {
+  const SolidField solid = box();
+  // A film around the ball, 1.5 cells thick, is lost.
+  const auto before = phiOf([](const Vec3d&x) { return ball(x) - 1.5 * kVoxel; }), after = phiOf(ball);
+  const auto owed =
+      owedVolume(*before, *after, nullptr, flow([](const Vec3d&) { return Vec3d(0.0); }), solid, {}, 0.01);
+  double inside = 0.0;
+  for (auto it = owed->cbeginValueOn(); it; ++it)
+    inside += after->tree().getValue(it.getCoord()) < 0.0f ? double(*it) * std::pow(kVoxel, 3) : 0.0;
+  CHECK(inside > 0.98 * sumOf(*owed));
+}
+
+TEST_CASE("owed volume: liquid grows by what it owes, by half a cell at once at most") {
+  const auto owed = FloatGrid::create(0.0f);
+  owed->tree().setValueOn(Coord(1, 2, 3), 0.1f);
+  owed->tree().setValueOn(Coord(1, 2, 4), -3.0f);
+  const auto growth = growthOf(*owed, 0.25);
+  CHECK(growth->tree().getValue(Coord(1, 2, 3)) == Approx(0.4));
+  CHECK(growth->tree().getValue(Coord(1, 2, 4)) == Approx(-2.0));
+}
+
+TEST_CASE("owed volume: what leaves the domain and what sources put in is not owed") {
+  Options options;
+  options.size = Vec3d(1.0);
+  options.resolution = kCells;
+  options.sides.fill(Side::open);
+  const SolidField open = *Solids(options).at(0.0);
+  const auto slab = phiOf([](const Vec3d& x) { return x[2] - 0.5; });
+  const auto nothing = phiOf([](const Vec3d&) { return 1.0; });
+  // One cell through the open side, in ten steps of it.
+  FloatGrid::Ptr owed;
+  const Velocity down = flow([](const Vec3d&) { return Vec3d(0.0, 0.0, -1.0); });
+  const auto lower = phiOf([](const Vec3d& x) { return x[2] - 0.5 + 2.0 * kVoxel; });
+  owed = owedVolume(*slab, *lower, nullptr, down, open, {}, 2.0 * kVoxel);
+  CHECK(std::abs(sumOf(*owed)) < 1e-4);
+
+  SourceGrids source;
+  source.phi = phiOf(ball);
+  RunningFlows flows;
+  flows.sources.push_back({&source, 1.0});
+  const Velocity still = flow([](const Vec3d&) { return Vec3d(0.0); });
+  CHECK(owedVolume(*nothing, *source.phi, nullptr, still, box(), flows, 0.01)->empty());
+}
