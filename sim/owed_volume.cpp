@@ -24,8 +24,8 @@ constexpr float kNothing = 1e-6f;
 constexpr float kFar = 1e6f;
 // Cells with less room than this share do not make sub-steps shorter.
 constexpr float kSliver = 0.25f;
-// The surface lies across an axis along which phi changes by more than this: of its gradient 1 / sqrt(3).
-constexpr float kAcross = 0.577f;
+// Of a cell's room, what may go through one of its faces in a sub-step (Weymouth and Yue 2010).
+constexpr float kMostThroughFace = 0.5f;
 
 constexpr int kSide = kLeafDim + 2;
 constexpr int kStride[3] = {kSide * kSide, kSide, 1};
@@ -45,13 +45,23 @@ int faceIndex(int offset, int axis) {
 }
 constexpr int kNextFace = kLeafDim * kLeafDim;
 
+float netOutflow(const Faces& flux, int offset) {
+  float sum = 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float* face = flux[axis].data() + faceIndex(offset, axis);
+    sum += face[kNextFace] - face[0];
+  }
+  return sum;
+}
+
 // The leaves in which something can be owed, on flat arrays of 512 values a leaf.
 struct Region {
   LeafTable leaves;
   std::vector<float> room;   // of each cell: open share of its volume, 0 in solids
   std::vector<Faces> flux;   // volume that would go through each face in a sub-step, in cells, upwards
   std::vector<float> swept;  // by solids that move into the cell, in a sub-step; empty where all are at rest
-  std::vector<float> after;  // phi in cells; kFar in solids
+  std::vector<float> after;  // phi at the end, in cells
+  std::vector<float> phi;    // half way there
   int steps = 1;
 };
 
@@ -109,12 +119,13 @@ float wetShare(float phi, float solid, float h) {
 // Fluxes, sub-steps and room.
 Region makeRegion(const FloatGrid& before, const FloatGrid& after, const FloatGrid* owed,
                   const Velocity& velocity, const SolidField& solid, double dt) {
-  Region region{leavesAround(before, after, owed, solid.cells), {}, {}, {}, {}, 1};
+  Region region{leavesAround(before, after, owed, solid.cells), {}, {}, {}, {}, {}, 1};
   const LeafTable& leaves = region.leaves;
   const float h = static_cast<float>(solid.voxelSize), step = static_cast<float>(dt / solid.voxelSize);
   region.flux.resize(leaves.size());
   region.room.resize(leaves.voxels());
   region.after.resize(leaves.voxels());
+  region.phi.resize(leaves.voxels());
   const bool moving = solid.speedU != nullptr;
   if (moving) region.swept.resize(leaves.voxels());
   std::vector<float> leaving(leaves.voxels()), most(leaves.size(), 0.0f);
@@ -122,9 +133,10 @@ Region makeRegion(const FloatGrid& before, const FloatGrid& after, const FloatGr
   const FloatGrid* const push[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     const Coord& origin = leaves.origins[n];
-    float solidScratch[kLeafSize], phiScratch[kLeafSize];
+    float solidScratch[kLeafSize], fromScratch[kLeafSize], toScratch[kLeafSize];
     const float* s = leafValues(solid.phi->constTree(), origin, solidScratch);
-    const float* p = leafValues(after.constTree(), origin, phiScratch);
+    const float* from = leafValues(before.constTree(), origin, fromScratch);
+    const float* to = leafValues(after.constTree(), origin, toScratch);
     std::array<Patch, 3> share, pushed;
     Patch speed;
     for (int axis = 0; axis < 3; ++axis) {
@@ -141,24 +153,28 @@ Region makeRegion(const FloatGrid& before, const FloatGrid& after, const FloatGr
     for (int i = 0; i < kLeafSize; ++i) {
       const std::size_t cell = n * kLeafSize + i;
       const int at = patchIndex(i);
-      float out = 0.0f, anyOpen = 0.0f, swept = 0.0f;
+      float out = 0.0f, anyOpen = 0.0f, swept = 0.0f, throughFace = 0.0f;
       for (int axis = 0; axis < 3; ++axis) {
         const float* flux = region.flux[n][axis].data() + faceIndex(i, axis);
         const int above = at + kStride[axis];
         out += std::max(0.0f, -flux[0]) + std::max(0.0f, flux[kNextFace]);
+        throughFace = std::max({throughFace, -flux[0], flux[kNextFace]});
         anyOpen += share[axis][at] + share[axis][above];
         if (moving) {
           swept += step * ((1.0f - share[axis][at]) * pushed[axis][at] -
                            (1.0f - share[axis][above]) * pushed[axis][above]);
         }
       }
-      region.after[cell] = p[i] / h;
+      region.after[cell] = to[i] / h;
+      region.phi[cell] = 0.5f * (from[i] + to[i]) / h;
       if (anyOpen <= 0.0f) continue;
       if (moving) region.swept[cell] = swept;
-      leaving[cell] = out + std::max(0.0f, -swept);
+      leaving[cell] = out + std::abs(swept);
       region.room[cell] = openShare(s[i], h);
       // Of slivers more may flow out than they hold: they get the room for it.
-      if (region.room[cell] > kSliver) most[n] = std::max(most[n], leaving[cell] / region.room[cell]);
+      if (region.room[cell] > kSliver)
+        most[n] = std::max(
+            {most[n], leaving[cell] / region.room[cell], throughFace / kMostThroughFace / region.room[cell]});
     }
   });
   const float largest = most.empty() ? 0.0f : *std::max_element(most.begin(), most.end());
@@ -170,7 +186,6 @@ Region makeRegion(const FloatGrid& before, const FloatGrid& after, const FloatGr
     }
     for (std::size_t cell = n * kLeafSize; cell < (n + 1) * kLeafSize; ++cell) {
       region.room[cell] = std::max(region.room[cell], part * leaving[cell]);
-      if (region.room[cell] <= 0.0f) region.after[cell] = kFar;
       if (moving) region.swept[cell] *= part;
     }
   });
@@ -190,47 +205,74 @@ std::vector<float> sharesOf(const FloatGrid& phi, const SolidField& solid, const
   return shares;
 }
 
-// What goes through a face of the volume `flux` that would, neither negative. Where the surface lies across
-// the way (`across`), a cell gives of its air or liquid first what its neighbour has: Hirt and Nichols,
-// "Volume of fluid (VOF) method for the dynamics of free boundaries", 1981, eqs. 23 and 24.
-float throughFace(float flux, float donor, float room, float acceptor, bool across) {
-  if (!across || donor <= 0.0f || donor >= 1.0f) return flux * donor;
-  const float like = std::clamp(acceptor, 0.0f, 1.0f);
-  const float more = std::max(0.0f, (1.0f - like) * flux - (1.0f - donor) * room);
-  return std::min(like * flux + more, donor * room);
+// The room that solids leave after the step.
+void moveRoom(Region& region, const SolidField& before, const SolidField& after) {
+  const float h = static_cast<float>(before.voxelSize);
+  tbb::parallel_for(std::size_t{0}, region.leaves.size(), [&](std::size_t n) {
+    float wasScratch[kLeafSize], isScratch[kLeafSize];
+    const float* was = leafValues(before.phi->constTree(), region.leaves.origins[n], wasScratch);
+    const float* is = leafValues(after.phi->constTree(), region.leaves.origins[n], isScratch);
+    for (int i = 0; i < kLeafSize; ++i) {
+      float& room = region.room[n * kLeafSize + i];
+      const float more = room > 0.0f ? room - openShare(was[i], h) : 0.0f;
+      room = std::max(0.0f, openShare(is[i], h) + more);
+    }
+  });
 }
 
-// Shares after one sub-step.
-std::vector<float> carried(const Region& region, const std::vector<float>& shares) {
+// What goes through a face of the volume `flux` that leaves a cell, of whose `room` the share `wet` is
+// liquid. rise: of phi over the face, outwards, in cells: by it the liquid lies at the face, or off it, or
+// beside it. The weighted line interface calculation, Yokoi, "Efficient implementation of THINC scheme",
+// 2007, sec. 2.3.
+float leavingLiquid(float flux, float wet, float room, float rise) {
+  if (wet <= 0.0f || wet >= 1.0f) return flux * wet;
+  const float across = std::min(rise * rise, 1.0f);
+  const float first = rise < 0.0f ? std::min(flux, wet * room) : std::max(0.0f, flux - (1.0f - wet) * room);
+  return across * first + (1.0f - across) * flux * wet;
+}
+
+// Shares after the flow along one axis. full: which cells count as full in this sub-step; along one axis
+// alone these swell or shrink, which is taken out again with the `last` axis, so that all is exact in sum:
+// Weymouth and Yue, "Conservative volume-of-fluid method for free-surface simulations on Cartesian grids",
+// 2010.
+std::vector<float> carriedAlong(const Region& region, int axis, bool last, const std::vector<char>& full,
+                                const std::vector<float>& shares) {
   std::vector<float> next(shares.size());
   tbb::parallel_for(std::size_t{0}, region.leaves.size(), [&](std::size_t n) {
     const auto asInside = [](float edge) { return edge; };
     Patch share, room, phi;
     loadPatch(region.leaves, shares, n, share, [](float edge) { return edge > 0.5f ? 1.0f : 0.0f; });
     loadPatch(region.leaves, region.room, n, room, asInside);
-    loadPatch(region.leaves, region.after, n, phi, asInside);
-    float* out = next.data() + n * kLeafSize;
+    loadPatch(region.leaves, region.phi, n, phi, asInside);
     for (int i = 0; i < kLeafSize; ++i) {
-      const int at = patchIndex(i);
-      out[i] = 0.0f;
+      const std::size_t cell = n * kLeafSize + i;
+      const int at = patchIndex(i), low = at - kStride[axis], high = at + kStride[axis];
+      next[cell] = 0.0f;
       if (room[at] <= 0.0f) continue;
-      // What solids sweep out, or make room for, is neither lost nor gained.
-      float gain = region.swept.empty() ? 0.0f : region.swept[n * kLeafSize + i] * share[at];
-      for (int axis = 0; axis < 3; ++axis) {
-        const float* flux = region.flux[n][axis].data() + faceIndex(i, axis);
-        const int low = at - kStride[axis], high = at + kStride[axis];
-        const bool acrossLow = std::abs(phi[at] - phi[low]) > kAcross;
-        const bool acrossHigh = std::abs(phi[high] - phi[at]) > kAcross;
-        gain += flux[0] > 0.0f ? throughFace(flux[0], share[low], room[low], share[at], acrossLow)
-                               : -throughFace(-flux[0], share[at], room[at], share[low], acrossLow);
-        gain -= flux[kNextFace] > 0.0f
-                    ? throughFace(flux[kNextFace], share[at], room[at], share[high], acrossHigh)
-                    : -throughFace(-flux[kNextFace], share[high], room[high], share[at], acrossHigh);
+      const float* flux = region.flux[n][axis].data() + faceIndex(i, axis);
+      const float in = flux[0], out = flux[kNextFace];
+      float gain = in > 0.0f ? leavingLiquid(in, share[low], room[low], phi[at] - phi[low])
+                             : -leavingLiquid(-in, share[at], room[at], phi[low] - phi[at]);
+      gain -= out > 0.0f ? leavingLiquid(out, share[at], room[at], phi[high] - phi[at])
+                         : -leavingLiquid(-out, share[high], room[high], phi[at] - phi[high]);
+      if (full[cell]) gain += out - in;
+      if (last) {
+        if (full[cell]) gain -= netOutflow(region.flux[n], i);
+        // What solids sweep out, or make room for, is neither lost nor gained.
+        if (!region.swept.empty()) gain += region.swept[cell] * share[at];
       }
-      out[i] = share[at] + gain / room[at];
+      next[cell] = share[at] + gain / room[at];
     }
   });
   return next;
+}
+
+// Shares after one sub-step; the axes take turns at being first.
+std::vector<float> carried(const Region& region, int step, std::vector<float> shares) {
+  std::vector<char> full(shares.size());
+  std::transform(shares.begin(), shares.end(), full.begin(), [](float share) { return share > 0.5f; });
+  for (int n = 0; n < 3; ++n) shares = carriedAlong(region, (step + n) % 3, n == 2, full, shares);
+  return shares;
 }
 
 // What is owed in cells of air falls towards the liquid, to the neighbours that are nearer to it.
@@ -247,7 +289,7 @@ void gatherInLiquid(const Region& region, std::vector<float>& owed) {
       float drop = 0.0f;
       for (const int stride : kStride)
         drop += std::max(0.0f, phi[at] - phi[at - stride]) + std::max(0.0f, phi[at] - phi[at + stride]);
-      rate[n * kLeafSize + i] = phi[at] >= 0.0f && phi[at] < kFar && drop > 0.0f ? 1.0f / drop : 0.0f;
+      rate[n * kLeafSize + i] = phi[at] >= 0.0f && drop > 0.0f ? 1.0f / drop : 0.0f;
     }
   });
   for (int round = 0; round < kGatherRounds; ++round) {
@@ -326,22 +368,34 @@ FloatGrid::Ptr toGrid(const LeafTable& leaves, const std::vector<float>& owed, d
 }  // namespace
 
 FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const FloatGrid* owed,
-                          const Velocity& velocity, const SolidField& solid, const RunningFlows& flows,
-                          double dt) {
-  const Region region = makeRegion(before, after, owed, velocity, solid, dt);
+                          const Velocity& velocity, const SolidField& solid, const SolidField& solidAfter,
+                          const RunningFlows& flows, double dt) {
+  Region region = makeRegion(before, after, owed, velocity, solid, dt);
   const LeafTable& leaves = region.leaves;
-  std::vector<float> shares = sharesOf(before, solid, leaves);
+  std::vector<float> due(leaves.voxels(), 0.0f), shares = sharesOf(before, solid, leaves);
   if (owed != nullptr) {
     const std::vector<float> was = sampleOn(leaves, owed->constTree());
     for (std::size_t at = 0; at < shares.size(); ++at) {
-      if (region.room[at] > 0.0f) shares[at] += was[at] / region.room[at];
+      if (region.room[at] > 0.0f) {
+        shares[at] += was[at] / region.room[at];
+      } else {
+        due[at] = was[at];
+      }
     }
   }
-  for (int n = 0; n < region.steps; ++n) shares = carried(region, shares);
+  for (int n = 0; n < region.steps; ++n) shares = carried(region, n, std::move(shares));
 
-  const std::vector<float> is = sharesOf(after, solid, leaves);
-  std::vector<float> due(shares.size());
-  for (std::size_t at = 0; at < due.size(); ++at) due[at] = region.room[at] * (shares[at] - is[at]);
+  for (std::size_t at = 0; at < due.size(); ++at) due[at] += region.room[at] * shares[at];
+  if (!region.swept.empty()) {
+    for (std::size_t at = 0; at < due.size(); ++at)
+      due[at] -= static_cast<float>(region.steps) * region.swept[at] * shares[at];
+    moveRoom(region, solid, solidAfter);
+  }
+  const std::vector<float> is = sharesOf(after, solidAfter, leaves);
+  for (std::size_t at = 0; at < due.size(); ++at) due[at] -= region.room[at] * is[at];
+  for (std::size_t at = 0; at < due.size(); ++at) {
+    if (region.room[at] <= 0.0f) region.after[at] = kFar;
+  }
   const float h = static_cast<float>(solid.voxelSize);
   for (const auto& running : flows.sources) forgive(leaves, *running.source->phi, h, due);
   for (const FloatGrid* drain : flows.drains) forgive(leaves, *drain, h, due);

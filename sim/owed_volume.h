@@ -20,8 +20,8 @@ namespace fluidtex::sim {
 // gone, sources and drains owe nothing, nor do solids that move into liquid. The same bytes on any number of
 // threads.
 FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const FloatGrid* owed,
-                          const Velocity& velocity, const SolidField& solid, const RunningFlows& flows,
-                          double dt);
+                          const Velocity& velocity, const SolidField& solid, const SolidField& solidAfter,
+                          const RunningFlows& flows, double dt);
 
 // How fast the liquid has to grow to give back what it owes in about `time` seconds: h^3 per second at cell
 // centres, of half a cell at most.

@@ -209,7 +209,8 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
               static_cast<std::uint64_t>(next.steps), flows);
   dropBeyond(next.markers, solid);
 
-  next.owed = owedVolume(*liquid.phi, *next.phi, liquid.owed.get(), liquid.velocity, before, flows, dt);
+  next.owed =
+      owedVolume(*liquid.phi, *next.phi, liquid.owed.get(), liquid.velocity, before, solid, flows, dt);
   next.velocity = velocityFor(*next.phi, solid);
   carryVelocity(liquid, next, dt);
   addGravity(next.velocity, options.gravity * kick);
