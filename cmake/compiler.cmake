@@ -6,7 +6,9 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  # It keeps what is compiled with precompiled headers only where it may be lax about macros and dates.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+    ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
 
 add_library(fluidtex_flags INTERFACE)
@@ -15,6 +17,7 @@ target_compile_options(fluidtex_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow
   -Wno-restrict  # g++ 12 warns falsely of "text" + std::string
   -fno-math-errno -ffp-contract=off
+  -fpch-preprocess  # for ccache
   $<IF:$<BOOL:${FLUIDTEX_NATIVE}>,-march=native,-march=x86-64-v3>)
 
 find_program(MOLD_PROGRAM mold)
@@ -37,4 +40,5 @@ function(fluidtex_room name)
   add_library(${name} STATIC ${ARGN})
   add_library(fluidtex::${name} ALIAS ${name})
   target_link_libraries(${name} PUBLIC fluidtex_flags)
+  fluidtex_precompiled(${name})
 endfunction()

@@ -163,6 +163,11 @@ void extrapolate(const Extrapolated& first, const Extrapolated& second, const Fl
   extrapolateFields<2>({&first, &second}, phi, solidPhi);
 }
 
+void extrapolate(const Extrapolated& first, const Extrapolated& second, const Extrapolated& third,
+                 const FloatGrid& phi, const FloatGrid& solidPhi) {
+  extrapolateFields<3>({&first, &second, &third}, phi, solidPhi);
+}
+
 void extrapolate(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi,
                  const FloatGrid& solidPhi) {
   const Extrapolated field{velocity, valid};

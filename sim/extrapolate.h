@@ -12,12 +12,15 @@ namespace fluidtex::sim {
 // faces stay as they are.
 void extrapolate(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi, const FloatGrid& solidPhi);
 
-// The same for two fields of one topology at once: what says from where to where they go on is found once.
+// The same for up to three fields of one topology at once: what says from where to where they go on is found
+// once.
 struct Extrapolated {
   Velocity& field;
   const FaceMasks& valid;
 };
 void extrapolate(const Extrapolated& first, const Extrapolated& second, const FloatGrid& phi,
                  const FloatGrid& solidPhi);
+void extrapolate(const Extrapolated& first, const Extrapolated& second, const Extrapolated& third,
+                 const FloatGrid& phi, const FloatGrid& solidPhi);
 
 }  // namespace fluidtex::sim

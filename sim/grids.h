@@ -22,3 +22,9 @@ openvdb::FloatGrid::Ptr toOpenVdb(const FloatGrid& grid);
 FloatGrid::Ptr fromOpenVdb(const openvdb::FloatGrid& grid);
 
 }  // namespace fluidtex::sim
+
+// What is not inline of these is compiled in grids.cpp only; it is more than most files have of their own.
+extern template class openvdb::Grid<fluidtex::sim::FloatTree>;
+extern template class openvdb::tree::Tree<fluidtex::sim::FloatTree::RootNodeType>;
+extern template class openvdb::Grid<fluidtex::sim::MaskTree>;
+extern template class openvdb::tree::Tree<fluidtex::sim::MaskTree::RootNodeType>;

@@ -16,10 +16,9 @@ bool nearSolid(const FloatGrid& solid, const Coord& origin) {
 
 }  // namespace
 
-Substep keepSubstep(double dt, const Velocity& velocity, const FloatGrid& phi,
-                    const std::vector<const FloatGrid*>& solids) {
-  const auto& [u, v, w] = velocity.component;
-  const auto leaves = leavesOf(u->constTree());
+Velocity nearSurface(const Velocity& velocity, const FloatGrid& phi,
+                     const std::vector<const FloatGrid*>& solids) {
+  const auto leaves = leavesOf(velocity.component[0]->constTree());
   std::vector<std::uint8_t> keep(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     const Coord& origin = leaves[n]->origin();
@@ -27,19 +26,26 @@ Substep keepSubstep(double dt, const Velocity& velocity, const FloatGrid& phi,
               std::any_of(solids.begin(), solids.end(),
                           [&](const FloatGrid* solid) { return nearSolid(*solid, origin); });
   });
-  if (std::find(keep.begin(), keep.end(), 0) == keep.end()) return {dt, u, v, w};
-  FloatGrid::Ptr kept[3];
+  if (std::find(keep.begin(), keep.end(), 0) == keep.end()) return velocity;
+  Velocity kept;
   for (int axis = 0; axis < 3; ++axis) {
     const FloatGrid& whole = *velocity.component[axis];
-    kept[axis] = FloatGrid::create(whole.background());
-    kept[axis]->insertMeta(whole);
-    kept[axis]->setTransform(faceTransform(whole.voxelSize()[0], axis));
+    FloatGrid::Ptr& part = kept.component[axis];
+    part = FloatGrid::create(whole.background());
+    part->insertMeta(whole);
+    part->setTransform(faceTransform(whole.voxelSize()[0], axis));
     for (std::size_t n = 0; n < leaves.size(); ++n) {
       if (keep[n] != 0)
-        kept[axis]->tree().addLeaf(new FloatLeaf(*whole.constTree().probeConstLeaf(leaves[n]->origin())));
+        part->tree().addLeaf(new FloatLeaf(*whole.constTree().probeConstLeaf(leaves[n]->origin())));
     }
   }
-  return {dt, kept[0], kept[1], kept[2]};
+  return kept;
+}
+
+Substep keepSubstep(double dt, const Velocity& velocity, const FloatGrid& phi,
+                    const std::vector<const FloatGrid*>& solids) {
+  const Velocity kept = nearSurface(velocity, phi, solids);
+  return {dt, kept.component[0], kept.component[1], kept.component[2]};
 }
 
 }  // namespace fluidtex::sim

@@ -8,10 +8,14 @@
 
 namespace fluidtex::sim {
 
-// The substep of a velocity, in the leaves of phi's band and of the surfaces of solids: whoever follows the
-// surface, which runs along solids too, never leaves them. The liquid's inside is left out. phi: before the
-// step; its band is wider than a step is long. solids: distances (metres) before and after the step. The
-// velocity's own grids where nothing is left out.
+// A velocity in the leaves of phi's band and of the surfaces of solids only: whoever follows the surface for a
+// step, which runs along solids too, never leaves them. phi: before the step; its band is wider than a step is
+// long. solids: distances (metres) before and after the step. The velocity's own grids where nothing is left
+// out.
+Velocity nearSurface(const Velocity& velocity, const FloatGrid& phi,
+                     const std::vector<const FloatGrid*>& solids);
+
+// The substep of a velocity, which leaves out the liquid's inside as nearSurface() does.
 Substep keepSubstep(double dt, const Velocity& velocity, const FloatGrid& phi,
                     const std::vector<const FloatGrid*>& solids);
 

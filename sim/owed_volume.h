@@ -2,9 +2,9 @@
 // and given back there. A level set alone loses films, sheets and drops thinner than its cells; a volume of
 // fluid in flux form is exact in sum but not sharp. Here phi says where the surface is, the fluxes how much
 // liquid there should be, and the difference is owed: it gathers in the liquid next to it and makes that grow
-// or shrink. Conservative, and local: liquid elsewhere does not move. Coupling of the two after Sussman and
-// Puckett, "A coupled level set and volume-of-fluid method for computing 3D and axisymmetric incompressible
-// two-phase flows", 2000.
+// or shrink (PressureOptions::growth). Conservative, and local: liquid elsewhere does not move. Coupling of
+// the two after Sussman and Puckett, "A coupled level set and volume-of-fluid method for computing 3D and
+// axisymmetric incompressible two-phase flows", 2000.
 #pragma once
 
 #include "sim/flows.h"
@@ -15,10 +15,9 @@ namespace fluidtex::sim {
 
 // What is owed after a step of dt seconds in which `velocity` moved the surface from `before` to `after`:
 // cubic metres over h^3 at cell centres, negative where there is too much liquid. owed: what was before, null
-// for nothing; solid: while `velocity` held. Volumes are carried by first-order upwind fluxes through the
-// solids' open faces, in as many sub-steps as keep them positive; what leaves through sides of the domain is
-// gone, sources and drains owe nothing, nor do solids that move into liquid. The same bytes on any number of
-// threads.
+// for nothing; solid: while `velocity` held. Volumes are carried by fluxes through the solids' open faces
+// (sim/volume_flux.h). What leaves through sides of the domain is gone; sources and drains owe nothing, nor
+// do solids that move into liquid. The same bytes on any number of threads.
 FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const FloatGrid* owed,
                           const Velocity& velocity, const SolidField& solid, const SolidField& solidAfter,
                           const RunningFlows& flows, double dt);

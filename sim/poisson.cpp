@@ -172,11 +172,17 @@ std::vector<std::vector<int>> singularParts(const PoissonSystem& system) {
   return parts;
 }
 
-PoissonReport solvePoisson(const PoissonSystem& system, const std::vector<std::vector<int>>& singular,
-                           std::vector<double> b, std::vector<double>& x, double tolerance,
-                           int maxIterations) {
+PoissonSolver::PoissonSolver(const PoissonSystem& system, const std::vector<std::vector<int>>& singular)
+    : m_system(system), m_singular(singular), m_even(system.rows, system.anchor) {}
+
+PoissonSolver::~PoissonSolver() = default;
+
+PoissonReport PoissonSolver::solve(std::vector<double> b, std::vector<double>& x, double tolerance,
+                                   int maxIterations) {
+  const PoissonSystem& system = m_system;
+  const EvenRows& even = m_even;
   const int n = system.numbering.size();
-  removeMeans(singular, b);
+  removeMeans(m_singular, b);
 
   PoissonReport report;
   const double normB = std::sqrt(sum(n, [&](int i, Sums& s) { s.first += b[i] * b[i]; }).first);
@@ -189,7 +195,6 @@ PoissonReport solvePoisson(const PoissonSystem& system, const std::vector<std::v
   std::vector<double> p(n + 1, 0.0), q(n), r(std::move(b));
   std::vector<float> scaled(n + 1, 0.0f), z(n + 1, 0.0f);
   std::copy(x.begin(), x.end(), p.begin());
-  const EvenRows even(system.rows, system.anchor);
   // The sum of what body(i, row i times p) gives.
   const auto sumOfProducts = [&](const auto& body) {
     return tbb::parallel_deterministic_reduce(
@@ -226,7 +231,7 @@ PoissonReport solvePoisson(const PoissonSystem& system, const std::vector<std::v
   report.converged = report.residual <= tolerance;
   if (report.converged) return report;
 
-  Multigrid preconditioner(system, even);
+  if (m_preconditioner == nullptr) m_preconditioner = std::make_unique<Multigrid>(system, even);
   double rz = 0.0, alpha = 0.0;
   while (!report.converged && report.iterations < maxIterations && std::isfinite(report.residual)) {
     // The preconditioner works on values of about 1, whatever is left of the residual.
@@ -234,8 +239,8 @@ PoissonReport solvePoisson(const PoissonSystem& system, const std::vector<std::v
     tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
       for (int i = range.begin(); i < range.end(); ++i) scaled[i] = static_cast<float>(r[i] / unit);
     });
-    preconditioner.apply(scaled, z);
-    removeMeans(singular, z);
+    m_preconditioner->apply(scaled, z);
+    removeMeans(m_singular, z);
 
     // z.(r - r_old) = -alpha z.q gives the flexible (Polak-Ribiere) direction without keeping the old
     // residual.
@@ -264,8 +269,14 @@ PoissonReport solvePoisson(const PoissonSystem& system, const std::vector<std::v
     report.residual = normR / normB;
     report.converged = report.residual <= tolerance;
   }
-  removeMeans(singular, x);
+  removeMeans(m_singular, x);
   return report;
+}
+
+PoissonReport solvePoisson(const PoissonSystem& system, const std::vector<std::vector<int>>& singular,
+                           std::vector<double> b, std::vector<double>& x, double tolerance,
+                           int maxIterations) {
+  return PoissonSolver(system, singular).solve(std::move(b), x, tolerance, maxIterations);
 }
 
 }  // namespace fluidtex::sim

@@ -13,6 +13,8 @@
 
 namespace fluidtex::sim {
 
+class Multigrid;
+
 using openvdb::math::Coord;
 
 // Sides of a cell, in this order everywhere: -x +x -y +y -z +z. side ^ 1 is the opposite one.
@@ -125,8 +127,27 @@ struct PoissonReport {
 // Connected parts without an anchor, each a list of its cells.
 std::vector<std::vector<int>> singularParts(const PoissonSystem& system);
 
-// Solves from the given x; the 2-norm of the residual falls to `tolerance` times that of b. `singular`: of
-// this system.
+// One system for several right-hand sides; the preconditioner is made once. The system and its singular parts
+// must outlive the object.
+class PoissonSolver {
+ public:
+  PoissonSolver(const PoissonSystem& system, const std::vector<std::vector<int>>& singular);
+  ~PoissonSolver();
+  PoissonSolver(const PoissonSolver&) = delete;
+  PoissonSolver& operator=(const PoissonSolver&) = delete;
+
+  // From the given x; the 2-norm of the residual falls to `tolerance` times that of b.
+  [[nodiscard]] PoissonReport solve(std::vector<double> b, std::vector<double>& x, double tolerance,
+                                    int maxIterations);
+
+ private:
+  const PoissonSystem& m_system;
+  const std::vector<std::vector<int>>& m_singular;
+  EvenRows m_even;
+  std::unique_ptr<Multigrid> m_preconditioner;  // null until one is needed
+};
+
+// The same for a single right-hand side.
 [[nodiscard]] PoissonReport solvePoisson(const PoissonSystem& system,
                                          const std::vector<std::vector<int>>& singular, std::vector<double> b,
                                          std::vector<double>& x, double tolerance, int maxIterations);

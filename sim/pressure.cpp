@@ -26,6 +26,9 @@ using Range = tbb::blocked_range<int>;
 // Below this share of the largest pressure, suction is the solver's rounding.
 constexpr double kSuctionNoise = 1e-5;
 
+// What is owed changes from step to step by more than what is left of it at this tolerance.
+constexpr double kGrowthTolerance = 1e-2;
+
 // A face whose solid lies within about 25 degrees of square to it takes the solid's normal velocity.
 constexpr float kSquare = 0.9f;
 
@@ -87,18 +90,20 @@ double projectedOutflow(const LiquidCells& liquid, const SurfacePressure& surfac
   return outflow;
 }
 
-// What a cell grows, more flows out of it than in.
-void addGrowth(LiquidCells& liquid, const FloatGrid& growth, double h) {
+// What is to flow out of each cell so that it grows, m/s through one open face.
+std::vector<double> outflowOf(const FloatGrid& growth, const LiquidCells& liquid, double h) {
+  std::vector<double> outflow(liquid.numbering.size(), 0.0);
   tbb::parallel_for(Range(0, static_cast<int>(liquid.blocks.size())), [&](const Range& range) {
     for (int b = range.begin(); b < range.end(); ++b) {
       const FloatLeaf* leaf = growth.constTree().probeConstLeaf(liquid.blocks[b].origin);
       if (leaf == nullptr) continue;
       const int* numbers = liquid.numbering.block(liquid.blocks[b].origin);
       for (int c = 0; c < kLeafSize; ++c) {
-        if (numbers[c] >= 0) liquid.cells[numbers[c]].outflow -= leaf->getValue(c) * h;
+        if (numbers[c] >= 0) outflow[numbers[c]] = leaf->getValue(c) * h;
       }
     }
   });
+  return outflow;
 }
 
 // One step of the active set method: cells at solids that let go of them, or are pressed back. True if any
@@ -155,7 +160,8 @@ const int* blockNumbers(const CellNumbering& numbering, const Coord& origin) {
   return numbering.block(origin);
 }
 
-// Subtracts the pressure's gradient on the faces normal to `axis`, and writes what is given there.
+// Subtracts the pressure's gradient on the faces normal to `axis`, gives closed ones the solid's speed, and
+// writes what is given there.
 MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surface, const SolidField& solid,
                           const std::vector<double>& q, const std::vector<char>& detached, int axis,
                           FloatGrid& grid) {
@@ -231,7 +237,6 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   assert(dt > 0.0 && density > 0.0);
   LiquidCells liquid = gatherLiquid(phi, solid, {&u.constTree(), &v.constTree(), &w.constTree()});
   const int n = liquid.numbering.size();
-  if (options.growth != nullptr) addGrowth(liquid, *options.growth, solid.voxelSize);
   const double pascal = density * solid.voxelSize / dt;  // of one unit of q
 
   const SurfacePressure surface = options.surfaceTension > 0.0
@@ -243,7 +248,7 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   PressureReport& report = result.report;
   report.cells = n;
   report.converged = true;
-  std::vector<double> q(n, 0.0);
+  std::vector<double> q(n, 0.0), growing;
   std::vector<char> detached(n, 0);
   for (int pass = 0; n > 0; ++pass) {
     std::vector<int> liquidOf;
@@ -263,8 +268,8 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
       // Solved for what is left beside the guess.
       takeOut(liquid, surface, guess, enclosed, system, liquidOf, b, x);
     }
-    const PoissonReport solved =
-        solvePoisson(system, singular, std::move(b), x, options.tolerance, options.maxIterations);
+    PoissonSolver poisson(system, singular);
+    const PoissonReport solved = poisson.solve(std::move(b), x, options.tolerance, options.maxIterations);
     report.iterations += solved.iterations;
     report.residual = solved.residual;
     report.converged = solved.converged;
@@ -275,20 +280,39 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
       q[liquidOf[i]] = surface.none() || enclosed[liquidOf[i]] ? x[i] : x[i] + guess[liquidOf[i]];
       largest = std::max(largest, std::abs(x[i]));
     }
-    if (pass >= options.maxSeparationPasses || !solved.converged) break;
-    std::vector<char> next = detached;
-    const bool shut = shutEdges(liquid, q);
-    if (!updateDetached(liquid, surface, q, enclosed, options.suction / pascal, kSuctionNoise * largest,
-                        next) &&
-        !shut)
-      break;
-    detached = std::move(next);
+    bool again = false;
+    if (pass < options.maxSeparationPasses && solved.converged) {
+      std::vector<char> next = detached;
+      const bool shut = shutEdges(liquid, q);
+      again = updateDetached(liquid, surface, q, enclosed, options.suction / pascal, kSuctionNoise * largest,
+                             next) ||
+              shut;
+      if (again) detached = std::move(next);
+    }
+    if (again) continue;
+    if (options.growth != nullptr && solved.converged) {
+      const std::vector<double> outflow = outflowOf(*options.growth, liquid, solid.voxelSize);
+      b.resize(liquidOf.size());
+      for (std::size_t i = 0; i < liquidOf.size(); ++i) b[i] = outflow[liquidOf[i]];
+      std::fill(x.begin(), x.end(), 0.0);
+      report.converged = poisson.solve(std::move(b), x, kGrowthTolerance, options.maxIterations).converged;
+      growing.assign(n, 0.0);
+      for (std::size_t i = 0; i < liquidOf.size(); ++i) growing[liquidOf[i]] = x[i];
+    }
+    break;
   }
 
   if (options.keepBefore) result.before = {{u.deepCopy(), v.deepCopy(), w.deepCopy()}};
   result.valid.u = updateFaces(liquid, surface, solid, q, detached, 0, u);
   result.valid.v = updateFaces(liquid, surface, solid, q, detached, 1, v);
   result.valid.w = updateFaces(liquid, surface, solid, q, detached, 2, w);
+  if (!growing.empty()) {
+    result.swelling = makeVelocity(solid.voxelSize);
+    const SolidField still = atRest(solid);
+    const std::vector<char> none(n, 0);
+    for (int axis = 0; axis < 3; ++axis)
+      updateFaces(liquid, {}, still, growing, none, axis, *result.swelling.component[axis]);
+  }
   result.separating = MaskGrid::create();
   result.separating->setTransform(cellTransform(solid.voxelSize));
   for (int i = 0; i < n; ++i) {

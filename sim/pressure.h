@@ -17,8 +17,8 @@ struct PressureOptions {
   // area, 0.1 density |g| h, keeps still water calm.
   double suction = 0.0;
   int maxSeparationPasses = 4;  // solves after the first; 0: liquid never lets go
-  // What is to flow out of the liquid's cells more than in, h^3 per second at their centres; null for
-  // nothing. Where liquid is enclosed on all sides it is evened out.
+  // What Projection::swelling is to carry out of the liquid's cells more than into them, h^3 per second at
+  // their centres; null for nothing. Where liquid is enclosed on all sides it is evened out.
   FloatGrid::Ptr growth = nullptr;
   // N/m: the pressure at the surface is that times its curvature, and not 0 (Young and Laplace).
   double surfaceTension = 0.0;
@@ -41,6 +41,10 @@ struct Projection {
   // to extrapolate.
   FaceMasks valid;
   MaskGrid::Ptr separating;  // cells of liquid that leave a solid
+  // What makes the liquid grow (PressureOptions::growth), on the valid faces: a potential flow beside the
+  // velocity, 0 at solids and at faces with a given velocity. It moves the surface, and is no part of the
+  // liquid's momentum. Null grids without growth.
+  Velocity swelling;
   openvdb::DoubleGrid::Ptr
       pressure;  // Pa at the centres of liquid cells, active there; null unless asked for
   // The velocity before; null grids unless asked for. Copied after the solve, which takes the most memory.

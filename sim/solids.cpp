@@ -19,6 +19,17 @@ using Range = tbb::blocked_range<int>;
 
 }  // namespace
 
+SolidField atRest(const SolidField& solid) {
+  SolidField still = solid;
+  still.speedU = still.speedV = still.speedW = nullptr;
+  for (FloatGrid::Ptr* given : {&still.givenU, &still.givenV, &still.givenW}) {
+    if (*given == nullptr) continue;
+    *given = (*given)->deepCopy();
+    for (auto it = (*given)->beginValueOn(); it; ++it) it.setValue(0.0f);
+  }
+  return still;
+}
+
 Solids::Solids(const Options& options) : m_options(options) {
   const double h = m_options.voxelSize();
   for (const Solid& solid : m_options.solids) {

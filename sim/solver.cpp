@@ -23,14 +23,24 @@ constexpr int kMaxHalvings = 6;
 // Times closer than this share of a frame are one.
 constexpr double kSameTime = 1e-6;
 
+Liquid liquidOf(const State& state, FloatGrid::Ptr phi, Markers markers) {
+  return {std::move(phi),
+          {{state.u, state.v, state.w}},
+          std::move(markers),
+          state.steps,
+          state.ahead,
+          {{state.au, state.av, state.aw}},
+          state.temperature,
+          state.owed,
+          {{state.su, state.sv, state.sw}}};
+}
+
 // A state's liquid, lent: the state has no markers meanwhile, which are too many to keep twice. They go back
 // in the end unless it gets others.
 class LentLiquid {
  public:
   explicit LentLiquid(State& state)
-      : m_state(state),
-        m_liquid{state.phi,   {{state.u, state.v, state.w}},    std::move(state.markers), state.steps,
-                 state.ahead, {{state.au, state.av, state.aw}}, state.temperature,        state.owed} {}
+      : m_state(state), m_liquid(liquidOf(state, state.phi, std::move(state.markers))) {}
   ~LentLiquid() {
     if (m_lent) m_state.markers = std::move(m_liquid.markers);
   }
@@ -57,9 +67,12 @@ void setTransforms(State& state, double h) {
   state.u->setTransform(faceTransform(h, 0));
   state.v->setTransform(faceTransform(h, 1));
   state.w->setTransform(faceTransform(h, 2));
-  FloatGrid* const acceleration[3] = {state.au.get(), state.av.get(), state.aw.get()};
-  for (int axis = 0; axis < 3; ++axis) {
-    if (acceleration[axis] != nullptr) acceleration[axis]->setTransform(faceTransform(h, axis));
+  FloatGrid* const more[2][3] = {{state.au.get(), state.av.get(), state.aw.get()},
+                                 {state.su.get(), state.sv.get(), state.sw.get()}};
+  for (const auto& field : more) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (field[axis] != nullptr) field[axis]->setTransform(faceTransform(h, axis));
+    }
   }
   if (state.temperature) state.temperature->setTransform(cellTransform(h));
   if (state.owed) state.owed->setTransform(cellTransform(h));
@@ -78,6 +91,9 @@ void store(State& state, Liquid liquid, double h) {
   state.au = liquid.acceleration.component[0];
   state.av = liquid.acceleration.component[1];
   state.aw = liquid.acceleration.component[2];
+  state.su = liquid.swelling.component[0];
+  state.sv = liquid.swelling.component[1];
+  state.sw = liquid.swelling.component[2];
   setTransforms(state, h);
 }
 
@@ -104,6 +120,12 @@ double evenPart(double time, double longest) {
 
 double speedOf(const SolidField& solid) {
   return solid.speedU == nullptr ? 0.0 : maxAbs({{solid.speedU, solid.speedV, solid.speedW}});
+}
+
+// No part of the surface moves faster, in m/s along an axis.
+double fastest(const Liquid& liquid) {
+  const bool swells = liquid.swelling.component[0] != nullptr;
+  return maxAbs(liquid.velocity) + (swells ? maxAbs(liquid.swelling) : 0.0);
 }
 
 // Substeps shorter than this share of a frame lead nowhere.
@@ -189,14 +211,7 @@ void Solver::applyEvents() {
   const double now = m_state.time;
   const auto solid = m_solids->at(now);
   bool changed = m_state.frame == 0;
-  Liquid liquid{m_state.phi->deepCopy(),
-                {{m_state.u, m_state.v, m_state.w}},
-                {},
-                m_state.steps,
-                m_state.ahead,
-                {{m_state.au, m_state.av, m_state.aw}},
-                m_state.temperature,
-                m_state.owed};
+  Liquid liquid = liquidOf(m_state, m_state.phi->deepCopy(), {});
   if (const auto active = m_solids->active(now); active != m_active) {
     changeSolids(liquid, *m_solid, *solid);
     m_active = active;
@@ -220,7 +235,7 @@ void Solver::applyEvents() {
   }
   if (!changed) return;
   // Up to the middle of the first step.
-  const double first = longestStep(m_options, maxAbs(liquid.velocity), speedOf(*solid));
+  const double first = longestStep(m_options, fastest(liquid), speedOf(*solid));
   const double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
   StepReport report;
   if (!settle(liquid, *solid, kick, m_options, &report, flows)) fail(now, 1.0 / m_options.frameRate, report);
@@ -238,7 +253,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     LentLiquid lent(m_state);
     Liquid& liquid = *lent;
     const double remaining = time - m_state.time;
-    const double speed = maxAbs(liquid.velocity), longest = longestStep(m_options, speed, speedOf(*m_solid));
+    const double speed = fastest(liquid), longest = longestStep(m_options, speed, speedOf(*m_solid));
     if (capillaryStep(m_options) < kShortest / m_options.frameRate) failRippling(m_state.time);
     if (longest < kShortest / m_options.frameRate) failFast(m_state.time, speed);
     // The velocity is that of the middle of a step of this length.
@@ -267,7 +282,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       last = false;
     }
     frame.substeps.push_back(
-        keepSubstep(dt, liquid.velocity, *liquid.phi, {m_solid->phi.get(), solid->phi.get()}));
+        keepSubstep(dt, movingVelocity(liquid), *liquid.phi, {m_solid->phi.get(), solid->phi.get()}));
     FrameStats& stats = frame.stats;
     stats.dtMin = stats.dtMin > 0.0 ? std::min(stats.dtMin, dt) : dt;
     stats.pressureIterations += solves.pressure.iterations;

@@ -29,6 +29,7 @@ struct State {
   Markers markers;             // on both sides of the surface
   std::int64_t steps = 0;      // substeps so far
   FloatGrid::Ptr owed;         // see sim/owed_volume.h; null for nothing
+  FloatGrid::Ptr su, sv, sw;   // m/s, by which the liquid grows meanwhile: see Liquid::swelling; or null
   double ahead = 0.0;  // s: u, v, w are those of so much later than `time`, the middle of the next substep
   // Bodies of Options::liquid that have been put in already, by index.
   std::vector<bool> poured;

@@ -12,9 +12,9 @@ namespace {
 // The first four are in every state.
 constexpr int kAlways = 4;
 constexpr std::pair<const char*, FloatGrid::Ptr State::*> kGrids[] = {
-    {"phi", &State::phi},  {"u", &State::u},   {"v", &State::v},   {"w", &State::w},
-    {"au", &State::au},    {"av", &State::av}, {"aw", &State::aw}, {"temperature", &State::temperature},
-    {"owed", &State::owed}};
+    {"phi", &State::phi},   {"u", &State::u},   {"v", &State::v},   {"w", &State::w},
+    {"au", &State::au},     {"av", &State::av}, {"aw", &State::aw}, {"temperature", &State::temperature},
+    {"owed", &State::owed}, {"su", &State::su}, {"sv", &State::sv}, {"sw", &State::sw}};
 
 // A block as bytes: origin, number of markers, markers.
 void append(std::string& bytes, const MarkerBlock& block) {

@@ -5,6 +5,7 @@
 #include "sim/air_layers.h"
 #include "sim/extrapolate.h"
 #include "sim/heat.h"
+#include "sim/keep_substep.h"
 #include "sim/leaf_table.h"
 #include "sim/level_set.h"
 #include "sim/move_surface.h"
@@ -109,6 +110,34 @@ FaceMasks drivenFaces(const FaceMasks& valid, const SolidField& solid) {
           driven(valid.w, solid.openW, solid.givenW)};
 }
 
+// Velocity, swelling and, where that is wanted, acceleration beyond the faces whose values the projection
+// knows. arrived: the velocity before friction or else before pressure.
+void extrapolateAll(Liquid& liquid, Projection& projection, const SolidField& solid, double dt, bool driven,
+                    Velocity arrived) {
+  const FaceMasks& valid = projection.valid;
+  const Extrapolated velocity{liquid.velocity, valid}, swelling{projection.swelling, valid};
+  const bool swells = projection.swelling.component[0] != nullptr;
+  liquid.acceleration = liquid.swelling = {};
+  if (driven) {
+    const FaceMasks free = drivenFaces(valid, solid);
+    liquid.acceleration = accelerationBy(std::move(arrived), liquid.velocity, free, dt);
+    const Extrapolated acceleration{liquid.acceleration, free};
+    if (swells) {
+      extrapolate(velocity, acceleration, swelling, *liquid.phi, *solid.phi);
+    } else {
+      extrapolate(velocity, acceleration, *liquid.phi, *solid.phi);
+    }
+  } else if (swells) {
+    extrapolate(velocity, swelling, *liquid.phi, *solid.phi);
+  } else {
+    extrapolate(liquid.velocity, valid, *liquid.phi, *solid.phi);
+  }
+  if (!swells) return;
+  const auto& [u, v, w] = projection.swelling.component;
+  constrainToSolids(*u, *v, *w, *liquid.phi, atRest(solid), valid, *projection.separating);
+  liquid.swelling = nearSurface(projection.swelling, *liquid.phi, {});
+}
+
 // kick: how long forces act, in seconds. viscous: whether friction is felt, so that liquid can stick to
 // walls. driven: whether the acceleration is wanted; arrived: the velocity before friction, null grids where
 // there was none.
@@ -116,8 +145,8 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, double kick, co
              bool viscous, bool driven, Velocity arrived, StepReport* report) {
   PressureOptions pressure;
   pressure.keepBefore = driven && arrived.component[0] == nullptr;
-  // Within about a frame; faster than two steps it would overshoot.
-  if (liquid.owed != nullptr)
+  // Within about a frame; in less than two steps it would overshoot.
+  if (liquid.owed != nullptr && !liquid.owed->empty())
     pressure.growth = growthOf(*liquid.owed, std::max(1.0 / options.frameRate, 2.0 * dt));
   pressure.suction = 0.1 * options.density * options.gravity.length() * voxelSize(liquid);
   if (options.surfaceTension > 0.0) {
@@ -134,15 +163,11 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, double kick, co
   u->topologyUnion(*w);
   v->topologyUnion(*u);
   w->topologyUnion(*u);
-  liquid.acceleration = {};
-  if (driven) {
-    const FaceMasks free = drivenFaces(projection.valid, solid);
-    if (pressure.keepBefore) arrived = std::move(projection.before);
-    liquid.acceleration = accelerationBy(std::move(arrived), liquid.velocity, free, dt);
-    extrapolate({liquid.velocity, projection.valid}, {liquid.acceleration, free}, *liquid.phi, *solid.phi);
-  } else {
-    extrapolate(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
+  for (const FloatGrid::Ptr& grid : projection.swelling.component) {
+    if (grid != nullptr) grid->topologyUnion(*u);
   }
+  if (pressure.keepBefore) arrived = std::move(projection.before);
+  extrapolateAll(liquid, projection, solid, dt, driven, std::move(arrived));
   balanceAirLayers(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
   constrainToSolids(*u, *v, *w, *liquid.phi, solid, projection.valid, *projection.separating);
   if (viscous) stickToWalls(liquid.velocity, solid, projection.valid);
@@ -194,6 +219,11 @@ double capillaryStep(const Options& options) {
   return std::sqrt(options.density * h * h * h / (4.0 * std::numbers::pi * options.surfaceTension));
 }
 
+Velocity movingVelocity(const Liquid& liquid) {
+  const bool swells = liquid.swelling.component[0] != nullptr;
+  return swells ? plus(liquid.velocity, liquid.swelling, 1.0) : liquid.velocity;
+}
+
 bool isEmpty(const Liquid& liquid) {
   return liquid.phi->empty();
 }
@@ -205,12 +235,13 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
   Liquid next{liquid.phi->deepCopy(), {}, {}, liquid.steps + 1, liquid.ahead - dt + kick, {}};
   next.markers = std::move(liquid.markers);
   liquid.markers = {};
-  moveSurface(*next.phi, next.markers, liquid.velocity, *solid.phi, dt,
-              static_cast<std::uint64_t>(next.steps), flows);
-  dropBeyond(next.markers, solid);
-
-  next.owed =
-      owedVolume(*liquid.phi, *next.phi, liquid.owed.get(), liquid.velocity, before, solid, flows, dt);
+  {
+    const Velocity moving = movingVelocity(liquid);
+    moveSurface(*next.phi, next.markers, moving, *solid.phi, dt, static_cast<std::uint64_t>(next.steps),
+                flows);
+    dropBeyond(next.markers, solid);
+    next.owed = owedVolume(*liquid.phi, *next.phi, liquid.owed.get(), moving, before, solid, flows, dt);
+  }
   next.velocity = velocityFor(*next.phi, solid);
   carryVelocity(liquid, next, dt);
   addGravity(next.velocity, options.gravity * kick);

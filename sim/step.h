@@ -29,7 +29,13 @@ struct Liquid {
   // simulated.
   FloatGrid::Ptr temperature = nullptr;
   FloatGrid::Ptr owed = nullptr;  // see sim/owed_volume.h; null for nothing
+  // m/s at the velocity's faces near the surface, by which the liquid grows to give back what it owes; null
+  // grids for nothing. It moves the surface, and no momentum.
+  Velocity swelling = {};
 };
+
+// With which the surface moves: velocity and swelling.
+Velocity movingVelocity(const Liquid& liquid);
 
 // Half the width of phi's band in voxels, for steps of at most `cfl` cells.
 int bandWidth(double cfl);

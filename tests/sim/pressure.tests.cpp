@@ -285,6 +285,48 @@ TEST_CASE("pressure: single cells by hand", "[sim]") {
   CHECK(result.valid.u->activeVoxelCount() == 2);
 }
 
+TEST_CASE("pressure: liquid that grows swells out of its surface, and its velocity does not know", "[sim]") {
+  // A ball in the floor, one of air in the tank's liquid.
+  const auto level = [](const Vec3d& x) {
+    return std::max(x[2] - 0.6, 0.15 - (x - Vec3d(0.5, 0.5, 0.4)).length());
+  };
+  Scene scene(24, {Shape{Sphere{Vec3d(0.3, 0.4, 0.0), 0.2}}}, level), grown = scene;
+  grown.velocity = copyOf(scene.velocity);
+  PressureOptions options = precise();
+  const Projection without = scene.projected(options);
+  CHECK(without.swelling.component[0] == nullptr);
+  options.growth = FloatGrid::create(0.0f);
+  const double volume = std::pow(scene.h, 3);
+  double sum = 0.0;
+  for (const auto& [cell, rate] : {std::pair(Coord(12, 12, 2), 3.0f), {Coord(20, 20, 10), 1.0f}}) {
+    options.growth->tree().setValueOn(cell, rate);
+    sum += rate * volume;
+  }
+  const Projection with = grown.projected(options);
+  double outflow = 0.0, largest = 0.0;
+  for (int a = 0; a < 3; ++a) {
+    auto other = grown.velocity.component[a]->tree().cbeginLeaf();
+    for (auto leaf = scene.velocity.component[a]->tree().cbeginLeaf(); leaf; ++leaf, ++other)
+      CHECK(std::memcmp(leaf->buffer().data(), other->buffer().data(), sizeof(float) * 512) == 0);
+  }
+  for (auto it = grown.phi->cbeginValueOn(); it; ++it) {
+    if (*it >= 0.0f) continue;
+    const Coord c = it.getCoord();
+    double out = 0.0;
+    for (int a = 0; a < 3; ++a) {
+      Coord up = c;
+      ++up[a];
+      const auto& speed = with.swelling.component[a]->tree();
+      out += grown.open(a, up) * speed.getValue(up) - grown.open(a, c) * speed.getValue(c);
+    }
+    out *= grown.h * grown.h;
+    outflow += out;
+    largest = std::max(largest, std::abs(out - options.growth->tree().getValue(c) * volume));
+  }
+  CHECK_THAT(outflow, WithinRel(sum, 0.02));
+  CHECK(largest < 0.02 * sum);
+}
+
 TEST_CASE("pressure: no liquid is no fault", "[sim]") {
   Scene scene(8, {}, [](const Vec3d&) { return 1.0; });
   const Projection result = scene.projected();

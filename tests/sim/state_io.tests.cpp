@@ -28,11 +28,27 @@ State someState() {
   state.u = velocity.component[0];
   state.v = velocity.component[1];
   state.w = velocity.component[2];
+  const Velocity swelling = makeVelocity(0.03), acceleration = makeVelocity(0.03);
+  for (int axis = 0; axis < 3; ++axis) {
+    swelling.component[axis]->setName(std::array{"su", "sv", "sw"}[axis]);
+    acceleration.component[axis]->setName(std::array{"au", "av", "aw"}[axis]);
+  }
+  state.su = swelling.component[0];
+  state.sv = swelling.component[1];
+  state.sw = swelling.component[2];
+  state.au = acceleration.component[0];
+  state.av = acceleration.component[1];
+  state.aw = acceleration.component[2];
+  state.owed = FloatGrid::create(0.0f);
+  state.owed->setTransform(cellTransform(0.03));
+  state.owed->setName("owed");
   // Values that a half float or a text would not keep; some inactive beside active ones.
   for (int n = 0; n < 200; ++n) {
     const Coord c(n % 7, n % 11 - 5, n / 3);
     state.phi->tree().setValueOn(c, 0.1f / static_cast<float>(n + 1));
     if (n % 3 == 0) state.phi->tree().setValueOff(c, -0.21f);
+    state.owed->tree().setValueOn(c, 1e-6f * static_cast<float>(n));
+    state.sv->tree().setValueOn(c, -1e-3f / static_cast<float>(n + 1));
     state.w->tree().setValueOn(c, std::nextafter(1.0f, 2.0f) * static_cast<float>(n));
   }
   return state;
@@ -57,8 +73,13 @@ TEST_CASE("state: comes back bit for bit") {
     CHECK(std::memcmp(in.markers[n].markers.data(), out.markers[n].markers.data(),
                       in.markers[n].markers.size() * sizeof(Marker)) == 0);
   }
-  const FloatGrid::Ptr a[4] = {out.phi, out.u, out.v, out.w}, b[4] = {in.phi, in.u, in.v, in.w};
-  for (int n = 0; n < 4; ++n) {
+  const auto grids = [](const State& state) {
+    return std::vector<FloatGrid::Ptr>{state.phi, state.u,  state.v,  state.w, state.owed,
+                                       state.su,  state.sv, state.sw, state.au};
+  };
+  const auto a = grids(out), b = grids(in);
+  CHECK(in.temperature == nullptr);
+  for (std::size_t n = 0; n < a.size(); ++n) {
     CHECK(a[n]->transform() == b[n]->transform());
     CHECK(a[n]->background() == b[n]->background());
     CHECK(a[n]->getGridClass() == b[n]->getGridClass());

@@ -1,0 +1,220 @@
+#include "sim/volume_flux.h"
+
+#include "sim/leaf_patch.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fluidtex::sim {
+namespace {
+
+// Cells with less room than this share do not make sub-steps shorter.
+constexpr float kSliver = 0.25f;
+// From a face to the next one along the axis, and to those of the next row of cells along x and y.
+constexpr int kNextFace[3] = {64, 8, 1};
+constexpr int kFaceRowX[3] = {64, 72, 72}, kFaceRowY[3] = {8, 8, 9};
+
+// The lower face of the cell at an offset of the leaf.
+int faceIndex(int offset, int axis) {
+  return kFaceRowX[axis] * (offset >> 6) + kFaceRowY[axis] * ((offset >> 3) & 7) + (offset & 7);
+}
+
+float netOutflow(const LeafFaces& flux, int offset) {
+  float sum = 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float* face = flux[axis].data() + faceIndex(offset, axis);
+    sum += face[kNextFace[axis]] - face[0];
+  }
+  return sum;
+}
+
+float openShare(float solid, float h) {
+  return std::clamp(0.5f + solid / h, 0.0f, 1.0f);
+}
+
+// The liquid's share of a cell's room.
+float wetShare(float phi, float solid, float h) {
+  const float open = openShare(solid, h), wet = std::clamp(0.5f - phi / h, 0.0f, 1.0f);
+  if (open <= 0.0f) return phi < 0.0f ? 1.0f : 0.0f;
+  return std::min(1.0f, wet / open);
+}
+
+// One side of a face: of the room there the share that is liquid, and phi in cells.
+struct Beside {
+  float share, room, phi;
+};
+
+// The liquid that goes up through a face with the volume `flux`. By phi it lies at the face, or off it, or
+// beside it. The weighted line interface calculation, Yokoi, "Efficient implementation of THINC scheme",
+// 2007, sec. 2.3.
+inline float liquidThrough(float flux, const Beside& below, const Beside& above) {
+  const bool up = flux > 0.0f;
+  const float volume = up ? flux : -flux, share = up ? below.share : above.share,
+              room = up ? below.room : above.room;
+  const float rise = up ? above.phi - below.phi : below.phi - above.phi;
+  const float across = std::min(rise * rise, 1.0f), even = volume * share;
+  const float atFace = std::min(volume, share * room),
+              offFace = std::max(0.0f, volume - (room - share * room));
+  const float mixed = even + across * ((rise < 0.0f ? atFace : offFace) - even);
+  const float liquid = share > 0.0f && share < 1.0f ? mixed : even;
+  return up ? liquid : -liquid;
+}
+
+// Shares after the flow along one axis. full: which cells count as full in this sub-step; along one axis
+// alone these swell or shrink, which is taken out again with the `last` axis, so that all is exact in sum:
+// Weymouth and Yue, "Conservative volume-of-fluid method for free-surface simulations on Cartesian grids",
+// 2010.
+std::vector<float> carriedAlong(const VolumeFlux& all, int axis, bool last, const std::vector<char>& full,
+                                const std::vector<float>& shares) {
+  std::vector<float> next(shares.size());
+  tbb::parallel_for(std::size_t{0}, all.leaves.size(), [&](std::size_t n) {
+    const auto asInside = [](float edge) { return edge; };
+    LeafPatch share{}, room, phi, liquid;  // liquid: through the lower face of each cell
+    loadPatch(all.leaves, shares, n, share, [](float edge) { return edge > 0.5f ? 1.0f : 0.0f; });
+    if (std::none_of(share.begin(), share.end(), [](float s) { return s != 0.0f; })) return;
+    loadPatch(all.leaves, all.room, n, room, asInside);
+    loadPatch(all.leaves, all.phi, n, phi, asInside);
+    const float* flux = all.flux[n][axis].data();
+    const int stride = kPatchStride[axis];
+    for (int i = 0; i < kLeafDim + (axis == 0 ? 1 : 0); ++i) {
+      for (int j = 0; j < kLeafDim + (axis == 1 ? 1 : 0); ++j) {
+        const int row = patchIndex(0) + i * kPatchStride[0] + j * kPatchStride[1];
+        const float* through = flux + i * kFaceRowX[axis] + j * kFaceRowY[axis];
+        for (int k = 0; k < kLeafDim + (axis == 2 ? 1 : 0); ++k) {
+          const int high = row + k, low = high - stride;
+          liquid[high] = liquidThrough(through[k], {share[low], room[low], phi[low]},
+                                       {share[high], room[high], phi[high]});
+        }
+      }
+    }
+    for (int i = 0; i < kLeafSize; ++i) {
+      const std::size_t cell = n * kLeafSize + i;
+      const int at = patchIndex(i), face = faceIndex(i, axis);
+      if (room[at] <= 0.0f) continue;
+      float gain = liquid[at] - liquid[at + stride];
+      if (full[cell]) gain += flux[face + kNextFace[axis]] - flux[face];
+      if (last) {
+        if (full[cell]) gain -= netOutflow(all.flux[n], i);
+        // What solids sweep out, or make room for, is neither lost nor gained.
+        if (!all.swept.empty()) gain += all.swept[cell] * share[at];
+      }
+      next[cell] = share[at] + gain / room[at];
+    }
+  });
+  return next;
+}
+
+}  // namespace
+
+VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid& after,
+                      const Velocity& velocity, const SolidField& solid, double dt) {
+  VolumeFlux result{std::move(table), {}, {}, {}, {}, 1};
+  const LeafTable& leaves = result.leaves;
+  const float h = static_cast<float>(solid.voxelSize), step = static_cast<float>(dt / solid.voxelSize);
+  result.flux.resize(leaves.size());
+  result.room.resize(leaves.voxels());
+  result.phi.resize(leaves.voxels());
+  const bool moving = solid.speedU != nullptr;
+  if (moving) result.swept.resize(leaves.voxels());
+  std::vector<float> leaving(leaves.voxels()), most(leaves.size(), 0.0f);
+  const FloatGrid* const open[3] = {solid.openU.get(), solid.openV.get(), solid.openW.get()};
+  const FloatGrid* const push[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    const Coord& origin = leaves.origins[n];
+    float solidScratch[kLeafSize], fromScratch[kLeafSize], toScratch[kLeafSize];
+    const float* s = leafValues(solid.phi->constTree(), origin, solidScratch);
+    const float* from = leafValues(before.constTree(), origin, fromScratch);
+    const float* to = leafValues(after.constTree(), origin, toScratch);
+    std::array<LeafPatch, 3> share, pushed;
+    LeafPatch speed;
+    for (int axis = 0; axis < 3; ++axis) {
+      gather(open[axis]->constTree(), origin, 1, share[axis].data(), true);
+      gather(velocity.component[axis]->constTree(), origin, 1, speed.data(), true);
+      if (moving) gather(push[axis]->constTree(), origin, 1, pushed[axis].data(), true);
+      auto& flux = result.flux[n][axis];
+      for (int i = 0; i < kLeafSize; ++i) {
+        const int at = patchIndex(i), face = faceIndex(i, axis), above = at + kPatchStride[axis];
+        flux[face] = step * share[axis][at] * speed[at];
+        flux[face + kNextFace[axis]] = step * share[axis][above] * speed[above];
+      }
+    }
+    for (int i = 0; i < kLeafSize; ++i) {
+      const std::size_t cell = n * kLeafSize + i;
+      const int at = patchIndex(i);
+      float out = 0.0f, anyOpen = 0.0f, swept = 0.0f, throughFace = 0.0f;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float* flux = result.flux[n][axis].data() + faceIndex(i, axis);
+        const int above = at + kPatchStride[axis];
+        out += std::max(0.0f, -flux[0]) + std::max(0.0f, flux[kNextFace[axis]]);
+        throughFace = std::max({throughFace, -flux[0], flux[kNextFace[axis]]});
+        anyOpen += share[axis][at] + share[axis][above];
+        if (moving) {
+          swept += step * ((1.0f - share[axis][at]) * pushed[axis][at] -
+                           (1.0f - share[axis][above]) * pushed[axis][above]);
+        }
+      }
+      result.phi[cell] = 0.5f * (from[i] + to[i]) / h;
+      if (anyOpen <= 0.0f) continue;
+      if (moving) result.swept[cell] = swept;
+      leaving[cell] = out + std::abs(swept);
+      result.room[cell] = openShare(s[i], h);
+      // Of slivers more may flow out than they hold: they get the room for it.
+      if (result.room[cell] > kSliver) most[n] = std::max(most[n], throughFace / result.room[cell]);
+    }
+  });
+  const float largest = most.empty() ? 0.0f : *std::max_element(most.begin(), most.end());
+  result.steps = std::max(1, static_cast<int>(std::ceil(largest)));
+  const float part = 1.0f / static_cast<float>(result.steps);
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    for (auto& axis : result.flux[n]) {
+      for (float& flux : axis) flux *= part;
+    }
+    for (std::size_t cell = n * kLeafSize; cell < (n + 1) * kLeafSize; ++cell) {
+      float& room = result.room[cell];
+      if (room <= kSliver) room = std::max(room, part * leaving[cell]);
+      if (moving) result.swept[cell] *= part;
+    }
+  });
+  return result;
+}
+
+std::vector<float> wetShares(const FloatGrid& phi, const SolidField& solid, const LeafTable& leaves) {
+  std::vector<float> shares(leaves.voxels());
+  const float h = static_cast<float>(solid.voxelSize);
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    float phiScratch[kLeafSize], solidScratch[kLeafSize];
+    const float* p = leafValues(phi.constTree(), leaves.origins[n], phiScratch);
+    const float* s = leafValues(solid.phi->constTree(), leaves.origins[n], solidScratch);
+    for (int i = 0; i < kLeafSize; ++i) shares[n * kLeafSize + i] = wetShare(p[i], s[i], h);
+  });
+  return shares;
+}
+
+std::vector<float> carried(const VolumeFlux& flux, std::vector<float> shares) {
+  std::vector<char> full(shares.size());
+  for (int step = 0; step < flux.steps; ++step) {
+    std::transform(shares.begin(), shares.end(), full.begin(), [](float share) { return share > 0.5f; });
+    // The axes take turns at being first.
+    for (int n = 0; n < 3; ++n) shares = carriedAlong(flux, (step + n) % 3, n == 2, full, shares);
+  }
+  return shares;
+}
+
+void moveRoom(VolumeFlux& flux, const SolidField& before, const SolidField& after) {
+  const float h = static_cast<float>(before.voxelSize);
+  tbb::parallel_for(std::size_t{0}, flux.leaves.size(), [&](std::size_t n) {
+    float wasScratch[kLeafSize], isScratch[kLeafSize];
+    const float* was = leafValues(before.phi->constTree(), flux.leaves.origins[n], wasScratch);
+    const float* is = leafValues(after.phi->constTree(), flux.leaves.origins[n], isScratch);
+    for (int i = 0; i < kLeafSize; ++i) {
+      float& room = flux.room[n * kLeafSize + i];
+      const float more = room > 0.0f ? room - openShare(was[i], h) : 0.0f;
+      room = std::max(0.0f, openShare(is[i], h) + more);
+    }
+  });
+}
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,43 @@
+// How much liquid there is in each cell after a step, by fluxes: exact in sum, but not sharp. The other half
+// of sim/owed_volume.h.
+#pragma once
+
+#include "sim/leaf_table.h"
+#include "sim/mac_grid.h"
+#include "sim/solids.h"
+
+#include <array>
+#include <vector>
+
+namespace fluidtex::sim {
+
+// Values at a leaf's faces normal to each axis, the lower of each cell and the upper of the last layer; z
+// fastest: 9 x 8 x 8, 8 x 9 x 8 and 8 x 8 x 9.
+using LeafFaces = std::array<std::array<float, (kLeafDim + 1) * kLeafDim * kLeafDim>, 3>;
+
+// What flows in a step, and into how much room. Volumes are in cells (h^3).
+struct VolumeFlux {
+  LeafTable leaves;             // the flat arrays below are theirs, 512 values a leaf
+  std::vector<float> room;      // open share of each cell's volume, 0 in solids
+  std::vector<LeafFaces> flux;  // of volume through each face in a sub-step, upwards
+  std::vector<float> swept;  // by solids that move into the cell, in a sub-step; empty where all are at rest
+  std::vector<float> phi;    // half way through the step, in cells
+  int steps = 1;             // sub-steps: so many that through no face goes more than a cell holds
+};
+
+// Of a step of dt seconds in which `velocity` moves the surface from `before` to `after`, on these leaves.
+// solid: while the velocity holds.
+VolumeFlux volumeFlux(LeafTable leaves, const FloatGrid& before, const FloatGrid& after,
+                      const Velocity& velocity, const SolidField& solid, double dt);
+
+// The share of each cell's room that phi makes liquid.
+std::vector<float> wetShares(const FloatGrid& phi, const SolidField& solid, const LeafTable& leaves);
+
+// The shares at the step's end, without what solids sweep. The sum over share times room changes by what
+// crosses the leaves' outline only.
+std::vector<float> carried(const VolumeFlux& flux, std::vector<float> shares);
+
+// The room there is once the solids have moved from `before` to `after`.
+void moveRoom(VolumeFlux& flux, const SolidField& before, const SolidField& after);
+
+}  // namespace fluidtex::sim
