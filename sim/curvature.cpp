@@ -1,5 +1,7 @@
 #include "sim/curvature.h"
 
+#include "sim/trilinear.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -12,6 +14,11 @@ namespace {
 constexpr int kHalo = 1;
 constexpr int kSide = kLeafDim + 2 * kHalo;
 constexpr int kStride[3] = {kSide * kSide, kSide, 1};
+
+// Mirrored are cells up to this deep in solids; what they are mirrored to lies within kWideHalo of a leaf.
+constexpr float kDeepest = 1.5f;
+constexpr int kWideHalo = 4, kWideSide = kLeafDim + 2 * kWideHalo;
+constexpr int kSolidHalo = 2, kSolidSide = kLeafDim + 2 * kSolidHalo;
 
 // Second differences above this share of the slope are corners, or the middle of a film or a gap.
 constexpr double kSharp = 0.7;
@@ -70,9 +77,40 @@ bool besideSurface(const float* p) {
                      [&](int d) { return (p[d] < 0.0f) != inside || (p[-d] < 0.0f) != inside; });
 }
 
+// Gives cells in solids the values of phi across the surface, those of their mirror images. block: phi around
+// a leaf, kSide cells wide.
+void mirrorInSolids(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord& origin, float* block) {
+  float solid[kSolidSide * kSolidSide * kSolidSide], wide[kWideSide * kWideSide * kWideSide];
+  gather(solidPhi.constTree(), origin, kSolidHalo, solid);
+  if (std::none_of(std::begin(solid), std::end(solid), [](float s) { return s < 0.0f; })) return;
+  gather(phi.constTree(), origin, kWideHalo, wide);
+  constexpr int kStep[3] = {kSolidSide * kSolidSide, kSolidSide, 1};
+  const auto h = static_cast<float>(phi.voxelSize()[0]);
+  for (int n = 0; n < kSide * kSide * kSide; ++n) {
+    const int cell[3] = {n / kStride[0], n / kStride[1] % kSide, n % kSide};
+    const float* s = solid + (cell[0] + 1) * kStep[0] + (cell[1] + 1) * kStep[1] + (cell[2] + 1);
+    if (*s >= 0.0f) continue;
+    float normal[3];
+    for (int a = 0; a < 3; ++a) normal[a] = 0.5f * (s[kStep[a]] - s[-kStep[a]]);
+    const float length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    // Deep in solids the distance is cut off.
+    if (length < 0.5f * h) continue;
+    const float way = 2.0f * std::min(-*s / h, kDeepest);
+    int low[3];
+    float part[3];
+    for (int a = 0; a < 3; ++a) {
+      const float at = static_cast<float>(cell[a] - kHalo + kWideHalo) + way * normal[a] / length;
+      low[a] = std::clamp(static_cast<int>(std::floor(at)), 0, kWideSide - 2);
+      part[a] = std::clamp(at - static_cast<float>(low[a]), 0.0f, 1.0f);
+    }
+    block[n] = trilinear(wide + (low[0] * kWideSide + low[1]) * kWideSide + low[2], kWideSide * kWideSide,
+                         kWideSide, part[0], part[1], part[2]);
+  }
+}
+
 }  // namespace
 
-FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi) {
+FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi) {
   const auto h = static_cast<float>(phi.voxelSize()[0]);
   const auto leaves = leavesOf(phi.constTree());
   std::vector<std::unique_ptr<FloatLeaf>> made(leaves.size());
@@ -82,6 +120,7 @@ FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi) {
     gather(phi.constTree(), origin, kHalo, block);
     const auto [low, high] = std::minmax_element(std::begin(block), std::end(block));
     if (!(*low < 0.0f) || *high < 0.0f) return;
+    mirrorInSolids(phi, solidPhi, origin, block);
     for (float& value : block) value /= h;
     for (int c = 0; c < kLeafSize; ++c) {
       const int at =

@@ -10,12 +10,14 @@ namespace fluidtex::sim {
 // or a bubble (negative). Of second order where the surface is smooth on the grid; at most 1 / h, that of a
 // drop of two cells' radius. Active where phi bends smoothly around the cell; in the middle of films and gaps
 // and at corners a value is there, but it is not active. phi: metres, a distance two cells around the
-// surface.
+// surface. At walls, where solidPhi (metres, cell centres) changes its sign, phi is mirrored, so that the
+// surface is pulled until it meets them at a right angle. Without that nothing holds it upright there, and
+// drops between two walls tilt until they shake.
 //
 // Source: Kang, Fedkiw, Liu, "A boundary condition capturing method for multiphase incompressible flow",
 // 2000, section 3; Gaussian curvature, to go from the level of phi at the cell to the surface: Goldman,
 // "Curvature formulas for implicit curves and surfaces", 2005.
-FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi);
+FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi);
 
 // Between two neighbouring cells on both sides of the surface, which lies a share `theta` of a cell from the
 // first. A value that is not active yields to one that is.

@@ -23,7 +23,8 @@ bool meetsAir(const LiquidCells& liquid, const LiquidCell& cell, const Coord& pl
 
 }  // namespace
 
-SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi, double scale)
+SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi, const FloatGrid& solidPhi,
+                                 double scale)
     : m_row(liquid.cells.size(), -1) {
   std::vector<int> cells;
   for (int i = 0; i < static_cast<int>(m_row.size()); ++i) {
@@ -35,7 +36,7 @@ SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi
     cells.push_back(i);
   }
   m_value.resize(cells.size());
-  const FloatGrid::Ptr curvature = surfaceCurvature(phi);
+  const FloatGrid::Ptr curvature = surfaceCurvature(phi, solidPhi);
   tbb::parallel_for(Range(0, static_cast<int>(cells.size()), 1024), [&](const Range& range) {
     const openvdb::tree::ValueAccessor<const FloatTree> bend(curvature->constTree());
     for (int n = range.begin(); n < range.end(); ++n) {

@@ -63,6 +63,25 @@ inline float liquidThrough(float flux, const Beside& below, const Beside& above)
   return up ? liquid : -liquid;
 }
 
+// Divides a whole step's fluxes into sub-steps. leaving: what flows out of each cell; most: through a face of
+// each leaf's cells, over their room.
+void divide(VolumeFlux& flux, const std::vector<float>& leaving, const std::vector<float>& most) {
+  const float largest = most.empty() ? 0.0f : *std::max_element(most.begin(), most.end());
+  flux.steps = std::max(1, static_cast<int>(std::ceil(largest)));
+  const float part = 1.0f / static_cast<float>(flux.steps);
+  tbb::parallel_for(std::size_t{0}, flux.leaves.size(), [&](std::size_t n) {
+    for (auto& axis : flux.flux[n]) {
+      for (float& volume : axis) volume *= part;
+    }
+    for (std::size_t cell = n * kLeafSize; cell < (n + 1) * kLeafSize; ++cell) {
+      // Out of slivers more may flow than they hold: they get the room for it.
+      float& room = flux.room[cell];
+      if (room <= kSliver) room = std::max(room, part * leaving[cell]);
+      if (!flux.swept.empty()) flux.swept[cell] *= part;
+    }
+  });
+}
+
 // Shares after the flow along one axis. full: which cells count as full in this sub-step; along one axis
 // alone these swell or shrink, which is taken out again with the `last` axis, so that all is exact in sum:
 // Weymouth and Yue, "Conservative volume-of-fluid method for free-surface simulations on Cartesian grids",
@@ -161,23 +180,10 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
       if (moving) result.swept[cell] = swept;
       leaving[cell] = out + std::abs(swept);
       result.room[cell] = openShare(s[i], h);
-      // Of slivers more may flow out than they hold: they get the room for it.
       if (result.room[cell] > kSliver) most[n] = std::max(most[n], throughFace / result.room[cell]);
     }
   });
-  const float largest = most.empty() ? 0.0f : *std::max_element(most.begin(), most.end());
-  result.steps = std::max(1, static_cast<int>(std::ceil(largest)));
-  const float part = 1.0f / static_cast<float>(result.steps);
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    for (auto& axis : result.flux[n]) {
-      for (float& flux : axis) flux *= part;
-    }
-    for (std::size_t cell = n * kLeafSize; cell < (n + 1) * kLeafSize; ++cell) {
-      float& room = result.room[cell];
-      if (room <= kSliver) room = std::max(room, part * leaving[cell]);
-      if (moving) result.swept[cell] *= part;
-    }
-  });
+  divide(result, leaving, most);
   return result;
 }
 

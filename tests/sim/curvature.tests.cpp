@@ -26,6 +26,11 @@ double ball(const Vec3d& x) {
   return (x - Vec3d(0.52, 0.49, 0.503)).length() - 0.25;
 }
 
+// In the open.
+FloatGrid::Ptr curvatureOf(const FloatGrid& phi) {
+  return surfaceCurvature(phi, *makePhi(phi.voxelSize()[0], 3 * phi.voxelSize()[0]));
+}
+
 // Largest error of the active curvatures, relative.
 double errorOf(const FloatGrid& curvature, double exact) {
   double most = 0.0;
@@ -43,15 +48,13 @@ bool same(const FloatGrid& a, const FloatGrid& b) {
   return true;
 }
 
-// Velocities after one projection of a tilted pool at rest with this surface tension.
+// Velocities after one projection of a pool at rest with this surface tension.
 Velocity pool(double surfaceTension, bool ripple) {
   Options options;
   options.resolution = 16;
   const auto solid = Solids(options).at(0.0);
-  const Vec3d up = Vec3d(0.3, 0.2, 1.0).unit();
-  const auto phi = phiOf(16, [&](const Vec3d& x) {
-    return (x - Vec3d(0.5, 0.5, 0.47)).dot(up) + (ripple ? 0.01 * std::cos(12.0 * x[0]) : 0.0);
-  });
+  const auto phi =
+      phiOf(16, [&](const Vec3d& x) { return x[2] - 0.47 + (ripple ? 0.01 * std::cos(12.0 * x[0]) : 0.0); });
   Velocity velocity = makeVelocity(1.0 / 16, phi->constTree());
   const auto& [u, v, w] = velocity.component;
   PressureOptions pressure;
@@ -63,27 +66,50 @@ Velocity pool(double surfaceTension, bool ripple) {
 }  // namespace
 
 TEST_CASE("curvature: that of a ball, of second order") {
-  const double coarse = errorOf(*surfaceCurvature(*phiOf(32, ball)), 8.0),
-               fine = errorOf(*surfaceCurvature(*phiOf(64, ball)), 8.0);
+  const double coarse = errorOf(*curvatureOf(*phiOf(32, ball)), 8.0),
+               fine = errorOf(*curvatureOf(*phiOf(64, ball)), 8.0);
   CHECK(coarse < 0.03);
   CHECK(fine < 0.3 * coarse);
 }
 
 TEST_CASE("curvature: of a bubble it is negative, of a plane none, of a tiny drop that of two cells") {
-  CHECK(errorOf(*surfaceCurvature(*phiOf(32, [](const Vec3d& x) { return -ball(x); })), -8.0) < 0.03);
+  CHECK(errorOf(*curvatureOf(*phiOf(32, [](const Vec3d& x) { return -ball(x); })), -8.0) < 0.03);
   const Vec3d up = Vec3d(0.3, -0.5, 0.8).unit();
-  const auto plane = surfaceCurvature(*phiOf(32, [&](const Vec3d& x) { return (x - Vec3d(0.5)).dot(up); }));
+  const auto plane = curvatureOf(*phiOf(32, [&](const Vec3d& x) { return (x - Vec3d(0.5)).dot(up); }));
   for (auto it = plane->cbeginValueOn(); it; ++it) CHECK(std::abs(*it) < 1e-3);
   const auto tiny = phiOf(32, [](const Vec3d& x) { return (x - Vec3d(0.5)).length() - 1.2 / 32; });
-  const auto round = surfaceCurvature(*tiny);
+  const auto round = curvatureOf(*tiny);
   for (auto it = round->cbeginValueAll(); it; ++it) CHECK(std::abs(*it) <= 32.0f);
+}
+
+TEST_CASE("curvature: a drop on a wall bends as if it went on behind it as its mirror image") {
+  for (const Vec3d& up : {Vec3d(0.0, 0.0, 1.0), Vec3d(0.3, -0.5, 0.8).unit()}) {
+    const Vec3d middle = Vec3d(0.5);
+    // Behind the wall the level set goes straight on.
+    const auto phi = phiOf(64, [&](const Vec3d& x) {
+      const double height = std::max(0.0, (x - middle).dot(up));
+      const Vec3d along = x - middle - (x - middle).dot(up) * up;
+      return std::hypot(height, along.length()) - 0.25;
+    });
+    const auto wall = phiOf(64, [&](const Vec3d& x) { return (x - middle).dot(up); });
+    const auto curvature = surfaceCurvature(*phi, *wall);
+    int count = 0;
+    for (auto it = curvature->cbeginValueOn(); it; ++it) {
+      const double height = (phi->indexToWorld(it.getCoord()) - middle).dot(up);
+      if (height < 0.0) continue;
+      count += height < 1.0 / 64;
+      // Between cells the image is interpolated.
+      CHECK(std::abs(*it / 8.0 - 1.0) < (up[2] == 1.0 ? 0.02 : 0.1));
+    }
+    CHECK(count > 100);
+  }
 }
 
 TEST_CASE("curvature: a film's middle yields to its outside") {
   // 1.2 cells thick: its inside has no smooth distance.
   const double h = 1.0 / 32;
   const auto film = phiOf(32, [&](const Vec3d& x) { return std::abs(x[2] - 0.5 - 0.5 * h) - 0.6 * h; });
-  const auto curvature = surfaceCurvature(*film);
+  const auto curvature = curvatureOf(*film);
   const openvdb::tree::ValueAccessor<const FloatTree> at(curvature->constTree());
   REQUIRE_FALSE(at.isValueOn(Coord(16, 16, 16)));
   CHECK(std::abs(curvatureBetween(at, Coord(16, 16, 16), Coord(16, 16, 17), 0.6f)) < 1e-3);
