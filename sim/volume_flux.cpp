@@ -49,7 +49,8 @@ struct Beside {
 
 // The liquid that goes up through a face with the volume `flux`. By phi it lies at the face, or off it, or
 // beside it. The weighted line interface calculation, Yokoi, "Efficient implementation of THINC scheme",
-// 2007, sec. 2.3.
+// 2007, sec. 2.3; there the part beside the face is of first order and smooths slopes away, here it follows
+// the slope of phi.
 inline float liquidThrough(float flux, const Beside& below, const Beside& above) {
   const bool up = flux > 0.0f;
   const float volume = up ? flux : -flux, share = up ? below.share : above.share,
@@ -58,7 +59,8 @@ inline float liquidThrough(float flux, const Beside& below, const Beside& above)
   const float across = std::min(rise * rise, 1.0f), even = volume * share;
   const float atFace = std::min(volume, share * room),
               offFace = std::max(0.0f, volume - (room - share * room));
-  const float mixed = even + across * ((rise < 0.0f ? atFace : offFace) - even);
+  const float beside = std::clamp(even - 0.5f * volume * (1.0f - volume / room) * rise, offFace, atFace);
+  const float mixed = beside + across * ((rise < 0.0f ? atFace : offFace) - beside);
   const float liquid = share > 0.0f && share < 1.0f ? mixed : even;
   return up ? liquid : -liquid;
 }
