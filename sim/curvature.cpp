@@ -15,7 +15,7 @@ constexpr int kHalo = 1;
 constexpr int kSide = kLeafDim + 2 * kHalo;
 constexpr int kStride[3] = {kSide * kSide, kSide, 1};
 
-// Mirrored are cells up to this deep in solids; what they are mirrored to lies within kWideHalo of a leaf.
+// Cells deeper in solids, in cells, are taken as this deep; their images lie within kWideHalo of a leaf.
 constexpr float kDeepest = 1.5f;
 constexpr int kWideHalo = 4, kWideSide = kLeafDim + 2 * kWideHalo;
 constexpr int kSolidHalo = 2, kSolidSide = kLeafDim + 2 * kSolidHalo;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 namespace fluidtex::sim {
 namespace {
@@ -79,16 +80,16 @@ std::vector<float> atFaces(const LeafTable& table, const std::vector<float>& cel
 }
 
 template <int kFields>
-void extrapolateAxis(const std::array<const Extrapolated*, kFields>& fields, int axis, const LeafTable& table,
+void extrapolateAxis(const std::vector<Extrapolated>& fields, int axis, const LeafTable& table,
                      const std::vector<float>& phi, const std::vector<float>& depth) {
   Sweep<kFields> s{table, atFaces(table, phi, axis), atFaces(table, depth, axis),
                    std::vector<std::array<float, kFields>>(table.voxels()),
                    std::vector<std::uint8_t>(table.voxels())};
   std::array<std::vector<FloatLeaf*>, kFields> leaves;
-  for (int f = 0; f < kFields; ++f) leaves[f] = leavesOf(fields[f]->field.component[axis]->tree());
+  for (int f = 0; f < kFields; ++f) leaves[f] = leavesOf(fields[f].field.component[axis]->tree());
   tbb::parallel_for(std::size_t{0}, table.size(), [&](std::size_t n) {
     for (int f = 0; f < kFields; ++f) {
-      const auto& masks = fields[f]->valid;
+      const auto& masks = fields[f].valid;
       const MaskTree& valid = (axis == 0 ? masks.u : axis == 1 ? masks.v : masks.w)->constTree();
       const auto* validLeaf = valid.probeConstLeaf(table.origins[n]);
       const bool validTile = validLeaf == nullptr && valid.isValueOn(table.origins[n]);
@@ -138,9 +139,9 @@ void extrapolateAxis(const std::array<const Extrapolated*, kFields>& fields, int
 }
 
 template <int kFields>
-void extrapolateFields(const std::array<const Extrapolated*, kFields>& fields, const FloatGrid& phi,
+void extrapolateFields(const std::vector<Extrapolated>& fields, const FloatGrid& phi,
                        const FloatGrid& solidPhi) {
-  const LeafTable table = makeLeafTable(fields[0]->field.component[0]->constTree());
+  const LeafTable table = makeLeafTable(fields[0].field.component[0]->constTree());
   const std::vector<float> cellPhi = sampleOn(table, phi.constTree());
   std::vector<float> depth = sampleOn(table, solidPhi.constTree());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, depth.size(), kLeafSize), [&](const auto& range) {
@@ -158,20 +159,16 @@ void extrapolateFields(const std::array<const Extrapolated*, kFields>& fields, c
 
 }  // namespace
 
-void extrapolate(const Extrapolated& first, const Extrapolated& second, const FloatGrid& phi,
-                 const FloatGrid& solidPhi) {
-  extrapolateFields<2>({&first, &second}, phi, solidPhi);
-}
-
-void extrapolate(const Extrapolated& first, const Extrapolated& second, const Extrapolated& third,
-                 const FloatGrid& phi, const FloatGrid& solidPhi) {
-  extrapolateFields<3>({&first, &second, &third}, phi, solidPhi);
+void extrapolate(const std::vector<Extrapolated>& fields, const FloatGrid& phi, const FloatGrid& solidPhi) {
+  assert(!fields.empty() && fields.size() <= 3);
+  if (fields.size() == 1) extrapolateFields<1>(fields, phi, solidPhi);
+  if (fields.size() == 2) extrapolateFields<2>(fields, phi, solidPhi);
+  if (fields.size() == 3) extrapolateFields<3>(fields, phi, solidPhi);
 }
 
 void extrapolate(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi,
                  const FloatGrid& solidPhi) {
-  const Extrapolated field{velocity, valid};
-  extrapolateFields<1>({&field}, phi, solidPhi);
+  extrapolate({{velocity, valid}}, phi, solidPhi);
 }
 
 }  // namespace fluidtex::sim

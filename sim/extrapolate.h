@@ -4,6 +4,8 @@
 #include "sim/mac_grid.h"
 #include "sim/solids.h"
 
+#include <vector>
+
 namespace fluidtex::sim {
 
 // Fills every active face of u, v, w that is not in `valid`, constant along the normals: in the air along
@@ -12,15 +14,12 @@ namespace fluidtex::sim {
 // faces stay as they are.
 void extrapolate(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi, const FloatGrid& solidPhi);
 
-// The same for up to three fields of one topology at once: what says from where to where they go on is found
+// The same for one to three fields of one topology at once: what says from where to where they go on is found
 // once.
 struct Extrapolated {
   Velocity& field;
   const FaceMasks& valid;
 };
-void extrapolate(const Extrapolated& first, const Extrapolated& second, const FloatGrid& phi,
-                 const FloatGrid& solidPhi);
-void extrapolate(const Extrapolated& first, const Extrapolated& second, const Extrapolated& third,
-                 const FloatGrid& phi, const FloatGrid& solidPhi);
+void extrapolate(const std::vector<Extrapolated>& fields, const FloatGrid& phi, const FloatGrid& solidPhi);
 
 }  // namespace fluidtex::sim

@@ -115,23 +115,15 @@ FaceMasks drivenFaces(const FaceMasks& valid, const SolidField& solid) {
 void extrapolateAll(Liquid& liquid, Projection& projection, const SolidField& solid, double dt, bool driven,
                     Velocity arrived) {
   const FaceMasks& valid = projection.valid;
-  const Extrapolated velocity{liquid.velocity, valid}, swelling{projection.swelling, valid};
+  const FaceMasks free = driven ? drivenFaces(valid, solid) : FaceMasks{};
   const bool swells = projection.swelling.component[0] != nullptr;
   liquid.acceleration = liquid.swelling = {};
-  if (driven) {
-    const FaceMasks free = drivenFaces(valid, solid);
-    liquid.acceleration = accelerationBy(std::move(arrived), liquid.velocity, free, dt);
-    const Extrapolated acceleration{liquid.acceleration, free};
-    if (swells) {
-      extrapolate(velocity, acceleration, swelling, *liquid.phi, *solid.phi);
-    } else {
-      extrapolate(velocity, acceleration, *liquid.phi, *solid.phi);
-    }
-  } else if (swells) {
-    extrapolate(velocity, swelling, *liquid.phi, *solid.phi);
-  } else {
-    extrapolate(liquid.velocity, valid, *liquid.phi, *solid.phi);
-  }
+  if (driven) liquid.acceleration = accelerationBy(std::move(arrived), liquid.velocity, free, dt);
+
+  std::vector<Extrapolated> fields{{liquid.velocity, valid}};
+  if (driven) fields.push_back({liquid.acceleration, free});
+  if (swells) fields.push_back({projection.swelling, valid});
+  extrapolate(fields, *liquid.phi, *solid.phi);
   if (!swells) return;
   const auto& [u, v, w] = projection.swelling.component;
   constrainToSolids(*u, *v, *w, *liquid.phi, atRest(solid), valid, *projection.separating);

@@ -13,6 +13,7 @@ namespace {
 
 // Cells with less room than this share do not make sub-steps shorter.
 constexpr float kSliver = 0.25f;
+
 // From a face to the next one along the axis, and to those of the next row of cells along x and y.
 constexpr int kNextFace[3] = {64, 8, 1};
 constexpr int kFaceRowX[3] = {64, 72, 72}, kFaceRowY[3] = {8, 8, 9};
