@@ -70,15 +70,18 @@ struct Motion {
     }
   }
 
-  void trace(Marker& m) const {
+  // Two at a time: one alone waits for each of its three velocities.
+  void trace(Marker& m, Marker& other) const {
     const StaggeredBlocks blocks{{speed[0].value.data(), speed[1].value.data(), speed[2].value.data()},
                                  speed[0].side};
-    const Lanes x = _mm_loadu_ps(&m.x) + lanes(float(speed[0].halo));
-    const Lanes k1 = blocks.at(x);
-    const Lanes k2 = blocks.at(x + lanes(0.5f) * k1);
-    const Lanes k3 = blocks.at(x + lanes(0.75f) * k2);
-    const Lanes move = (lanes(2.0f) * k1 + lanes(3.0f) * k2 + lanes(4.0f) * k3) * lanes(1.0f / 9.0f);
-    m.x += lane0(move), m.y += lane1(move), m.z += lane2(move);
+    const LanePairs x = pairs(_mm_loadu_ps(&m.x), _mm_loadu_ps(&other.x)) + pairs(float(speed[0].halo));
+    const LanePairs k1 = blocks.at(x);
+    const LanePairs k2 = blocks.at(x + pairs(0.5f) * k1);
+    const LanePairs k3 = blocks.at(x + pairs(0.75f) * k2);
+    const LanePairs move = (pairs(2.0f) * k1 + pairs(3.0f) * k2 + pairs(4.0f) * k3) * pairs(1.0f / 9.0f);
+    const Lanes a = firstOf(move), b = secondOf(move);
+    m.x += lane0(a), m.y += lane1(a), m.z += lane2(a);
+    other.x += lane0(b), other.y += lane1(b), other.z += lane2(b);
   }
 };
 
@@ -104,9 +107,16 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt) {
     stay.clear();
     leave.clear();
     std::array<std::int32_t, 28>& start = parts[n].start;
-    for (Marker m : markers[n].markers) {
-      if (motion.anySqueeze && m.radius > 0.0f && motion.squeeze.at(m.x, m.y, m.z) > kMaxSqueeze) continue;
-      motion.trace(m);
+    std::vector<Marker>& here = markers[n].markers;
+    if (motion.anySqueeze) {
+      std::erase_if(here, [&](const Marker& m) {
+        return m.radius > 0.0f && motion.squeeze.at(m.x, m.y, m.z) > kMaxSqueeze;
+      });
+    }
+    Marker none{};
+    for (std::size_t m = 0; m < here.size(); m += 2)
+      motion.trace(here[m], m + 1 < here.size() ? here[m + 1] : none);
+    for (Marker& m : here) {
       const int di = wrap(m.x), dj = wrap(m.y), dk = wrap(m.z), to = neighborNumber(di, dj, dk);
       if (to == kHere) {
         stay.push_back(m);

@@ -53,18 +53,22 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
       float scratch[kLeafSize];
       const float* solid = leafValues(solidPhi.constTree(), origin, scratch);
       moved[n] = std::make_unique<LeafBuffer>();
-      for (int i = 0; i < kLeafSize; ++i) {
+      std::copy_n(leaves[n]->buffer().data(), kLeafSize, moved[n]->data());
+      const auto look = [&](int i, const Vec3f& from) {
         float& out = (*moved[n])[i];
-        out = leaves[n]->getValue(i);
-        if (solid[i] <= deepest) continue;
-        const Vec3f from = window.traceCentre(i, step);
         out = before.at(from);
-        if (std::abs(out) > far) continue;
+        if (std::abs(out) > far) return;
         // At edges, and where phi has been made to go on behind walls, the cubic overshoots.
         const auto [low, high] = before.range(from);
         const float cubic = before.cubic(from);
         if (cubic > low && cubic < high) out = cubic;
-      }
+      };
+      forPairs([&](int i) { return solid[i] > deepest; },
+               [&](int i, int other) {
+                 const auto [from, fromOther] = window.traceCentres(i, other, step);
+                 look(i, from);
+                 look(other, fromOther);
+               });
     }
   });
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {

@@ -74,18 +74,28 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
             const Window& own = content.component(axis);
             const int below = axis == 0 ? after.side * after.side : (axis == 1 ? after.side : 1);
             float* out = guess[axis][n]->buffer().data();
-            for (int i = 0; i < kLeafSize; ++i) {
-              const float* p =
-                  begin + (((i >> 6) + 1) * after.side + ((i >> 3) & 7) + 1) * after.side + (i & 7) + 1;
-              if (!target[axis][n]->isValueOn(i) || (p[0] >= 0.0f && p[-below] >= 0.0f)) continue;
-              const Vec3f origin3 = window.traceFace(i, axis, -step);
-              out[i] = own.at(origin3);
+            // phi in the cell above a face and, `below` before it, in the one under it.
+            const auto cellAbove = [&](int i) {
+              return begin + (((i >> 6) + 1) * after.side + ((i >> 3) & 7) + 1) * after.side + (i & 7) + 1;
+            };
+            const auto look = [&](int i, const Vec3f& from3) {
+              const float* p = cellAbove(i);
+              out[i] = own.at(from3);
               pass.flags[axis][i] = kWanted;
-              if (std::max(p[0], p[-below]) < inside && before.at(origin3) < inside) {
-                pass.flags[axis][i] |= kCorrect;
-                pass.bounds.push_back(own.range(origin3));
-              }
-            }
+              if (std::max(p[0], p[-below]) >= inside || before.at(from3) >= inside) return;
+              pass.flags[axis][i] |= kCorrect;
+              pass.bounds.push_back(own.range(from3));
+            };
+            forPairs(
+                [&](int i) {
+                  const float* p = cellAbove(i);
+                  return target[axis][n]->isValueOn(i) && (p[0] < 0.0f || p[-below] < 0.0f);
+                },
+                [&](int i, int other) {
+                  const auto origins = window.traceFaces(i, other, axis, -step);
+                  look(i, origins[0]);
+                  if (other != i) look(other, origins[1]);
+                });
           }
         }
       });
@@ -111,16 +121,21 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
             const float* first = guess[axis][n]->buffer().data();
             float* out = target[axis][n]->buffer().data();
             for (int i = 0; i < kLeafSize; ++i) {
-              if ((pass.flags[axis][i] & kWanted) == 0) continue;
-              out[i] = first[i];
-              if ((pass.flags[axis][i] & kCorrect) == 0) continue;
+              if ((pass.flags[axis][i] & kWanted) != 0) out[i] = first[i];
+            }
+            const auto correct = [&](int i, const Vec3f& goal) {
               const auto [low, high] = *bounds++;
-              const Vec3f goal = window.traceFace(i, axis, step);
-              if (after.at(goal) >= inside) continue;
+              if (after.at(goal) >= inside) return;
               const float back = ahead.component(axis).at(goal);
               const float corrected = first[i] + 0.5f * (content.component(axis).values[i] - back);
               out[i] = std::clamp(corrected, low, high);
-            }
+            };
+            forPairs([&](int i) { return (pass.flags[axis][i] & kCorrect) != 0; },
+                     [&](int i, int other) {
+                       const auto goals = window.traceFaces(i, other, axis, step);
+                       correct(i, goals[0]);
+                       if (other != i) correct(other, goals[1]);
+                     });
           }
         }
       });

@@ -50,6 +50,22 @@ bool beyondOpening(const SolidField& solid, const Coord& face, int axis) {
   return false;
 }
 
+// A leaf's active faces that are closed and not known.
+FloatLeaf::NodeMaskType closedFaces(const FloatLeaf& leaf, const FloatTree& open, const MaskTree& known) {
+  float scratch[kLeafSize];
+  const float* openness = leafValues(open, leaf.origin(), scratch);
+  FloatLeaf::NodeMaskType faces = leaf.getValueMask();
+  if (const auto* there = known.probeConstLeaf(leaf.origin())) {
+    faces -= there->getValueMask();
+  } else if (known.isValueOn(leaf.origin())) {
+    faces.setOff();
+  }
+  for (int i = 0; i < kLeafSize; ++i) {
+    if (openness[i] > 0.0f) faces.setOff(i);
+  }
+  return faces;
+}
+
 }  // namespace
 
 void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
@@ -63,37 +79,40 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
 
   // All new values are found from the old ones before any is written.
   struct Change {
-    FloatLeaf* leaf;
-    int offset;
-    float value;
+    float* value;
+    float to;
   };
-  std::vector<std::vector<Change>> changes;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto leaves = leavesOf(grids[axis]->tree());
-    const std::size_t first = changes.size();
-    changes.resize(first + leaves.size());
-    tbb::parallel_for(Range(0, leaves.size()), [&](const Range& range) {
-      const MaskAccessor known(masks[axis]->constTree()), leaving(separating.constTree());
-      Block distance, liquid, speed[3], push[3];
-      float scratch[kLeafSize];
-      for (std::size_t n = range.begin(); n < range.end(); ++n) {
-        const Coord origin = leaves[n]->origin();
-        const float* openness = leafValues(open[axis]->constTree(), origin, scratch);
-        if (std::all_of(openness, openness + kLeafSize, [](float share) { return share > 0.0f; })) continue;
-        gather(solid.phi->constTree(), origin, 1, distance.data());
-        // Deep inside a solid the distance is cut off.
-        const auto [least, most] = std::minmax_element(distance.begin(), distance.end());
-        if (*most - *least < 1e-3f * static_cast<float>(solid.voxelSize)) continue;
-        gather(phi.constTree(), origin, 1, liquid.data());
-        for (int a = 0; a < 3; ++a) {
-          gather(grids[a]->constTree(), origin, 1, speed[a].data());
-          if (moving) gather(solidSpeed[a]->constTree(), origin, 1, push[a].data());
-        }
-        for (auto it = leaves[n]->beginValueOn(); it; ++it) {
-          if (openness[it.pos()] > 0.0f) continue;
-          const Coord c = it.getCoord();
-          if (known.isValueOn(c) || beyondOpening(solid, c, axis)) continue;
-          const int at = blockIndex(static_cast<int>(it.pos()));
+  const auto leaves = leavesOf(u.tree());
+  std::vector<std::vector<Change>> changes(leaves.size());
+  tbb::parallel_for(Range(0, leaves.size()), [&](const Range& range) {
+    const MaskAccessor leaving(separating.constTree());
+    Block distance, liquid, speed[3], push[3];
+    for (std::size_t n = range.begin(); n < range.end(); ++n) {
+      const Coord origin = leaves[n]->origin();
+      std::array<FloatLeaf*, 3> own;
+      std::array<FloatLeaf::NodeMaskType, 3> asked;
+      bool any = false;
+      for (int axis = 0; axis < 3; ++axis) {
+        own[axis] = axis == 0 ? leaves[n] : grids[axis]->tree().probeLeaf(origin);
+        if (own[axis] == nullptr) continue;
+        asked[axis] = closedFaces(*own[axis], open[axis]->constTree(), masks[axis]->constTree());
+        any = any || !asked[axis].isOff();
+      }
+      if (!any) continue;
+      gather(solid.phi->constTree(), origin, 1, distance.data());
+      // Deep inside a solid the distance is cut off.
+      const auto [least, most] = std::minmax_element(distance.begin(), distance.end());
+      if (*most - *least < 1e-3f * static_cast<float>(solid.voxelSize)) continue;
+      gather(phi.constTree(), origin, 1, liquid.data());
+      for (int a = 0; a < 3; ++a) {
+        gather(grids[a]->constTree(), origin, 1, speed[a].data());
+        if (moving) gather(solidSpeed[a]->constTree(), origin, 1, push[a].data());
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        for (auto it = asked[axis].beginOn(); it; ++it) {
+          const int offset = static_cast<int>(it.pos()), at = blockIndex(offset);
+          const Coord c = origin + Coord(offset >> 6, (offset >> 3) & 7, offset & 7);
+          if (beyondOpening(solid, c, axis)) continue;
           const float *here = distance.data() + at, *below = here - kStride[axis];
           openvdb::Vec3f normal(0.0f), velocity(0.0f);
           for (int a = 0; a < 3; ++a) {
@@ -101,7 +120,7 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
                 a == axis
                     ? here[0] - below[0]
                     : 0.25f * (here[kStride[a]] - here[-kStride[a]] + below[kStride[a]] - below[-kStride[a]]);
-            velocity[a] = a == axis ? *it : across(speed[a].data() + at, axis, a);
+            velocity[a] = a == axis ? speed[a][at] : across(speed[a].data() + at, axis, a);
             if (moving) velocity[a] -= a == axis ? push[a][at] : across(push[a].data() + at, axis, a);
           }
           // Deep inside a solid there is no normal: nothing reads the velocity there.
@@ -114,14 +133,14 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
             if (!wet || (anyLeaving && (leaving.isValueOn(c) || leaving.isValueOn(shifted(c, axis, -1)))))
               continue;
           }
-          changes[first + n].push_back({leaves[n], static_cast<int>(it.pos()), *it - outward * normal[axis]});
+          changes[n].push_back({own[axis]->buffer().data() + offset, speed[axis][at] - outward * normal[axis]});
         }
       }
-    });
-  }
+    }
+  });
   tbb::parallel_for(Range(0, changes.size()), [&](const Range& range) {
     for (std::size_t n = range.begin(); n < range.end(); ++n) {
-      for (const Change& change : changes[n]) change.leaf->setValueOnly(change.offset, change.value);
+      for (const Change& change : changes[n]) *change.value = change.to;
     }
   });
 }

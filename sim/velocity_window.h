@@ -5,6 +5,7 @@
 #include "sim/tricubic.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <utility>
 
@@ -76,6 +77,23 @@ struct Window {
   }
 };
 
+// Calls body(i, j) for the voxels of a leaf for which wanted() holds, two at a time; with an odd number of
+// them the last comes twice.
+template <class Wanted, class Body>
+void forPairs(const Wanted& wanted, const Body& body) {
+  int waiting = -1;
+  for (int i = 0; i < kLeafSize; ++i) {
+    if (!wanted(i)) continue;
+    if (waiting < 0) {
+      waiting = i;
+    } else {
+      body(waiting, i);
+      waiting = -1;
+    }
+  }
+  if (waiting >= 0) body(waiting, waiting);
+}
+
 inline Vec3f faceShift(int axis) {
   Vec3f shift(0.5f);
   shift[axis] = 0.0f;
@@ -109,23 +127,36 @@ struct VelocityWindow {
   // Where x gets to along the velocity; step: dt / h, negative to trace back.
   Vec3f trace(const Vec3f& x, float step) const {
     const Lanes from = lanes(x[0], x[1], x[2]);
-    return traceOn(from, sample(from), step);
+    const Start start{from, sample(from)};
+    return traceOn(start, start, step)[0];
   }
 
-  // The same from the centre of the leaf's voxel `offset`: the first velocity is a mean of samples.
-  Vec3f traceCentre(int offset, float step) const {
+  // The same from the centres of two of the leaf's voxels: the first velocity is a mean of samples.
+  std::array<Vec3f, 2> traceCentres(int offset, int other, float step) const {
+    return traceOn(startAtCentre(offset), startAtCentre(other), step);
+  }
+
+  // The same from the lower faces, normal to `axis`, of two of the leaf's voxels.
+  std::array<Vec3f, 2> traceFaces(int offset, int other, int axis, float step) const {
+    return traceOn(startAtFace(offset, axis), startAtFace(other, axis), step);
+  }
+
+ private:
+  // A place and the velocity there.
+  struct Start {
+    Lanes place, velocity;
+  };
+
+  Start startAtCentre(int offset) const {
     const std::ptrdiff_t side = u.side;
     const std::ptrdiff_t i = offset >> 6, j = (offset >> 3) & 7, k = offset & 7;
     const std::ptrdiff_t at = ((i + u.halo) * side + j + u.halo) * side + k + u.halo;
     const float *a = u.values.get() + at, *b = v.values.get() + at, *c = w.values.get() + at;
-    const Lanes first = lanes(0.5f) * lanes(a[0] + a[side * side], b[0] + b[side], c[0] + c[1]);
     const Lanes from = lanes(static_cast<float>(i), static_cast<float>(j), static_cast<float>(k));
-    return traceOn(from + lanes(0.5f), first, step);
+    return {from + lanes(0.5f), lanes(0.5f) * lanes(a[0] + a[side * side], b[0] + b[side], c[0] + c[1])};
   }
 
-  // The same from the lower face, normal to `axis`, of the leaf's voxel `offset`: the first of the three
-  // velocities is a mean of samples.
-  Vec3f traceFace(int offset, int axis, float step) const {
+  Start startAtFace(int offset, int axis) const {
     const std::ptrdiff_t side = u.side;
     const std::ptrdiff_t stride[3] = {side * side, side, 1};
     const int local[3] = {offset >> 6, (offset >> 3) & 7, offset & 7};
@@ -140,16 +171,25 @@ struct VelocityWindow {
       const float* below = p - stride[axis];
       first[a] = a == axis ? p[0] : 0.25f * (p[0] + p[stride[a]] + below[0] + below[stride[a]]);
     }
-    return traceOn(lanes(from[0], from[1], from[2]), lanes(first[0], first[1], first[2]), step);
+    return {lanes(from[0], from[1], from[2]), lanes(first[0], first[1], first[2])};
   }
 
- private:
-  Vec3f traceOn(Lanes from, Lanes k1, float step) const {
-    const Lanes k2 = sample(from + lanes(0.5f * step) * k1);
-    const Lanes k3 = sample(from + lanes(0.75f * step) * k2);
-    const Lanes to =
-        from + lanes(step * (1.0f / 9.0f)) * (lanes(2.0f) * k1 + lanes(3.0f) * k2 + lanes(4.0f) * k3);
-    return Vec3f(lane0(to), lane1(to), lane2(to));
+  std::array<Vec3f, 2> traceOn(const Start& first, const Start& second, float step) const {
+    const LanePairs from = pairs(first.place, second.place), k1 = pairs(first.velocity, second.velocity);
+    const LanePairs k2 = sample(from + pairs(0.5f * step) * k1);
+    const LanePairs k3 = sample(from + pairs(0.75f * step) * k2);
+    const LanePairs to =
+        from + pairs(step * (1.0f / 9.0f)) * (pairs(2.0f) * k1 + pairs(3.0f) * k2 + pairs(4.0f) * k3);
+    const Lanes a = firstOf(to), b = secondOf(to);
+    return {Vec3f(lane0(a), lane1(a), lane2(a)), Vec3f(lane0(b), lane1(b), lane2(b))};
+  }
+
+  LanePairs sample(LanePairs x) const {
+    const auto halo = static_cast<float>(u.halo);
+    const LanePairs inside = _mm256_min_ps(_mm256_max_ps(x + pairs(halo - 0.5f), pairs(0.0f)),
+                                           pairs(static_cast<float>(u.side) - 1.501f));
+    const StaggeredBlocks blocks{{u.values.get(), v.values.get(), w.values.get()}, u.side};
+    return blocks.at(inside);
   }
 
   Lanes sample(Lanes x) const {
