@@ -37,7 +37,7 @@ void describeLiquid(Visitor& visitor, sim::Options& sim) {
         visitor.table("sides", [&] {
           static const char* const kKeys[] = {"x_low", "x_high", "y_low", "y_high", "z_low", "z_high"};
           for (std::size_t n = 0; n < sim.sides.size(); ++n)
-            choice(visitor, kKeys[n], sim.sides[n], {"wall", "open", "stream"});
+            choice(visitor, kKeys[n], sim.sides[n], {"wall", "open", "stream", "symmetry"});
         });
       },
       Need::required);

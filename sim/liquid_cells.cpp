@@ -87,13 +87,12 @@ std::vector<CellBlock> liquidBlocks(const FloatGrid& phi, const SolidField& soli
   return blocks;
 }
 
-// Whether the neighbour of a cell on this side lies beyond an open side of the domain.
-bool beyondEdge(const SolidField& solid, const Coord& cell, int side) {
-  const int axis = side >> 1;
-  return solid.sides[side] == Side::open && cell[axis] == (side & 1 ? solid.cells[axis] - 1 : 0);
-}
-
 }  // namespace
+
+bool endsAt(Side kind, const SolidField& solid, const Coord& cell, int side) {
+  const int axis = side >> 1;
+  return solid.sides[side] == kind && cell[axis] == (side & 1 ? solid.cells[axis] - 1 : 0);
+}
 
 LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
                          const std::array<const FloatTree*, 3>& velocity) {
@@ -133,9 +132,10 @@ LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
             continue;
           }
           cell.open[s] = open[axis][face];
+          if (closed > 0.0f && endsAt(Side::symmetry, solid, origin + localOf(c), s)) continue;
           cell.closed += closed;
           cell.leaving += closed * static_cast<float>(std::max(0.0, push - outward));
-          if (cell.open[s] > 0.0f && beyondEdge(solid, origin + localOf(c), s)) {
+          if (cell.open[s] > 0.0f && endsAt(Side::open, solid, origin + localOf(c), s)) {
             cell.theta[s] = kEdgeTheta;
             continue;
           }
@@ -149,7 +149,7 @@ LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
     for (int i = 0; i < liquid.numbering.size(); ++i) {
       const Coord& place = liquid.numbering.cells()[i];
       for (int s = 0; s < kSides; ++s) {
-        if (liquid.cells[i].open[s] <= 0.0f || !beyondEdge(solid, place, s)) continue;
+        if (liquid.cells[i].open[s] <= 0.0f || !endsAt(Side::open, solid, place, s)) continue;
         const double along = velocity[s >> 1]->getValue(s & 1 ? neighborOf(place, s) : place);
         liquid.edges.push_back({i, s, s & 1 ? along : -along, false});
       }

@@ -23,7 +23,7 @@ struct LiquidCell {
   std::array<float, kSides> theta;  // to the surface, in cells; 0 where the neighbour is not air
   // Before projection: sum of open area times outward velocity, and of closed area times the solid's.
   double outflow = 0.0;
-  float closed = 0.0f;   // sum of closed area
+  float closed = 0.0f;   // sum of closed area, of solids that liquid can let go of
   float leaving = 0.0f;  // before projection: sum of closed area times velocity away from it
 };
 
@@ -46,6 +46,9 @@ inline Coord neighborOf(Coord cell, int side) {
   cell[side >> 1] += (side & 1) ? 1 : -1;
   return cell;
 }
+
+// Whether the domain ends on this side of a cell, and the side is of that kind.
+bool endsAt(Side kind, const SolidField& solid, const Coord& cell, int side);
 
 // The cells of the domain with phi < 0 that have an open face whose velocity is not given. velocity: u, v, w
 // before the projection, m/s.

@@ -39,7 +39,8 @@ bool leavesSolid(const FloatGrid& phi, const Velocity& velocity, const SolidFiel
     if (out < 0) face[axis] += 1;
     if (solidPhi.constTree().getValue(beyond) >= deep) continue;
     const bool outside = beyond[axis] < 0 || beyond[axis] >= solid.cells[axis];
-    if (outside && solid.sides[side] != Side::wall) return true;  // what is beyond is of no account
+    if (outside && solid.sides[side] == Side::symmetry) continue;
+    if (outside && !isClosed(solid.sides[side])) return true;  // what is beyond is of no account
     double speed = velocity.component[axis]->constTree().getValue(face);
     if (push[axis] != nullptr) speed -= push[axis]->constTree().getValue(face);
     if (out * (speed + fall[axis]) > slowest) return true;

@@ -198,8 +198,14 @@ struct Drain {
 };
 
 // What the domain's face is: a wall; an edge that liquid falls off (no pressure beyond, and nothing comes
-// back); or a cut through a stream that goes on beyond, so that waves pass through.
-enum class Side { wall, open, stream };
+// back); a cut through a stream that goes on beyond, so that waves pass through; or a plane beyond which all
+// goes on as its mirror image: liquid slips along it and never lets go.
+enum class Side { wall, open, stream, symmetry };
+
+// Whether nothing passes.
+inline bool isClosed(Side side) {
+  return side == Side::wall || side == Side::symmetry;
+}
 
 struct Options {
   Vec3d size{1.0};  // of the domain, metres

@@ -207,7 +207,8 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
         if (std::abs(slope) < kSquare * solid.voxelSize || wet < 0) continue;
         const double push = solidSpeed == nullptr ? 0.0 : solidSpeed->constTree().getValue(place);
         double away = 0.0;
-        if (detached[wet]) {
+        const int wall = 2 * axis + (solidBelow ? 0 : 1);
+        if (detached[wet] && !endsAt(Side::symmetry, solid, liquid.numbering.cells()[wet], wall)) {
           // What the cell loses through its open faces comes off its walls, so that there is no divergence
           // there either; from each in proportion to the speed at which the liquid was about to leave it.
           const auto& [open, theta, outflow, closed, leaving] = liquid.cells[wet];

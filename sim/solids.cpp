@@ -147,11 +147,10 @@ double Solids::sideDistance(const Vec3d& x, bool all) const {
   const Coord cells = cellCount(m_options.size, h);
   double distance = kForever, outside = 0.0;
   for (int side = 0; side < 6; ++side) {
-    const bool wall = m_options.sides[side] == Side::wall;
-    if (!wall && !all) continue;
+    if (!isClosed(m_options.sides[side]) && !all) continue;
     const int a = side / 2;
     // A side that is no wall lies in the plane of faces.
-    const double high = wall ? m_options.size[a] : cells[a] * h;
+    const double high = m_options.sides[side] == Side::wall ? m_options.size[a] : cells[a] * h;
     const double d = side % 2 == 0 ? x[a] : high - x[a];
     distance = std::min(distance, d);
     if (d < 0.0) outside += d * d;

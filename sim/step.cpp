@@ -167,10 +167,10 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, double kick, co
   return std::isfinite(maxAbs(liquid.velocity));
 }
 
-// Markers beyond a side of the domain that is no wall are gone, and hold no film there.
+// Markers beyond a side of the domain that is not closed are gone, and hold no film there.
 void dropBeyond(Markers& markers, const SolidField& solid) {
   for (int side = 0; side < 6; ++side) {
-    if (solid.sides[side] == Side::wall) continue;
+    if (isClosed(solid.sides[side])) continue;
     const int axis = side / 2;
     for (MarkerBlock& block : markers) {
       const int first = block.origin[axis];

@@ -19,7 +19,7 @@ using sim::Vec3d;
 // from the ground. It starts as it should stay; each layer of cells comes in with its own mean speed.
 // `resolution`: cells to the depth.
 Result film(int resolution, const Progress& progress) {
-  constexpr double kGravity = 9.81, kLength = 8.0, kSource = 0.5, kTime = 12.0;
+  constexpr double kGravity = 9.81, kLength = 16.0, kSource = 0.5, kTime = 12.0;
   const double h = 1.0 / resolution, angle = std::numbers::pi / 6.0, along = kGravity * std::sin(angle);
   const double viscosity = std::sqrt(along / 3.0), flux = along / (3.0 * viscosity);
   const auto speed = [=](double z) { return along / (2.0 * viscosity) * (2.0 * z - z * z); };
@@ -34,6 +34,7 @@ Result film(int resolution, const Progress& progress) {
   options.frameRate = 2.0;
   options.walls = {{sim::DomainFace::zLow, {.kind = sim::WallKind::noSlip}}};
   options.sides[1] = sim::Side::open;
+  options.sides[2] = options.sides[3] = sim::Side::symmetry;
   options.liquid = {{{sim::HalfSpace{Vec3d(0.0, 0.0, 1.0), Vec3d(0.0, 0.0, 1.0)}}}};
   for (int k = 0; k < resolution; ++k) {
     sim::Source layer;
@@ -50,14 +51,14 @@ Result film(int resolution, const Progress& progress) {
     volume = solver.next().stats.volume;
     if (progress) progress(double(n) / frames);
   }
-  // Away from both ends.
+  // Away from both ends: what they do to the depth fades by e within about a depth.
   const sim::State& state = solver.state();
   double depth = 0.0, profile = 0.0, here = 0.0;
   Curve level{fmt::format("{} cells", resolution), {}, Curve::Style::line};
   for (int i = 0; i < options.resolution; ++i) {
     const double z = surfaceHeight(state, i, 4, cells), x = (i + 0.5) * h;
     level.points.push_back({x, z});
-    if (x > 2.0 && x < 6.0) depth = std::max(depth, std::abs(z - 1.0));
+    if (x > 0.25 * kLength && x < 0.75 * kLength) depth = std::max(depth, std::abs(z - 1.0));
   }
   const auto u = state.u->getConstUnsafeAccessor();
   const int middle = options.resolution / 2;

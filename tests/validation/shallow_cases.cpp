@@ -22,6 +22,7 @@ sim::Options channel(double length, double height, int resolution) {
   sim::Options options;
   options.size = Vec3d(length, 8.0 / resolution, height);
   options.resolution = static_cast<int>(std::lround(length * resolution));
+  options.sides[2] = options.sides[3] = sim::Side::symmetry;
   options.viscosity = 0.0;
   return options;
 }

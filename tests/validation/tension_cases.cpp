@@ -27,6 +27,7 @@ sim::Options dropOptions(int resolution, bool flat, double viscosity) {
   sim::Options options;
   options.size = Vec3d(1.0, 1.0, flat ? 8.0 / resolution : 1.0);
   options.resolution = resolution;
+  if (flat) options.sides[4] = options.sides[5] = sim::Side::symmetry;
   options.gravity = Vec3d(0.0);
   options.density = kDensity;
   options.viscosity = viscosity;

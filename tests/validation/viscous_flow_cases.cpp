@@ -23,6 +23,7 @@ sim::Options fullSlab(int resolution) {
   sim::Options options;
   options.size = Vec3d(1.0, 1.0, 8.0 / resolution);
   options.resolution = resolution;
+  options.sides[4] = options.sides[5] = sim::Side::symmetry;
   options.gravity = Vec3d(0.0);
   options.liquid = {{{sim::Box{Vec3d(-1.0), Vec3d(2.0)}}}};
   return options;
@@ -218,14 +219,12 @@ Result spinningDisc(int resolution, const Progress& progress) {
     const auto phi = state.phi->getConstUnsafeAccessor(), u = state.u->getConstUnsafeAccessor(),
                v = state.v->getConstUnsafeAccessor();
     double sum = 0.0;
-    for (int i = 0; i < resolution; ++i) {
-      for (int j = 0; j < resolution; ++j) {
-        const Coord c(i, j, 4);
-        const double full = std::clamp(0.5 - phi.getValue(c) / h, 0.0, 1.0);
-        const double speedU = 0.5 * (u.getValue(c) + u.getValue(c.offsetBy(1, 0, 0)));
-        const double speedV = 0.5 * (v.getValue(c) + v.getValue(c.offsetBy(0, 1, 0)));
-        sum += full * (((i + 0.5) * h - 0.5) * speedV - ((j + 0.5) * h - 0.5) * speedU);
-      }
+    for (int n = 0; n < resolution * resolution * 8; ++n) {
+      const Coord c(n / 8 / resolution, n / 8 % resolution, n % 8);
+      const double full = std::clamp(0.5 - phi.getValue(c) / h, 0.0, 1.0);
+      const double speedU = 0.5 * (u.getValue(c) + u.getValue(c.offsetBy(1, 0, 0)));
+      const double speedV = 0.5 * (v.getValue(c) + v.getValue(c.offsetBy(0, 1, 0)));
+      sum += full * (((c[0] + 0.5) * h - 0.5) * speedV - ((c[1] + 0.5) * h - 0.5) * speedU);
     }
     return sum;
   };
