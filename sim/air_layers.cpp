@@ -14,6 +14,8 @@ constexpr int kSweeps = 2;
 constexpr float kMostGrowth = 1.5f;
 // What goes on linearly changes by no more than this share of itself: beside jets the slope is no flow's.
 constexpr float kMostSlope = 0.2f;
+// Layers of faces that go on linearly: what advection's cubic reads.
+constexpr int kLinearLayers = 2;
 // The faces away from the liquid have to lead that much farther from it, in cells, to take on the divergence.
 constexpr float kLeastWay = 0.5f;
 
@@ -160,29 +162,36 @@ void extendLinearly(Velocity& values, const FloatGrid& phi) {
       const std::int64_t cell = table.neighbor(face, 2 * axis);
       return cellPhi[cell < 0 ? face : cell];
     };
-    // Read only where liquid touches, written only where none does.
     const std::vector<float*> value = valuesOf(values.component[axis]->tree());
     const auto valueAt = [&](std::int64_t face) -> float& { return value[face >> 9][face & 511]; };
-    forLeaves(table, [&](std::size_t n) {
-      LeafBits beyond = besideAny(table, touching, n);
-      for (std::size_t i = 0; i < beyond.size(); ++i) beyond[i] &= ~touching[n][i];
-      forBits(beyond, n, [&](std::int64_t face) {
-        const float here = cellPhi[face] + below(face);
-        float weights = 0.0f, sum = 0.0f;
-        for (int direction = 0; direction < 6; ++direction) {
-          const std::int64_t near = table.neighbor(face, direction);
-          if (near < 0 || !isSet(touching, near)) continue;
-          const std::int64_t behind = table.neighbor(near, direction);
-          if (behind < 0 || !isSet(touching, behind)) continue;
-          const float nearer = here - cellPhi[near] - below(near);
-          if (nearer <= 0.0f) continue;
-          weights += nearer;
-          const float most = kMostSlope * std::max(std::abs(valueAt(near)), std::abs(valueAt(behind)));
-          sum += nearer * (valueAt(near) + std::clamp(valueAt(near) - valueAt(behind), -most, most));
-        }
-        if (weights > 0.0f) valueAt(face) = sum / weights;
+    VoxelMask known = std::move(touching);
+    for (int layer = 0; layer < kLinearLayers; ++layer) {
+      VoxelMask beyond(table.size());
+      // Read only where it is known, written only where it is not.
+      forLeaves(table, [&](std::size_t n) {
+        beyond[n] = besideAny(table, known, n);
+        for (std::size_t i = 0; i < beyond[n].size(); ++i) beyond[n][i] &= ~known[n][i];
+        forBits(beyond[n], n, [&](std::int64_t face) {
+          const float here = cellPhi[face] + below(face);
+          float weights = 0.0f, sum = 0.0f;
+          for (int direction = 0; direction < 6; ++direction) {
+            const std::int64_t near = table.neighbor(face, direction);
+            if (near < 0 || !isSet(known, near)) continue;
+            const std::int64_t behind = table.neighbor(near, direction);
+            if (behind < 0 || !isSet(known, behind)) continue;
+            const float nearer = here - cellPhi[near] - below(near);
+            if (nearer <= 0.0f) continue;
+            weights += nearer;
+            const float most = kMostSlope * std::max(std::abs(valueAt(near)), std::abs(valueAt(behind)));
+            sum += nearer * (valueAt(near) + std::clamp(valueAt(near) - valueAt(behind), -most, most));
+          }
+          if (weights > 0.0f) valueAt(face) = sum / weights;
+        });
       });
-    });
+      forLeaves(table, [&](std::size_t n) {
+        for (std::size_t i = 0; i < known[n].size(); ++i) known[n][i] |= beyond[n][i];
+      });
+    }
   }
 }
 

@@ -16,11 +16,11 @@ namespace fluidtex::sim {
 void balanceAirLayers(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi,
                       const FloatGrid& solidPhi);
 
-// Makes face values linear beyond the surface: faces that touch no liquid, beside one that does, go on from
-// it and the one behind it. For what is interpolated between faces on both sides of the surface and must not
-// be pulled to what is constant beyond it: a disc that turns loses a twentieth of its spin in a turn instead
-// of a quarter. From face to face they change by at most a fifth: unbounded, a jet off an edge runs away.
-// values: at faces, extrapolated; phi in metres.
+// Makes face values linear beyond the surface: two layers of faces that touch no liquid go on from those that
+// do, each from the one before it and the one behind that. For what is interpolated between faces on both
+// sides of the surface and must not be pulled to what is constant beyond it: a disc that turns loses a
+// twentieth of its spin in a turn instead of a quarter. From face to face they change by at most a fifth:
+// unbounded, a jet off an edge runs away. values: at faces, extrapolated; phi in metres.
 void extendLinearly(Velocity& values, const FloatGrid& phi);
 
 }  // namespace fluidtex::sim

@@ -133,7 +133,8 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
             if (!wet || (anyLeaving && (leaving.isValueOn(c) || leaving.isValueOn(shifted(c, axis, -1)))))
               continue;
           }
-          changes[n].push_back({own[axis]->buffer().data() + offset, speed[axis][at] - outward * normal[axis]});
+          changes[n].push_back(
+              {own[axis]->buffer().data() + offset, speed[axis][at] - outward * normal[axis]});
         }
       }
     }

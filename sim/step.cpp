@@ -81,7 +81,7 @@ void carryVelocity(const Liquid& liquid, Liquid& next, double dt) {
   const bool before = liquid.acceleration.component[0] != nullptr;
   Velocity carried = before ? plus(liquid.velocity, liquid.acceleration, 0.5 * dt) : copyOf(liquid.velocity);
   extendLinearly(carried, *liquid.phi);
-  advectVelocity(liquid.velocity, carried, next.velocity, *liquid.phi, *next.phi, dt);
+  advectVelocity(liquid.velocity, carried, next.velocity, *next.phi, dt);
   if (before) next.velocity = plus(next.velocity, liquid.acceleration, -0.5 * dt);
 }
 

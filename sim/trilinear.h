@@ -99,8 +99,8 @@ struct StaggeredBlocks {
     const LanePairs t = centred - _mm256_cvtepi32_ps(cell), s = shifted - _mm256_cvtepi32_ps(face);
     const std::ptrdiff_t dx = side * side, dy = side;
     // Of each component's lowest sample: indices and strides are below 2^15.
-    const __m256i stride = _mm256_broadcastsi128_si256(
-        _mm_setr_epi32(static_cast<int>(dx), static_cast<int>(dy), 1, 0));
+    const __m256i stride =
+        _mm256_broadcastsi128_si256(_mm_setr_epi32(static_cast<int>(dx), static_cast<int>(dy), 1, 0));
     const __m256i part = _mm256_madd_epi16(cell, stride);
     const __m256i base = _mm256_add_epi32(
         _mm256_shuffle_epi32(part, 0x00),
@@ -112,12 +112,12 @@ struct StaggeredBlocks {
       return low + tx * (pairs(facePoints(p + dx, dy), facePoints(q + dx, dy)) - low);
     };
     const LanePairs cellX = _mm256_permute_ps(t, 0x00);
-    const LanePairs a = faceOf(component[0] + _mm_cvtsi128_si32(near2), component[0] + _mm_cvtsi128_si32(far2),
-                               _mm256_permute_ps(s, 0x00));
-    const LanePairs b = faceOf(component[1] + _mm_extract_epi32(near2, 1),
-                               component[1] + _mm_extract_epi32(far2, 1), cellX);
-    const LanePairs c = faceOf(component[2] + _mm_extract_epi32(near2, 2),
-                               component[2] + _mm_extract_epi32(far2, 2), cellX);
+    const LanePairs a = faceOf(component[0] + _mm_cvtsi128_si32(near2),
+                               component[0] + _mm_cvtsi128_si32(far2), _mm256_permute_ps(s, 0x00));
+    const LanePairs b =
+        faceOf(component[1] + _mm_extract_epi32(near2, 1), component[1] + _mm_extract_epi32(far2, 1), cellX);
+    const LanePairs c =
+        faceOf(component[2] + _mm_extract_epi32(near2, 2), component[2] + _mm_extract_epi32(far2, 2), cellX);
     // As _MM_TRANSPOSE4_PS with d = c, in each half.
     const LanePairs ab01 = _mm256_unpacklo_ps(a, b), cc01 = _mm256_unpacklo_ps(c, c),
                     ab23 = _mm256_unpackhi_ps(a, b), cc23 = _mm256_unpackhi_ps(c, c);

@@ -42,6 +42,12 @@ TEST_CASE("trilinear: reproduces trilinear fields, each component of a staggered
     CHECK_THAT(lane0(all), WithinAbs(field(0, x), 1e-4));
     CHECK_THAT(lane1(all), WithinAbs(field(1, x), 1e-4));
     CHECK_THAT(lane2(all), WithinAbs(field(2, x), 1e-4));
+    // Beside another place, to the last bit.
+    const Lanes here = lanes(float(x[0]), float(x[1]), float(x[2])), other = lanes(float(x[2]), 0.3f, 1.7f);
+    const Lanes first = firstOf(blocks.at(pairs(here, other))),
+                second = secondOf(blocks.at(pairs(other, here)));
+    CHECK((_mm_movemask_ps(_mm_cmpeq_ps(first, all)) & 7) == 7);
+    CHECK((_mm_movemask_ps(_mm_cmpeq_ps(second, all)) & 7) == 7);
     // One component alone, at the same place.
     const Vec3d shifted = x + Vec3d(0.5, 0.0, 0.0);
     const int i = int(shifted[0]), j = int(shifted[1]), k = int(shifted[2]);
@@ -91,14 +97,16 @@ TEST_CASE("velocity window: a trace from a face or a centre is the trace from it
       const Vec3f place =
           Vec3f(float(offset >> 6), float((offset >> 3) & 7), float(offset & 7)) + faceShift(axis);
       for (const float step : {-1.7f, 0.9f}) {
-        const Vec3f whole = window.trace(place, step), face = window.traceFace(offset, axis, step);
+        const Vec3f whole = window.trace(place, step);
+        const auto [face, other] = window.traceFaces(offset, (offset + 5) % kLeafSize, axis, step);
         CHECK((whole - face).length() < 2e-6f);
+        CHECK(other == window.traceFaces((offset + 5) % kLeafSize, 0, axis, step)[0]);
         const auto [low, high] = window.component(axis).range(face);
         const float value = window.component(axis).at(face);
         CHECK(value >= low - 1e-6f);
         CHECK(value <= high + 1e-6f);
         const Vec3f centre = place - faceShift(axis) + Vec3f(0.5f);
-        CHECK((window.trace(centre, step) - window.traceCentre(offset, step)).length() < 2e-6f);
+        CHECK((window.trace(centre, step) - window.traceCentres(0, offset, step)[1]).length() < 2e-6f);
       }
     }
   }
