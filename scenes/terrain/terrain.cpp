@@ -112,20 +112,32 @@ double streamHeight(double x, double y) {
   return height;
 }
 
+// A gully that leaves the crater's rim at this angle (radians) and runs down the flank.
+struct Gully {
+  double angle, depth, width;
+};
+constexpr Gully kGullies[] = {{-0.55 * kPi, 0.19, 0.10}, {-0.22 * kPi, 0.13, 0.08}};
+
 double mountainHeight(double x, double y) {
   const double dx = x - 1.5, dy = y - 1.5, r = std::hypot(dx, dy), angle = std::atan2(dy, dx);
   // Ribs grow downwards; the noise is taken on a circle so that it closes.
   const double ribs = noise(2.6 * std::cos(angle), 2.6 * std::sin(angle) + 0.8 * r, 61) +
                       0.5 * noise(6.0 * std::cos(angle), 6.0 * std::sin(angle) + 1.5 * r, 62);
-  const double cone = 1.32 * std::exp(-std::max(r - 0.05, 0.0) / 0.62);
-  double height = cone * (1.0 + 0.30 * ribs * smooth(0.12, 0.7, r)) +
-                  0.05 * roughness(3.0 * x, 3.0 * y, 71, 5) * smooth(0.1, 0.6, r);
-  // The crater, and the notch it overflows through.
-  const double notch = 0.07 * bell(angle, -0.5 * kPi, 0.35);
-  const double bowl =
-      1.12 + 2.2 * r * r * (r < 0.2 ? 1.0 : 1.0 + 4.0 * (r - 0.2)) - notch * smooth(0.08, 0.2, r);
-  const double blend = smooth(0.15, 0.27, r);
-  return std::max(0.02, std::lerp(bowl, height, blend));
+  const double cone = 1.5 * std::exp(-std::max(r - 0.05, 0.0) / 0.58);
+  const double flank = cone * (1.0 + 0.25 * ribs * smooth(0.2, 0.8, r)) +
+                       0.05 * roughness(3.0 * x, 3.0 * y, 71, 5) * smooth(0.2, 0.6, r);
+  // The crater, and the gullies through which it overflows.
+  const double bowl = 0.86 + 1.9 * r * r;
+  double height = std::lerp(bowl, flank, smooth(0.26, 0.42, r));
+  for (const Gully& gully : kGullies) {
+    const double along = dx * std::cos(gully.angle) + dy * std::sin(gully.angle),
+                 across = dy * std::cos(gully.angle) - dx * std::sin(gully.angle);
+    const double widens =
+        gully.width + 0.12 * std::max(along, 0.0) + 0.03 * noise(3.0 * along, gully.angle, 81);
+    height -= gully.depth * bell(across, 0.03 * noise(4.0 * along, gully.angle, 82), widens) *
+              smooth(0.16, 0.28, along) * (1.0 - 0.75 * smooth(0.5, 1.2, along));
+  }
+  return std::max(0.02, height);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <filesystem>
 
 namespace fluidtex::scenes {
@@ -79,14 +81,27 @@ TEST_CASE("terrain: the stream bed falls from end to end between banks", "[scene
   }
 }
 
-TEST_CASE("terrain: the mountain has a crater at its top and slopes down from it", "[scenes]") {
+TEST_CASE("terrain: the mountain has a crater that overflows through two gullies", "[scenes]") {
   const terrain::Ground mountain = terrain::mountain();
   const double floor = heightAt(mountain, 1.5, 1.5);
-  CHECK(floor > 1.0);
+  CHECK(floor > 0.8);
   double highest = 0.0;
   for (const float height : mountain.heights) highest = std::max(highest, double(height));
-  CHECK(highest - floor > 0.03);
+  CHECK(highest - floor > 0.15);
   CHECK(highest < 1.5);
+  // Around the rim, where lava seven centimetres deep gets over it.
+  int places = 0;
+  bool before = false;
+  for (int degree = 0; degree < 360; degree += 2) {
+    const double angle = degree * std::numbers::pi / 180.0;
+    double rim = 0.0;
+    for (double r = 0.2; r < 0.45; r += 0.01)
+      rim = std::max(rim, heightAt(mountain, 1.5 + r * std::cos(angle), 1.5 + r * std::sin(angle)));
+    const bool over = rim < floor + 0.07;
+    places += over && !before ? 1 : 0;
+    before = over;
+  }
+  CHECK(places == 2);
   for (double along = 0.05; along < 3.0; along += 0.1) {
     CHECK(heightAt(mountain, along, 0.01) < 0.45);
     CHECK(heightAt(mountain, 0.01, along) < 0.45);
