@@ -24,7 +24,7 @@ struct Window {
   Window(int widest, const Vec3f& sampleShift)
       : halo(widest),
         side(kLeafDim + 2 * widest),
-        values(std::make_unique<float[]>(side * side * side)),
+        values(std::make_unique_for_overwrite<float[]>(side * side * side)),
         shift(sampleShift) {}
 
   // Before load(); no more than the halo it was made with.

@@ -46,7 +46,7 @@ void registerMemory() {
   struct Size {
     int resolution, frames;
   };
-  for (const Size size : {Size{64, 24}, Size{128, 6}}) {
+  for (const Size size : {Size{64, 24}, Size{128, 6}, Size{256, 6}}) {
     const std::string row = "sim_memory/" + std::to_string(size.resolution);
     benchmark::RegisterBenchmark(
         row.c_str(), [=](benchmark::State& state) { memory(state, row, size.resolution, size.frames); })
