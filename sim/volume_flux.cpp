@@ -13,6 +13,7 @@ namespace {
 
 // Cells with less room than this share do not make sub-steps shorter.
 constexpr float kSliver = 0.25f;
+constexpr float kLeastRoom = 1e-12f;
 
 // From a face to the next one along the axis, and to those of the next row of cells along x and y.
 constexpr int kNextFace[3] = {64, 8, 1};
@@ -60,7 +61,9 @@ inline float liquidThrough(float flux, const Beside& below, const Beside& above)
   const float across = std::min(rise * rise, 1.0f), even = volume * share;
   const float atFace = std::min(volume, share * room),
               offFace = std::max(0.0f, volume - (room - share * room));
-  const float beside = std::clamp(even - 0.5f * volume * (1.0f - volume / room) * rise, offFace, atFace);
+  // A cell without an open face has no room; nothing flows out of it.
+  const float swept = volume / std::max(room, kLeastRoom);
+  const float beside = std::clamp(even - 0.5f * volume * (1.0f - swept) * rise, offFace, atFace);
   const float mixed = beside + across * ((rise < 0.0f ? atFace : offFace) - beside);
   const float liquid = share > 0.0f && share < 1.0f ? mixed : even;
   return up ? liquid : -liquid;

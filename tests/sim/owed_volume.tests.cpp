@@ -78,6 +78,24 @@ TEST_CASE("owed volume: what the surface loses is owed, whatever the flow does")
   }
 }
 
+TEST_CASE("owed volume: a cell in the open without an open face does no harm") {
+  SolidField solid = box();
+  const Coord cell(22, 16, 16);  // cut by the ball's surface
+  FloatGrid::Ptr* const open[3] = {&solid.openU, &solid.openV, &solid.openW};
+  for (int axis = 0; axis < 3; ++axis) {
+    *open[axis] = (*open[axis])->deepCopy();
+    Coord above = cell;
+    above[axis] += 1;
+    (*open[axis])->tree().setValueOff(cell, 0.0f);
+    (*open[axis])->tree().setValueOff(above, 0.0f);
+  }
+  const auto surface = phiOf(ball);
+  CHECK(std::abs(surface->tree().getValue(cell)) < 0.5 * kVoxel);
+  const Velocity turning = flow([](const Vec3d& x) { return Vec3d(0.5 - x[1], x[0] - 0.5, 0.0); });
+  const auto owed = owedVolume(*surface, *surface, nullptr, turning, solid, solid, {}, 2.5 * kVoxel);
+  CHECK(std::isfinite(sumOf(*owed)));
+}
+
 TEST_CASE("owed volume: at rest nothing is owed") {
   const SolidField solid = box();
   const auto phi = phiOf(ballAndFilm);
