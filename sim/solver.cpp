@@ -7,6 +7,7 @@
 #include "sim/keep_substep.h"
 #include "sim/level_set.h"
 #include "sim/mac_grid.h"
+#include "sim/owed_volume.h"
 #include "sim/shapes.h"
 #include "sim/solids.h"
 #include "sim/step.h"
@@ -212,7 +213,9 @@ void Solver::applyEvents() {
   const auto solid = m_solids->at(now);
   bool changed = m_state.frame == 0;
   Liquid liquid = liquidOf(m_state, m_state.phi->deepCopy(), {});
-  if (const auto active = m_solids->active(now); active != m_active) {
+  const auto active = m_solids->active(now);
+  const bool solidsChanged = active != m_active;
+  if (solidsChanged) {
     changeSolids(liquid, *m_solid, *solid);
     m_active = active;
     changed = true;
@@ -238,8 +241,15 @@ void Solver::applyEvents() {
   const double first = longestStep(m_options, fastest(liquid), speedOf(*solid));
   const double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
   StepReport report;
+  const double h = m_options.voxelSize();
+  const FloatGrid::Ptr cut = solidsChanged && m_state.frame > 0 ? liquid.phi->deepCopy() : nullptr;
   if (!settle(liquid, *solid, kick, m_options, &report, flows)) fail(now, 1.0 / m_options.frameRate, report);
-  store(m_state, std::move(liquid), m_options.voxelSize());
+  // In the middle of a splash making distances anew costs thin liquid.
+  if (cut != nullptr) {
+    liquid.owed =
+        owedVolume(*cut, *liquid.phi, liquid.owed.get(), makeVelocity(h), *solid, *solid, flows, 0.0);
+  }
+  store(m_state, std::move(liquid), h);
 }
 
 void Solver::advanceTo(double time, Frame& frame, const std::function<void(double)>& report) {
