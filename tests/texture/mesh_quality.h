@@ -16,8 +16,13 @@ struct Quality {
   double variation = 0.0;                      // of the edge lengths: standard deviation / mean
   double slim = 0.0;                           // share of triangles with an angle under 20 degrees
   double distance = 0.0, worstDistance = 0.0;  // voxels, of corners and centres from the level set
-  int folded = 0;                              // triangles that face against the gradient at their centre
+  // Triangles that face against the gradient at their centre, but those of specks.
+  int folded = 0;
 };
+
+// In voxels. A component that a single grid node makes has triangles smaller than this: the interpolated phi
+// knows no such component, and its gradient there is of no account.
+inline constexpr double kSpeck = 0.1;
 
 inline Quality measure(const SurfaceMesh& mesh, const FloatGrid& grid) {
   const LevelSet phi(grid);
@@ -37,15 +42,19 @@ inline Quality measure(const SurfaceMesh& mesh, const FloatGrid& grid) {
     const std::array<Vec3d, 3> p{Vec3d(mesh.positions[t[0]]), Vec3d(mesh.positions[t[1]]),
                                  Vec3d(mesh.positions[t[2]])};
     bool isSlim = false;
+    double longest = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3d a = p[(k + 1) % 3] - p[k], b = p[(k + 2) % 3] - p[k];
       isSlim = isSlim || std::atan2(a.cross(b).length(), a.dot(b)) < 20.0 * M_PI / 180.0;
+      longest = std::max(longest, a.length());
       sum += a.length();
       squares += a.lengthSqr();
       ++edges;
     }
     slim += isSlim;
-    q.folded += (p[1] - p[0]).cross(p[2] - p[0]).dot(addDistance((p[0] + p[1] + p[2]) / 3.0)) <= 0.0;
+    const Vec3d gradient = addDistance((p[0] + p[1] + p[2]) / 3.0);
+    if (longest < kSpeck * grid.voxelSize()[0]) continue;
+    q.folded += (p[1] - p[0]).cross(p[2] - p[0]).dot(gradient) <= 0.0;
   }
   const double mean = sum / double(edges);
   q.variation = std::sqrt(std::max(0.0, squares / double(edges) - mean * mean)) / mean;
