@@ -244,7 +244,7 @@ void Solver::applyEvents() {
   const double h = m_options.voxelSize();
   const FloatGrid::Ptr cut = solidsChanged && m_state.frame > 0 ? liquid.phi->deepCopy() : nullptr;
   if (!settle(liquid, *solid, kick, m_options, &report, flows)) fail(now, 1.0 / m_options.frameRate, report);
-  // In the middle of a splash making distances anew costs thin liquid.
+  // Making distances anew costs thin liquid, much of it in the middle of a splash.
   if (cut != nullptr) {
     liquid.owed =
         owedVolume(*cut, *liquid.phi, liquid.owed.get(), makeVelocity(h), *solid, *solid, flows, 0.0);

@@ -64,35 +64,8 @@ struct StaggeredBlocks {
   const float* component[3];
   std::ptrdiff_t side;  // samples along each axis
 
-  // At `centred`, in cells from the first cell centre (the sample u(i, j, k) is at (i - 1/2, j, k)); all
-  // samples needed must be there.
-  [[gnu::always_inline]] Lanes at(Lanes centred) const {
-    const Lanes shifted = centred + lanes(0.5f);
-    const __m128i cell = _mm_cvttps_epi32(centred), face = _mm_cvttps_epi32(shifted);
-    const Lanes t = centred - _mm_cvtepi32_ps(cell), s = shifted - _mm_cvtepi32_ps(face);
-    const std::ptrdiff_t dx = side * side, dy = side;
-    const std::ptrdiff_t i = _mm_cvtsi128_si32(cell), j = _mm_extract_epi32(cell, 1),
-                         k = _mm_extract_epi32(cell, 2);
-    const std::ptrdiff_t base = i * dx + j * dy + k;
-    const float* const u = component[0] + base + (_mm_cvtsi128_si32(face) - i) * dx;
-    const float* const v = component[1] + base + (_mm_extract_epi32(face, 1) - j) * dy;
-    const float* const w = component[2] + base + (_mm_extract_epi32(face, 2) - k);
-    const auto faceOf = [&](const float* p, Lanes tx) {
-      const Lanes low = facePoints(p, dy);
-      return low + tx * (facePoints(p + dx, dy) - low);
-    };
-    const Lanes cellX = _mm_shuffle_ps(t, t, 0x00);
-    Lanes a = faceOf(u, _mm_shuffle_ps(s, s, 0x00)), b = faceOf(v, cellX), c = faceOf(w, cellX);
-    // From one component with four corners in each to one corner with three components in each.
-    Lanes d = c;
-    _MM_TRANSPOSE4_PS(a, b, c, d);
-    const Lanes y = _mm_blend_ps(_mm_shuffle_ps(t, t, 0x55), _mm_shuffle_ps(s, s, 0x55), 2);
-    const Lanes z = _mm_blend_ps(_mm_shuffle_ps(t, t, 0xaa), _mm_shuffle_ps(s, s, 0xaa), 4);
-    const Lanes near = a + y * (c - a), far = b + y * (d - b);
-    return near + z * (far - near);
-  }
-
-  // The same at two places, to the last bit.
+  // At each of two places `centred`, in cells from the first cell centre (the sample u(i, j, k) is at
+  // (i - 1/2, j, k)); all samples needed must be there. What one gives does not depend on the other.
   [[gnu::always_inline]] LanePairs at(LanePairs centred) const {
     const LanePairs shifted = centred + pairs(0.5f);
     const __m256i cell = _mm256_cvttps_epi32(centred), face = _mm256_cvttps_epi32(shifted);
@@ -118,7 +91,7 @@ struct StaggeredBlocks {
         faceOf(component[1] + _mm_extract_epi32(near2, 1), component[1] + _mm_extract_epi32(far2, 1), cellX);
     const LanePairs c =
         faceOf(component[2] + _mm_extract_epi32(near2, 2), component[2] + _mm_extract_epi32(far2, 2), cellX);
-    // As _MM_TRANSPOSE4_PS with d = c, in each half.
+    // From one component with four corners in each to one corner with three components in each.
     const LanePairs ab01 = _mm256_unpacklo_ps(a, b), cc01 = _mm256_unpacklo_ps(c, c),
                     ab23 = _mm256_unpackhi_ps(a, b), cc23 = _mm256_unpackhi_ps(c, c);
     const LanePairs p00 = _mm256_shuffle_ps(ab01, cc01, 0x44), p01 = _mm256_shuffle_ps(ab01, cc01, 0xee),

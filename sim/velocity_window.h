@@ -120,14 +120,13 @@ struct VelocityWindow {
 
   // All three components; as Window::at.
   Vec3f at(const Vec3f& x) const {
-    const Lanes velocity = sample(lanes(x[0], x[1], x[2]));
+    const Lanes velocity = velocityAt(x);
     return Vec3f(lane0(velocity), lane1(velocity), lane2(velocity));
   }
 
   // Where x gets to along the velocity; step: dt / h, negative to trace back.
   Vec3f trace(const Vec3f& x, float step) const {
-    const Lanes from = lanes(x[0], x[1], x[2]);
-    const Start start{from, sample(from)};
+    const Start start{lanes(x[0], x[1], x[2]), velocityAt(x)};
     return traceOn(start, start, step)[0];
   }
 
@@ -146,6 +145,11 @@ struct VelocityWindow {
   struct Start {
     Lanes place, velocity;
   };
+
+  Lanes velocityAt(const Vec3f& x) const {
+    const Lanes place = lanes(x[0], x[1], x[2]);
+    return firstOf(sample(pairs(place, place)));
+  }
 
   Start startAtCentre(int offset) const {
     const std::ptrdiff_t side = u.side;
@@ -188,14 +192,6 @@ struct VelocityWindow {
     const auto halo = static_cast<float>(u.halo);
     const LanePairs inside = _mm256_min_ps(_mm256_max_ps(x + pairs(halo - 0.5f), pairs(0.0f)),
                                            pairs(static_cast<float>(u.side) - 1.501f));
-    const StaggeredBlocks blocks{{u.values.get(), v.values.get(), w.values.get()}, u.side};
-    return blocks.at(inside);
-  }
-
-  Lanes sample(Lanes x) const {
-    const auto halo = static_cast<float>(u.halo);
-    const Lanes inside = _mm_min_ps(_mm_max_ps(x + lanes(halo - 0.5f), lanes(0.0f)),
-                                    lanes(static_cast<float>(u.side) - 1.501f));
     const StaggeredBlocks blocks{{u.values.get(), v.values.get(), w.values.get()}, u.side};
     return blocks.at(inside);
   }
