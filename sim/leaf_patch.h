@@ -20,23 +20,42 @@ inline int patchIndex(int offset) {
          1;
 }
 
+// The layer of values next to a leaf's face `up` (0: the lower one, 1: the upper one) along kAxis.
+template <int kAxis, class Outside>
+void loadFace(const LeafTable& leaves, const std::vector<float>& values, std::size_t leaf, int up,
+              LeafPatch& patch, const Outside& outside) {
+  constexpr int kShift = 6 - 3 * kAxis;
+  const float* own = values.data() + leaf * kLeafSize;
+  const std::int32_t next = leaves.next[leaf][2 * kAxis + up];
+  const float* there = next < 0 ? nullptr : values.data() + std::size_t(next) * kLeafSize;
+  const int edge = up != 0 ? 7 << kShift : 0, beyond = up != 0 ? 0 : 7 << kShift;
+  const int out = up != 0 ? kPatchStride[kAxis] : -kPatchStride[kAxis];
+  for (int i = 0; i < kLeafDim; ++i) {
+    for (int j = 0; j < kLeafDim; ++j) {
+      const int low = kAxis == 0 ? 8 * i + j : (kAxis == 1 ? 64 * i + j : 64 * i + 8 * j);
+      patch[patchIndex(low + edge) + out] = there != nullptr ? there[low + beyond] : outside(own[low + edge]);
+    }
+  }
+}
+
+// A leaf's values and those next to its faces along kAxis; the rest stays as it was.
+template <int kAxis, class Outside>
+void loadPatchAlong(const LeafTable& leaves, const std::vector<float>& values, std::size_t leaf,
+                    LeafPatch& patch, const Outside& outside) {
+  const float* own = values.data() + leaf * kLeafSize;
+  for (int row = 0; row < kLeafSize; row += kLeafDim)
+    std::copy_n(own + row, kLeafDim, &patch[patchIndex(row)]);
+  for (const int up : {0, 1}) loadFace<kAxis>(leaves, values, leaf, up, patch, outside);
+}
+
 // values: of all leaves. Where there is no next leaf, what `outside` makes of the value in this one.
 template <class Outside>
 void loadPatch(const LeafTable& leaves, const std::vector<float>& values, std::size_t leaf, LeafPatch& patch,
                const Outside& outside) {
-  const float* own = values.data() + leaf * kLeafSize;
-  for (int row = 0; row < kLeafSize; row += kLeafDim)
-    std::copy_n(own + row, kLeafDim, &patch[patchIndex(row)]);
-  for (int direction = 0; direction < 6; ++direction) {
-    const int axis = direction >> 1, up = direction & 1, shift = 6 - 3 * axis;
-    const std::int32_t next = leaves.next[leaf][direction];
-    const float* there = next < 0 ? nullptr : values.data() + std::size_t(next) * kLeafSize;
-    for (int n = 0; n < kLeafDim * kLeafDim; ++n) {
-      const int low = axis == 0 ? n : (axis == 1 ? (n >> 3) * 64 + (n & 7) : 8 * n);
-      const int edge = low + (up != 0 ? 7 << shift : 0), beyond = low + (up != 0 ? 0 : 7 << shift);
-      patch[patchIndex(edge) + (up != 0 ? kPatchStride[axis] : -kPatchStride[axis])] =
-          there != nullptr ? there[beyond] : outside(own[edge]);
-    }
+  loadPatchAlong<0>(leaves, values, leaf, patch, outside);
+  for (const int up : {0, 1}) {
+    loadFace<1>(leaves, values, leaf, up, patch, outside);
+    loadFace<2>(leaves, values, leaf, up, patch, outside);
   }
 }
 

@@ -40,6 +40,29 @@ int outwardSide(const Coord& cell, int axis) {
   return 2 * axis + (cell[axis] & 1);
 }
 
+// A red cell that a coarse cell gets its share of, from the first of the coarse cell's children; axis: along
+// which it lies beside them, -1 for a child.
+struct Giver {
+  int i, j, k, axis;
+};
+
+constexpr int kGivers = 4 + 12;
+
+constexpr std::array<Giver, kGivers> kRedGivers = [] {
+  std::array<Giver, kGivers> givers{};
+  int n = 0;
+  for (int i = -1; i < 3; ++i) {
+    for (int j = -1; j < 3; ++j) {
+      for (int k = -1; k < 3; ++k) {
+        const bool outside[3] = {i < 0 || i > 1, j < 0 || j > 1, k < 0 || k > 1};
+        if (((i + j + k) & 1) != 0 || outside[0] + outside[1] + outside[2] > 1) continue;
+        givers[n++] = {i, j, k, outside[0] ? 0 : outside[1] ? 1 : outside[2] ? 2 : -1};
+      }
+    }
+  }
+  return givers;
+}();
+
 // The coarse blocks that hold the parents of all cells.
 std::vector<CellBlock> coarseBlocks(const CellNumbering& fine, const Coord& extent) {
   const Coord blocks((extent[0] + 7) >> 3, (extent[1] + 7) >> 3, (extent[2] + 7) >> 3);
@@ -106,7 +129,8 @@ std::unique_ptr<Multigrid::Level> Multigrid::coarsen(const Level& fine, int dept
   const Coord extent((fineExtent[0] + 1) >> 1, (fineExtent[1] + 1) >> 1, (fineExtent[2] + 1) >> 1);
   auto level = std::make_unique<Level>();
   Level& coarse = *level;
-  coarse.ownNumbering = CellNumbering(coarseBlocks(*fine.numbering, extent), extent);
+  const std::vector<CellBlock> blocks = coarseBlocks(*fine.numbering, extent);
+  coarse.ownNumbering = CellNumbering(blocks, extent);
   coarse.numbering = &coarse.ownNumbering;
   coarse.rows = &coarse.ownRows;
   coarse.anchor = &coarse.ownAnchor;
@@ -117,17 +141,9 @@ std::unique_ptr<Multigrid::Level> Multigrid::coarsen(const Level& fine, int dept
   coarse.ownAnchoredSides.resize(n);
   // The link of a fully open face grows by two with each level.
   const double openLink = std::ldexp(1.0, depth);
-  forEach(0, n, [&](int i) {
-    const Coord cell = coarse.numbering->cells()[i];
-    std::array<int, kSides>& neighbors = coarse.ownRows.neighbor[i];
+  const auto gatherChildren = [&](int i, const Coord& cell) {
     std::array<float, kSides>& links = coarse.ownRows.link[i];
-    for (int s = 0; s < kSides; ++s) {
-      Coord beside = cell;
-      beside[s >> 1] += (s & 1) ? 1 : -1;
-      const int neighbor = coarse.numbering->at(beside);
-      neighbors[s] = neighbor < 0 ? n : neighbor;
-      links[s] = 0.0f;
-    }
+    links.fill(0.0f);
     double anchor = 0.0;
     int sides = 0;
     // The children of a cell lie in one block.
@@ -149,6 +165,21 @@ std::unique_ptr<Multigrid::Level> Multigrid::coarsen(const Level& fine, int dept
     }
     coarse.ownAnchor[i] = anchor;
     coarse.ownAnchoredSides[i] = static_cast<std::uint8_t>(sides);
+  };
+  tbb::parallel_for(Range(0, static_cast<int>(blocks.size())), [&](const Range& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      const Coord& origin = blocks[b].origin;
+      const BlockNumbers numbers(coarse.ownNumbering, origin);
+      for (int c = 0; c < 512; ++c) {
+        const int i = numbers.at(c);
+        if (i < 0) continue;
+        for (int s = 0; s < kSides; ++s) {
+          const int neighbor = numbers.beside(c, s);
+          coarse.ownRows.neighbor[i][s] = neighbor < 0 ? n : neighbor;
+        }
+        gatherChildren(i, origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7));
+      }
+    }
   });
   coarse.even = EvenRows(coarse.ownRows, coarse.ownAnchor);
   return level;
@@ -177,21 +208,14 @@ void Multigrid::connect(Level& fine, const Level& coarse, int depth) {
   // The same weights, listed for each coarse cell: from its red children, and from red cells beside it.
   const auto forEntries = [&](int c, const auto& body) {
     const Coord first = coarse.numbering->cells()[c] << 1;
-    for (int i = -1; i < 3; ++i) {
-      for (int j = -1; j < 3; ++j) {
-        for (int k = -1; k < 3; ++k) {
-          const bool outside[3] = {i < 0 || i > 1, j < 0 || j > 1, k < 0 || k > 1};
-          if (((i + j + k) & 1) != 0 || outside[0] + outside[1] + outside[2] > 1) continue;
-          const int f = fine.numbering->at(first.offsetBy(i, j, k));
-          if (f < 0) continue;
-          const Interpolation& from = fine.interpolation[f];
-          if (from.coarse[0] == c) {
-            body(f, from.own);
-          } else {
-            const int axis = outside[0] ? 0 : outside[1] ? 1 : 2;
-            if (from.coarse[axis + 1] == c) body(f, 0.25f);
-          }
-        }
+    for (const auto& [i, j, k, axis] : kRedGivers) {
+      const int f = fine.numbering->at(first.offsetBy(i, j, k));
+      if (f < 0) continue;
+      const Interpolation& from = fine.interpolation[f];
+      if (axis < 0) {
+        body(f, from.own);
+      } else if (from.coarse[axis + 1] == c) {
+        body(f, 0.25f);
       }
     }
   };

@@ -90,6 +90,21 @@ CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks, const Coord& 
   m_lists = lists;
 }
 
+BlockNumbers::BlockNumbers(const CellNumbering& numbering, const Coord& origin) {
+  const auto numbersAt = [&](const Coord& there) -> const int* {
+    for (int a = 0; a < 3; ++a) {
+      if (there[a] < 0 || there[a] >= numbering.extent()[a]) return nullptr;
+    }
+    return numbering.block(there);
+  };
+  m_own = numbersAt(origin);
+  for (int s = 0; s < kSides; ++s) {
+    Coord there = origin;
+    there[s >> 1] += (s & 1) != 0 ? 8 : -8;
+    m_beside[s] = numbersAt(there);
+  }
+}
+
 EvenRows::EvenRows(const PoissonRows& rows, const std::vector<double>& anchor)
     : m_link((rows.size() + (1u << kShift) - 1) >> kShift) {
   const int n = static_cast<int>(rows.size());

@@ -70,6 +70,26 @@ class CellNumbering {
   std::shared_ptr<const Lists> m_lists = std::make_shared<Lists>();
 };
 
+// The numbers in a block and in those beside it.
+class BlockNumbers {
+ public:
+  BlockNumbers(const CellNumbering& numbering, const Coord& origin);
+
+  // Of the block's cell 64 i + 8 j + k; -1: not one of them.
+  int at(int cell) const { return m_own == nullptr ? -1 : m_own[cell]; }
+  int beside(int cell, int side) const {
+    const int shift = 6 - 3 * (side >> 1), up = side & 1;
+    if (((cell >> shift) & 7) != (up != 0 ? 7 : 0))
+      return at(up != 0 ? cell + (1 << shift) : cell - (1 << shift));
+    const int* there = m_beside[side];
+    return there == nullptr ? -1 : there[up != 0 ? cell - (7 << shift) : cell + (7 << shift)];
+  }
+
+ private:
+  const int* m_own;
+  std::array<const int*, kSides> m_beside;
+};
+
 // The rows of the matrix:  (sum of links + anchor) x_i - sum over sides of link x_neighbor.
 struct PoissonRows {
   std::vector<std::array<int, kSides>> neighbor;  // size() of the numbering where there is none, its link 0

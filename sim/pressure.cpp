@@ -153,13 +153,6 @@ std::vector<FloatLeaf*> faceLeaves(const LiquidCells& liquid, FloatGrid& grid) {
   return leaves;
 }
 
-const int* blockNumbers(const CellNumbering& numbering, const Coord& origin) {
-  for (int a = 0; a < 3; ++a) {
-    if (origin[a] < 0 || origin[a] >= numbering.extent()[a]) return nullptr;
-  }
-  return numbering.block(origin);
-}
-
 // Subtracts the pressure's gradient on the faces normal to `axis`, gives closed ones the solid's speed, and
 // writes what is given there.
 MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surface, const SolidField& solid,
@@ -174,20 +167,13 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
   std::vector<MaskGrid::TreeType::LeafNodeType*> masks;
   for (const FloatLeaf* leaf : leaves) masks.push_back(valid->tree().touchLeaf(leaf->origin()));
 
-  const int stride = 1 << (3 * (2 - axis));
   tbb::parallel_for(Range(0, static_cast<int>(leaves.size())), [&](const Range& range) {
     const openvdb::tree::ValueAccessor<const FloatTree> distance(solid.phi->constTree());
     for (int n = range.begin(); n < range.end(); ++n) {
       FloatLeaf& leaf = *leaves[n];
-      Coord before = leaf.origin();
-      before[axis] -= kLeafDim;
-      const int* here = blockNumbers(liquid.numbering, leaf.origin());
-      const int* below = blockNumbers(liquid.numbering, before);
+      const BlockNumbers numbers(liquid.numbering, leaf.origin());
       for (int c = 0; c < kLeafSize; ++c) {
-        const bool first = (c / stride) % kLeafDim == 0;
-        const int* lowerBlock = first ? below : here;
-        const int upper = here == nullptr ? -1 : here[c];
-        const int lower = lowerBlock == nullptr ? -1 : lowerBlock[first ? c + 7 * stride : c - stride];
+        const int upper = numbers.at(c), lower = numbers.beside(c, 2 * axis);
         if (upper < 0 && lower < 0) continue;
 
         const LiquidCell& cell = liquid.cells[upper >= 0 ? upper : lower];

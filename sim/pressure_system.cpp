@@ -29,21 +29,26 @@ PoissonSystem pressureSystem(const LiquidCells& liquid, const std::vector<char>&
   system.anchor.assign(n, 0.0);
   system.anchoredSides.assign(n, 0);
   liquidOf.resize(n);
-  tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
-    for (int i = range.begin(); i < range.end(); ++i) {
-      const Coord& place = system.numbering.cells()[i];
-      liquidOf[i] = liquid.numbering.at(place);
-      const LiquidCell& cell = liquid.cells[liquidOf[i]];
-      for (int s = 0; s < kSides; ++s) {
-        const int neighbor = system.numbering.at(neighborOf(place, s));
-        const bool linked = cell.open[s] > 0.0f && neighbor >= 0;
-        system.rows.neighbor[i][s] = linked ? neighbor : n;
-        system.rows.link[i][s] = linked ? cell.open[s] : 0.0f;
-        if (cell.open[s] > 0.0f && !linked) {
-          // The surface, or a detached cell with pressure 0 at its centre.
-          system.anchor[i] +=
-              static_cast<double>(cell.open[s]) / (cell.theta[s] > 0.0f ? cell.theta[s] : 1.0f);
-          system.anchoredSides[i] |= static_cast<std::uint8_t>(1 << s);
+  tbb::parallel_for(Range(0, static_cast<int>(liquid.blocks.size())), [&](const Range& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      const BlockNumbers all(liquid.numbering, liquid.blocks[b].origin);
+      const BlockNumbers numbers(system.numbering, liquid.blocks[b].origin);
+      for (int c = 0; c < kLeafSize; ++c) {
+        const int i = numbers.at(c);
+        if (i < 0) continue;
+        liquidOf[i] = all.at(c);
+        const LiquidCell& cell = liquid.cells[liquidOf[i]];
+        for (int s = 0; s < kSides; ++s) {
+          const int neighbor = numbers.beside(c, s);
+          const bool linked = cell.open[s] > 0.0f && neighbor >= 0;
+          system.rows.neighbor[i][s] = linked ? neighbor : n;
+          system.rows.link[i][s] = linked ? cell.open[s] : 0.0f;
+          if (cell.open[s] > 0.0f && !linked) {
+            // The surface, or a detached cell with pressure 0 at its centre.
+            system.anchor[i] +=
+                static_cast<double>(cell.open[s]) / (cell.theta[s] > 0.0f ? cell.theta[s] : 1.0f);
+            system.anchoredSides[i] |= static_cast<std::uint8_t>(1 << s);
+          }
         }
       }
     }

@@ -92,41 +92,51 @@ void divide(VolumeFlux& flux, const std::vector<float>& leaving, const std::vect
 // alone these swell or shrink, which is taken out again with the `last` axis, so that all is exact in sum:
 // Weymouth and Yue, "Conservative volume-of-fluid method for free-surface simulations on Cartesian grids",
 // 2010.
-std::vector<float> carriedAlong(const VolumeFlux& all, int axis, bool last, const std::vector<char>& full,
+template <int kAxis>
+std::vector<float> carriedAlong(const VolumeFlux& all, bool last, const std::vector<char>& full,
                                 const std::vector<float>& shares) {
+  constexpr int kStride = kPatchStride[kAxis];
   std::vector<float> next(shares.size());
   tbb::parallel_for(std::size_t{0}, all.leaves.size(), [&](std::size_t n) {
     const auto asInside = [](float edge) { return edge; };
     LeafPatch share{}, room, phi, liquid;  // liquid: through the lower face of each cell
-    loadPatch(all.leaves, shares, n, share, [](float edge) { return edge > 0.5f ? 1.0f : 0.0f; });
+    loadPatchAlong<kAxis>(all.leaves, shares, n, share, [](float edge) { return edge > 0.5f ? 1.0f : 0.0f; });
     if (std::none_of(share.begin(), share.end(), [](float s) { return s != 0.0f; })) return;
-    loadPatch(all.leaves, all.room, n, room, asInside);
-    loadPatch(all.leaves, all.phi, n, phi, asInside);
-    const float* flux = all.flux[n][axis].data();
-    const int stride = kPatchStride[axis];
-    for (int i = 0; i < kLeafDim + (axis == 0 ? 1 : 0); ++i) {
-      for (int j = 0; j < kLeafDim + (axis == 1 ? 1 : 0); ++j) {
+    loadPatchAlong<kAxis>(all.leaves, all.room, n, room, asInside);
+    loadPatchAlong<kAxis>(all.leaves, all.phi, n, phi, asInside);
+    const float* flux = all.flux[n][kAxis].data();
+    for (int i = 0; i < kLeafDim + (kAxis == 0 ? 1 : 0); ++i) {
+      for (int j = 0; j < kLeafDim + (kAxis == 1 ? 1 : 0); ++j) {
         const int row = patchIndex(0) + i * kPatchStride[0] + j * kPatchStride[1];
-        const float* through = flux + i * kFaceRowX[axis] + j * kFaceRowY[axis];
-        for (int k = 0; k < kLeafDim + (axis == 2 ? 1 : 0); ++k) {
-          const int high = row + k, low = high - stride;
+        const float* through = flux + i * kFaceRowX[kAxis] + j * kFaceRowY[kAxis];
+        for (int k = 0; k < kLeafDim + (kAxis == 2 ? 1 : 0); ++k) {
+          const int high = row + k, low = high - kStride;
           liquid[high] = liquidThrough(through[k], {share[low], room[low], phi[low]},
                                        {share[high], room[high], phi[high]});
         }
       }
     }
-    for (int i = 0; i < kLeafSize; ++i) {
-      const std::size_t cell = n * kLeafSize + i;
-      const int at = patchIndex(i), face = faceIndex(i, axis);
-      if (room[at] <= 0.0f) continue;
-      float gain = liquid[at] - liquid[at + stride];
-      if (full[cell]) gain += flux[face + kNextFace[axis]] - flux[face];
-      if (last) {
-        if (full[cell]) gain -= netOutflow(all.flux[n], i);
-        // What solids sweep out, or make room for, is neither lost nor gained.
-        if (!all.swept.empty()) gain += all.swept[cell] * share[at];
+    const float* swept = last && !all.swept.empty() ? all.swept.data() + n * kLeafSize : nullptr;
+    for (int row = 0; row < kLeafSize; row += kLeafDim) {
+      const float* through = flux + faceIndex(row, kAxis);
+      const char* isFull = full.data() + n * kLeafSize + row;
+      float* to = next.data() + n * kLeafSize + row;
+      float gain[kLeafDim], net[kLeafDim];
+      for (int k = 0; k < kLeafDim; ++k) net[k] = last ? netOutflow(all.flux[n], row + k) : 0.0f;
+      for (int k = 0; k < kLeafDim; ++k) {
+        const int at = patchIndex(row) + k;
+        const float swells = through[k + kNextFace[kAxis]] - through[k];
+        gain[k] = liquid[at] - liquid[at + kStride];
+        gain[k] = isFull[k] != 0 ? gain[k] + swells - net[k] : gain[k];
       }
-      next[cell] = share[at] + gain / room[at];
+      // What solids sweep out, or make room for, is neither lost nor gained.
+      for (int k = 0; swept != nullptr && k < kLeafDim; ++k)
+        gain[k] += swept[row + k] * share[patchIndex(row) + k];
+      for (int k = 0; k < kLeafDim; ++k) {
+        const int at = patchIndex(row) + k;
+        const float space = room[at] > 0.0f ? room[at] : 1.0f, moved = share[at] + gain[k] / space;
+        to[k] = room[at] > 0.0f ? moved : 0.0f;
+      }
     }
   });
   return next;
@@ -210,7 +220,11 @@ std::vector<float> carried(const VolumeFlux& flux, std::vector<float> shares) {
   for (int step = 0; step < flux.steps; ++step) {
     std::transform(shares.begin(), shares.end(), full.begin(), [](float share) { return share > 0.5f; });
     // The axes take turns at being first.
-    for (int n = 0; n < 3; ++n) shares = carriedAlong(flux, (step + n) % 3, n == 2, full, shares);
+    for (int n = 0; n < 3; ++n) {
+      const int axis = (step + n) % 3;
+      const auto along = axis == 0 ? carriedAlong<0> : axis == 1 ? carriedAlong<1> : carriedAlong<2>;
+      shares = along(flux, n == 2, full, shares);
+    }
   }
   return shares;
 }
