@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 
 namespace fluidtex::sim {
@@ -193,7 +192,7 @@ PoissonSolver::PoissonSolver(const PoissonSystem& system, const std::vector<std:
 PoissonSolver::~PoissonSolver() = default;
 
 PoissonReport PoissonSolver::solve(std::vector<double> b, std::vector<double>& x, double tolerance,
-                                   int maxIterations) {
+                                   int maxIterations, const PoissonProbe& probe) {
   const PoissonSystem& system = m_system;
   const EvenRows& even = m_even;
   const int n = system.numbering.size();
@@ -248,7 +247,9 @@ PoissonReport PoissonSolver::solve(std::vector<double> b, std::vector<double>& x
 
   if (m_preconditioner == nullptr) m_preconditioner = std::make_unique<Multigrid>(system, even);
   double rz = 0.0, alpha = 0.0;
-  while (!report.converged && report.iterations < maxIterations && std::isfinite(report.residual)) {
+  bool asked = probe.goOn == nullptr;
+  while (!report.converged && !report.ended && report.iterations < maxIterations &&
+         std::isfinite(report.residual)) {
     // The preconditioner works on values of about 1, whatever is left of the residual.
     const double unit = normR / std::sqrt(static_cast<double>(n));
     tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
@@ -283,6 +284,10 @@ PoissonReport PoissonSolver::solve(std::vector<double> b, std::vector<double>& x
     ++report.iterations;
     report.residual = normR / normB;
     report.converged = report.residual <= tolerance;
+    if (!asked && !report.converged && report.residual <= probe.tolerance) {
+      asked = true;
+      report.ended = !probe.goOn(x);
+    }
   }
   removeMeans(m_singular, x);
   return report;

@@ -8,6 +8,7 @@
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -142,10 +143,17 @@ struct PoissonReport {
   bool converged = false;
   int iterations = 0;
   double residual = 0.0;  // 2-norm relative to the right-hand side's
+  bool ended = false;     // by the probe
 };
 
 // Connected parts without an anchor, each a list of its cells.
 std::vector<std::vector<int>> singularParts(const PoissonSystem& system);
+
+// Asked once, when the residual has fallen to `tolerance`: whether the solve is to go on from there.
+struct PoissonProbe {
+  double tolerance = 0.0;
+  std::function<bool(const std::vector<double>& x)> goOn;
+};
 
 // One system for several right-hand sides; the preconditioner is made once. The system and its singular parts
 // must outlive the object.
@@ -156,9 +164,9 @@ class PoissonSolver {
   PoissonSolver(const PoissonSolver&) = delete;
   PoissonSolver& operator=(const PoissonSolver&) = delete;
 
-  // From the given x; the 2-norm of the residual falls to `tolerance` times that of b.
+  // From the given x; the 2-norm of the residual falls to `tolerance` times that of b, or the probe ends it.
   [[nodiscard]] PoissonReport solve(std::vector<double> b, std::vector<double>& x, double tolerance,
-                                    int maxIterations);
+                                    int maxIterations, const PoissonProbe& probe = {});
 
  private:
   const PoissonSystem& m_system;

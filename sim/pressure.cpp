@@ -29,6 +29,9 @@ constexpr double kSuctionNoise = 1e-5;
 // What is owed changes from step to step by more than what is left of it at this tolerance.
 constexpr double kGrowthTolerance = 1e-2;
 
+// Where liquid lets go of solids is asked at this tolerance first: mostly it shows by then.
+constexpr double kSeparationTolerance = 1e-3;
+
 // A face whose solid lies within about 25 degrees of square to it takes the solid's normal velocity.
 constexpr float kSquare = 0.9f;
 
@@ -255,28 +258,33 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
       // Solved for what is left beside the guess.
       takeOut(liquid, surface, guess, enclosed, system, liquidOf, b, x);
     }
+    // Whether liquid lets go of solids, or comes back to them, at this pressure.
+    bool again = false, last = pass == options.maxSeparationPasses;
+    const auto separates = [&](const std::vector<double>& pressure) {
+      q.assign(n, 0.0);
+      double largest = 0.0;
+      for (std::size_t i = 0; i < liquidOf.size(); ++i) {
+        const int number = liquidOf[i];
+        q[number] = surface.none() || enclosed[number] ? pressure[i] : pressure[i] + guess[number];
+        largest = std::max(largest, std::abs(pressure[i]));
+      }
+      if (last) return false;
+      const bool shut = shutEdges(liquid, q);
+      const bool changed = updateDetached(liquid, surface, q, enclosed, options.suction / pascal,
+                                          kSuctionNoise * largest, detached);
+      again = changed || shut;
+      return again;
+    };
     PoissonSolver poisson(system, singular);
-    const PoissonReport solved = poisson.solve(std::move(b), x, options.tolerance, options.maxIterations);
+    const PoissonReport solved =
+        poisson.solve(std::move(b), x, options.tolerance, options.maxIterations,
+                      {kSeparationTolerance, [&](const auto& loose) { return !separates(loose); }});
+    last = last || !(solved.converged || solved.ended);
     report.iterations += solved.iterations;
     report.residual = solved.residual;
     report.converged = solved.converged;
     report.separationPasses = pass;
-    q.assign(n, 0.0);
-    double largest = 0.0;
-    for (std::size_t i = 0; i < liquidOf.size(); ++i) {
-      q[liquidOf[i]] = surface.none() || enclosed[liquidOf[i]] ? x[i] : x[i] + guess[liquidOf[i]];
-      largest = std::max(largest, std::abs(x[i]));
-    }
-    bool again = false;
-    if (pass < options.maxSeparationPasses && solved.converged) {
-      std::vector<char> next = detached;
-      const bool shut = shutEdges(liquid, q);
-      again = updateDetached(liquid, surface, q, enclosed, options.suction / pascal, kSuctionNoise * largest,
-                             next) ||
-              shut;
-      if (again) detached = std::move(next);
-    }
-    if (again) continue;
+    if (again || separates(x)) continue;
     if (options.growth != nullptr && solved.converged) {
       const std::vector<double> outflow = outflowOf(*options.growth, liquid, solid.voxelSize);
       b.resize(liquidOf.size());
