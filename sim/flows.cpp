@@ -34,8 +34,16 @@ double rateAt(const std::vector<RatePoint>& rate, double t) {
   return rate.back().factor;
 }
 
-// All faces of the domain's cells whose middle lies in the source.
+// All faces of the domain's cells whose middle lies in the source. Its back is shut, for under water what
+// leaves at the front would come in there.
 std::array<FloatGrid::Ptr, 3> facesOf(const FloatGrid& phi, const Vec3d& velocity, const Coord& cells) {
+  const auto shape = phi.getConstUnsafeAccessor();
+  const auto outside = [&](const Coord& cell) {
+    for (int a = 0; a < 3; ++a) {
+      if (cell[a] < 0 || cell[a] >= cells[a]) return false;
+    }
+    return shape.getValue(cell) >= 0.0f;
+  };
   std::array<FloatGrid::Ptr, 3> faces;
   for (int axis = 0; axis < 3; ++axis) {
     FloatGrid::Ptr grid = FloatGrid::create(0.0f);
@@ -46,10 +54,12 @@ std::array<FloatGrid::Ptr, 3> facesOf(const FloatGrid& phi, const Vec3d& velocit
       for (int c = 0; c < kLeafSize; ++c) {
         const Coord cell = origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
         if (values[c] >= 0.0f || cell[0] >= cells[0] || cell[1] >= cells[1] || cell[2] >= cells[2]) continue;
-        Coord next = cell;
+        Coord next = cell, before = cell;
         next[axis] += 1;
-        grid->tree().setValueOn(cell, static_cast<float>(velocity[axis]));
-        grid->tree().setValueOn(next, static_cast<float>(velocity[axis]));
+        before[axis] -= 1;
+        const float speed = static_cast<float>(velocity[axis]);
+        grid->tree().setValueOn(cell, speed > 0.0f && outside(before) ? 0.0f : speed);
+        grid->tree().setValueOn(next, speed < 0.0f && outside(next) ? 0.0f : speed);
       }
     }
     faces[axis] = grid;
@@ -208,19 +218,20 @@ Flows::Flows(const Options& options)
       m_cells(cellCount(options.size, m_h)),
       m_size(options.size),
       m_band(bandWidth(options.cfl) * m_h) {
-  const auto gridOf = [&](const ShapeDistance& distance) {
-    FloatGrid::Ptr phi = makePhi(m_h, m_band);
-    unite(
-        *phi, [&](const Vec3d& x) { return distance(x); }, m_cells, kLeafDim);
-    return phi;
-  };
   for (const Source& source : m_sources) {
-    const ShapeDistance distance(source.shape, m_h, m_size);
-    SourceGrids grids{gridOf(distance), source.velocity, source.temperature, {}};
+    SourceGrids grids{gridOf(source.shape), source.velocity, source.temperature, {}};
     if (source.velocity != Vec3d(0.0)) grids.velocity = facesOf(*grids.phi, source.velocity, m_cells);
     m_sourceGrids.push_back(std::move(grids));
   }
-  for (const Drain& drain : m_drains) m_drainGrids.push_back(gridOf(ShapeDistance(drain.shape, m_h, m_size)));
+  for (const Drain& drain : m_drains) m_drainGrids.push_back(gridOf(drain.shape));
+}
+
+FloatGrid::Ptr Flows::gridOf(const Shape& shape) const {
+  const ShapeDistance distance(shape, m_h, m_size);
+  FloatGrid::Ptr phi = makePhi(m_h, m_band);
+  unite(
+      *phi, [&](const Vec3d& x) { return distance(x); }, m_cells, kLeafDim);
+  return phi;
 }
 
 RunningFlows Flows::at(double t) const {
@@ -252,7 +263,7 @@ double Flows::nextChange(double t) const {
   return next;
 }
 
-std::vector<std::string> Flows::warnings(const Solids& solids) const {
+std::vector<std::string> Flows::warnings(const std::vector<LiquidBody>& bodies, const Solids& solids) const {
   std::vector<std::string> warnings;
   enum class Found { nothing, inSolid, open };
   const auto look = [&](const FloatGrid& shape, double t) {
@@ -280,6 +291,11 @@ std::vector<std::string> Flows::warnings(const Solids& solids) const {
            << " m, or give a higher domain.resolution";
     warnings.push_back(text.str());
   };
+  if (bodies.empty() && m_sources.empty()) {
+    warnings.push_back("the scene has no liquid: give it a [[liquid]] or a [[source]]");
+  }
+  for (std::size_t n = 0; n < bodies.size(); ++n)
+    tell("liquid " + std::to_string(n), "nothing is poured", *gridOf(bodies[n].shape), bodies[n].from);
   for (std::size_t n = 0; n < m_sources.size(); ++n)
     tell("source " + std::to_string(n), "nothing comes from it", *m_sourceGrids[n].phi, m_sources[n].from);
   for (std::size_t n = 0; n < m_drains.size(); ++n)

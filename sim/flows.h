@@ -41,10 +41,12 @@ class Flows {
   // The first time after t at which a source or a drain begins or ends; kForever where none does.
   double nextChange(double t) const;
 
-  // One sentence for each source or drain that cannot do anything.
-  std::vector<std::string> warnings(const Solids& solids) const;
+  // One sentence for each body of liquid, source or drain that cannot do anything.
+  std::vector<std::string> warnings(const std::vector<LiquidBody>& bodies, const Solids& solids) const;
 
  private:
+  FloatGrid::Ptr gridOf(const Shape& shape) const;
+
   std::vector<Source> m_sources;
   std::vector<Drain> m_drains;
   double m_h;

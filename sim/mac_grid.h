@@ -2,8 +2,8 @@
 //
 // Cell (i,j,k) is the cube [i h, (i+1) h] x ...; its centre, where phi sits, is ((i+1/2) h, ...).
 // u(i,j,k) sits in the middle of that cell's lower x face, (i h, (j+1/2) h, (k+1/2) h); v and w likewise.
-// The domain is [0, size]; its six faces are walls. Cells with an index below 0 or beyond cellCount() lie in
-// the walls; a few layers of them hold values so that stencils need no special cases.
+// The domain is [0, size]. Cells with an index below 0 or beyond cellCount() lie beyond its sides, in walls
+// where these are closed; a few layers of them hold values so that stencils need no special cases.
 #pragma once
 
 #include "sim/grids.h"

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace fluidtex::sim {
@@ -207,6 +208,13 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
   gatherInLiquid(leaves, phi, due);
   spreadInLiquid(leaves, phi, flux.room, due);
   return toGrid(leaves, due, solid.voxelSize);
+}
+
+double totalOwed(const FloatGrid& owed) {
+  double cells = 0.0;
+  for (auto leaf = owed.constTree().cbeginLeaf(); leaf; ++leaf)
+    cells += std::accumulate(leaf->buffer().data(), leaf->buffer().data() + kLeafSize, 0.0);
+  return cells * std::pow(owed.voxelSize()[0], 3);
 }
 
 FloatGrid::Ptr growthOf(const FloatGrid& owed, double time) {

@@ -26,4 +26,7 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
 // centres, of half a cell at most.
 FloatGrid::Ptr growthOf(const FloatGrid& owed, double time);
 
+// What is owed in all, m3; below 0 where there is too much liquid.
+double totalOwed(const FloatGrid& owed);
+
 }  // namespace fluidtex::sim

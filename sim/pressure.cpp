@@ -290,9 +290,11 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
       b.resize(liquidOf.size());
       for (std::size_t i = 0; i < liquidOf.size(); ++i) b[i] = outflow[liquidOf[i]];
       std::fill(x.begin(), x.end(), 0.0);
-      report.converged = poisson.solve(std::move(b), x, kGrowthTolerance, options.maxIterations).converged;
-      growing.assign(n, 0.0);
-      for (std::size_t i = 0; i < liquidOf.size(); ++i) growing[liquidOf[i]] = x[i];
+      // Where that fails nothing is given back in this step.
+      if (poisson.solve(std::move(b), x, kGrowthTolerance, options.maxIterations).converged) {
+        growing.assign(n, 0.0);
+        for (std::size_t i = 0; i < liquidOf.size(); ++i) growing[liquidOf[i]] = x[i];
+      }
     }
     break;
   }

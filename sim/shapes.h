@@ -36,7 +36,8 @@ class ShapeDistance {
 
 // The shape clipped to the domain, as triangles for drawing. A mesh sequence is as in its first file.
 TriangleMesh triangulate(const Shape& shape, const Vec3d& domainSize, double voxelSize);
-// The solid where it is at time t and in the shape that it has then, clipped before it is moved.
+// The solid where it is at time t and in the shape that it has then, clipped to the domain there. Planes,
+// height fields, unions and differences that move are clipped before.
 TriangleMesh triangulate(const Solid& solid, double t, const Vec3d& domainSize, double voxelSize);
 
 }  // namespace fluidtex::sim

@@ -86,23 +86,30 @@ std::vector<std::string> Solids::warnings() const {
     // wherever it stands.
     const Coord n((cells[0] + 8) >> 3, (cells[1] + 8) >> 3, (cells[2] + 8) >> 3);
     const int count = n[0] * n[1] * n[2];
-    const double radius = 0.5 * std::sqrt(3.0) * kLeafDim * h;
-    const Placed rest = placed(i, m_options.solids[i].from);
-    std::vector<double> least(count, kForever);
-    tbb::parallel_for(Range(0, count), [&](const Range& range) {
-      for (int b = range.begin(); b < range.end(); ++b) {
-        const Coord origin = Coord(b / (n[1] * n[2]), b / n[2] % n[1], b % n[2]) << 3;
-        const double middle =
-            distanceTo(rest, Vec3d((origin[0] + 4) * h, (origin[1] + 4) * h, (origin[2] + 4) * h));
-        least[b] = middle;
-        if (std::abs(middle) > radius) continue;
-        for (int c = 0; c < kLeafSize; ++c) {
-          const Coord at = origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
-          least[b] = std::min(least[b], distanceTo(rest, Vec3d(at[0] * h, at[1] * h, at[2] * h)));
+    const double radius = std::sqrt(3.0) * kLeafDim * h;
+    const auto deepestAt = [&](double time) {
+      const Placed rest = placed(i, time);
+      std::vector<double> least(count, kForever);
+      tbb::parallel_for(Range(0, count), [&](const Range& range) {
+        for (int b = range.begin(); b < range.end(); ++b) {
+          const Coord origin = Coord(b / (n[1] * n[2]), b / n[2] % n[1], b % n[2]) << 3;
+          const double corner = distanceTo(rest, origin.asVec3d() * h);
+          least[b] = corner;
+          if (std::abs(corner) > radius) continue;
+          for (int c = 0; c < kLeafSize; ++c) {
+            const Coord at = origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
+            if (at[0] > cells[0] || at[1] > cells[1] || at[2] > cells[2]) continue;
+            least[b] = std::min(least[b], distanceTo(rest, at.asVec3d() * h));
+          }
         }
-      }
-    });
-    const double deepest = -*std::min_element(least.begin(), least.end());
+      });
+      return -*std::min_element(least.begin(), least.end());
+    };
+    const Solid& solid = m_options.solids[i];
+    // One that moves may come in later.
+    double deepest = deepestAt(solid.from);
+    for (std::size_t k = 0; k < solid.keyframes.size() && deepest < 0.99 * h; ++k)
+      deepest = std::max(deepest, deepestAt(solid.keyframes[k].time));
     if (deepest >= 0.99 * h) continue;
     std::ostringstream text;
     const std::string& name = m_options.solids[i].name;

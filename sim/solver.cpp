@@ -141,12 +141,15 @@ constexpr double kShortest = 1e-5;
   throw SolverError(message.str());
 }
 
-[[noreturn]] void failFast(double time, double speed) {
+// liquid, solids: their speeds, m/s.
+[[noreturn]] void failFast(double time, double liquid, double solids) {
   std::ostringstream message;
-  message
-      << "the simulation cannot go on at time " << time << " s: the velocity is " << speed
-      << " m/s, and it would take over " << 1.0 / kShortest
-      << " substeps to a frame; was a velocity given in other units than m/s, or the domain not in metres?";
+  message << "the simulation cannot go on at time " << time
+          << " s: " << (solids > liquid ? "a solid moves at " : "the velocity is ")
+          << std::max(solids, liquid) << " m/s, and it would take over " << 1.0 / kShortest
+          << " substeps to a frame; "
+          << (solids > liquid ? "are its keyframes as far apart in time as they should be?"
+                              : "was a velocity given in other units than m/s, or the domain not in metres?");
   throw SolverError(message.str());
 }
 
@@ -204,7 +207,8 @@ void Solver::prepare() {
   m_active = m_solids->active(m_state.time);
   m_flows = std::make_shared<Flows>(m_options);
   m_warnings = m_solids->warnings();
-  for (std::string& warning : m_flows->warnings(*m_solids)) m_warnings.push_back(std::move(warning));
+  for (std::string& warning : m_flows->warnings(m_options.liquid, *m_solids))
+    m_warnings.push_back(std::move(warning));
 }
 
 // Pours what is due and takes over solids that come or go at the present time.
@@ -237,19 +241,26 @@ void Solver::applyEvents() {
     changed = true;
   }
   if (!changed) return;
+  // Making distances anew costs thin liquid, much of it in the middle of a splash.
+  const FloatGrid::Ptr whole = m_state.frame > 0 ? liquid.phi->deepCopy() : nullptr;
   // Up to the middle of the first step.
   const double first = longestStep(m_options, fastest(liquid), speedOf(*solid));
   const double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
   StepReport report;
   const double h = m_options.voxelSize();
-  const FloatGrid::Ptr cut = solidsChanged && m_state.frame > 0 ? liquid.phi->deepCopy() : nullptr;
   if (!settle(liquid, *solid, kick, m_options, &report, flows)) fail(now, 1.0 / m_options.frameRate, report);
-  // Making distances anew costs thin liquid, much of it in the middle of a splash.
-  if (cut != nullptr) {
+  if (whole != nullptr) {
     liquid.owed =
-        owedVolume(*cut, *liquid.phi, liquid.owed.get(), makeVelocity(h), *solid, *solid, flows, 0.0);
+        owedVolume(*whole, *liquid.phi, liquid.owed.get(), makeVelocity(h), *solid, *solid, flows, 0.0);
   }
   store(m_state, std::move(liquid), h);
+}
+
+// By no more than rounding.
+void Solver::moveTime(double time) {
+  if (time == m_state.time) return;
+  m_state.time = time;
+  m_solid = m_solids->at(time, m_active);
 }
 
 void Solver::advanceTo(double time, Frame& frame, const std::function<void(double)>& report) {
@@ -263,9 +274,10 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     LentLiquid lent(m_state);
     Liquid& liquid = *lent;
     const double remaining = time - m_state.time;
-    const double speed = fastest(liquid), longest = longestStep(m_options, speed, speedOf(*m_solid));
+    const double speed = fastest(liquid), solids = speedOf(*m_solid);
+    const double longest = longestStep(m_options, speed, solids);
     if (capillaryStep(m_options) < kShortest / m_options.frameRate) failRippling(m_state.time);
-    if (longest < kShortest / m_options.frameRate) failFast(m_state.time, speed);
+    if (longest < kShortest / m_options.frameRate) failFast(m_state.time, speed, solids);
     // The velocity is that of the middle of a step of this length.
     const double planned = 2.0 * liquid.ahead;
     const bool asPlanned =
@@ -284,7 +296,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       const double nextLongest =
           longestStep(m_options, speed + m_options.gravity.length() * dt, speedOf(*solid));
       next = step(liquid, *m_solid, *solid, dt, evenPart(after, nextLongest), m_options, &solves,
-                  m_flows->at(then));
+                  m_flows->at(m_state.time + 0.5 * dt));
       if (next) break;
       liquid.markers = seedMarkers(*liquid.phi, *m_solid->phi, static_cast<std::uint64_t>(liquid.steps));
       if (halving == kMaxHalvings) fail(m_state.time, dt, solves);
@@ -328,14 +340,15 @@ Frame Solver::next(const std::function<void(double)>& progress) {
       if (target - m_state.time > tolerance) {
         advanceTo(target, frame, report);
       } else {
-        m_state.time = target;
+        moveTime(target);
       }
       if (target == event) applyEvents();
-      if (std::abs(m_state.time - frame.time) < tolerance) m_state.time = std::max(m_state.time, frame.time);
+      if (std::abs(m_state.time - frame.time) < tolerance) moveTime(std::max(m_state.time, frame.time));
     }
   }
   m_state.frame = frame.index;
   describeLiquid(frame, *m_state.phi, *m_solid);
+  if (m_state.owed) frame.stats.owed = totalOwed(*m_state.owed);
   if (m_state.temperature) frame.fields["temperature"] = m_state.temperature;
   if (progress) progress(1.0);
   return frame;

@@ -44,7 +44,8 @@ struct SolverError : std::runtime_error {
 class Solver {
  public:
   explicit Solver(const Options& options);
-  // Continues from a restored state. Throws SolverError when it was made at another resolution.
+  // Continues from a restored state. Throws SolverError when it was made at another resolution, or without
+  // the heat that the options ask for.
   Solver(const Options& options, State state);
 
   // The first call gives the initial state (frame 1, no substeps); each further call advances by one frame
@@ -59,6 +60,7 @@ class Solver {
  private:
   void prepare();
   void applyEvents();
+  void moveTime(double time);
   void advanceTo(double time, Frame& frame, const std::function<void(double)>& report);
 
   Options m_options;

@@ -89,7 +89,7 @@ void carryVelocity(const Liquid& liquid, Liquid& next, double dt) {
 // that fails.
 bool moveHeat(const Liquid& liquid, Liquid& next, const SolidField& solid, const RunningFlows& flows,
               double dt, const Options& options) {
-  next.temperature = advectTemperature(*liquid.temperature, liquid.velocity,
+  next.temperature = advectTemperature(*liquid.temperature, movingVelocity(liquid),
                                        next.velocity.component[0]->constTree(), *next.phi, dt);
   setSourceTemperature(*next.temperature, flows);
   const bool done = conductHeat(*next.temperature, *next.phi, solid, dt, options.density, options.heat);
@@ -261,6 +261,8 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
     // What is left of the band has no surface that could renew it.
     next.phi->clear();
     next.markers.clear();
+    next.owed = nullptr;
+    next.acceleration = next.swelling = {};
   }
   return next;
 }

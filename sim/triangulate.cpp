@@ -246,6 +246,31 @@ TriangleMesh meshAt(const MeshSequence& sequence, int file, double part) {
   return MovingMesh(sequence, file, std::min(file + 1, sequence.count() - 1)).at(file, part);
 }
 
+// All of a curved shape that has an end, also beyond the domain; nothing for others.
+TriangleMesh wholeMesh(const Shape& shape, double voxelSize) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape.kind)) return icosphere(*sphere, voxelSize);
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape.kind)) return tube(*cylinder, voxelSize);
+  if (const auto* file = std::get_if<MeshShape>(&shape.kind)) return readMesh(*file);
+  return {};
+}
+
+TriangleMesh movedBox(const Box& box, const Pose& pose, const Vec3d& domainSize) {
+  const double eps = kFlat * domainSize.length();
+  std::vector<Polygon> faces = boxPolygons(box.min, box.max);
+  for (Polygon& face : faces)
+    for (Vec3d& x : face) x = pose.toWorld(x);
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3d up(0.0);
+    up[axis] = 1.0;
+    faces = clip(clip(faces, Vec3d(0.0), -up, eps), domainSize, up, eps);
+  }
+  return meshOf(faces, eps);
+}
+
+void move(TriangleMesh& mesh, const Pose& pose) {
+  for (openvdb::Vec3f& x : mesh.positions) x = openvdb::Vec3f(pose.toWorld(Vec3d(x)));
+}
+
 }  // namespace
 
 TriangleMesh triangulate(const Shape& shape, const Vec3d& domainSize, double voxelSize) {
@@ -284,13 +309,20 @@ TriangleMesh triangulate(const Shape& shape, const Vec3d& domainSize, double vox
 
 TriangleMesh triangulate(const Solid& solid, double t, const Vec3d& domainSize, double voxelSize) {
   const Pose pose = poseAt(solid, t);
+  const bool moves = !solid.keyframes.empty();
+  if (const auto* box = std::get_if<Box>(&solid.shape.kind); box != nullptr && moves)
+    return movedBox(*box, pose, domainSize);
   const auto* sequence = std::get_if<MeshSequence>(&solid.shape.kind);
-  TriangleMesh mesh = sequence != nullptr
-                          ? clipped(meshAt(*sequence, pose.file, pose.part), domainSize, voxelSize)
-                          : triangulate(solid.shape, domainSize, voxelSize);
-  if (!solid.keyframes.empty())
-    for (openvdb::Vec3f& x : mesh.positions) x = openvdb::Vec3f(pose.toWorld(Vec3d(x)));
-  return mesh;
+  TriangleMesh mesh = sequence != nullptr ? meshAt(*sequence, pose.file, pose.part)
+                      : moves             ? wholeMesh(solid.shape, voxelSize)
+                                          : TriangleMesh();
+  if (mesh.positions.empty()) {
+    mesh = triangulate(solid.shape, domainSize, voxelSize);
+    if (moves) move(mesh, pose);
+    return mesh;
+  }
+  if (moves) move(mesh, pose);
+  return clipped(std::move(mesh), domainSize, voxelSize);
 }
 
 }  // namespace fluidtex::sim

@@ -1,5 +1,6 @@
 // fluidtex check SCENE: validate only, and print what a run would do.
 #include "sim/mac_grid.h"
+#include "sim/motion.h"
 #include "texture/exemplar.h"
 #include "tools/color_between.h"
 #include "tools/common_options.h"
@@ -77,6 +78,8 @@ void check(const CommonOptions& options) {
   const double bytes =
       kBytesProgram + kBytesPerLiquidCell * static_cast<double>(liquid.cells) + kBytesPerPoint * points;
   fmt::print("memory    about {:.2g} GB\n", bytes / 1e9);
+  for (const std::string& warning : sim::warningsOf(sim::makeMotion(scene.sim, scene.motion)))
+    fmt::print(stderr, "warning: {}\n", warning);
 }
 
 }  // namespace

@@ -77,6 +77,34 @@ TEST_CASE("flows: a source fills a basin by just its flux") {
   CHECK(std::abs((volume[18] - volume[6]) / (0.5 * 0.03125) - 1.0) < 0.05);
 }
 
+TEST_CASE("flows: a source within the water takes in nothing behind") {
+  Options options = channel();
+  options.cfl = 1.0;
+  Source source;
+  source.shape.kind = Box{Vec3d(0.5, 0.125, 0.125), Vec3d(0.75, 0.375, 0.25)};
+  source.velocity = Vec3d(0.5, 0.0, 0.0);
+  options.sources = {source};
+  options.liquid = {box(Vec3d(-1.0), Vec3d(3.0, 1.0, 0.375))};
+  Solver solver(options);
+  const double first = solver.next().stats.volume;
+  double last = first;
+  for (int n = 2; n <= 13; ++n) last = solver.next().stats.volume;
+  CHECK(std::abs((last - first) / (0.5 * 0.25 * 0.125 * 0.5) - 1.0) < 0.1);
+}
+
+TEST_CASE("flows: what holds nothing is told of") {
+  Options options = channel();
+  CHECK(Solver(options).warnings().size() == 1);
+  Solid floor;
+  floor.shape.kind = HalfSpace{Vec3d(0.0, 0.0, 0.2), Vec3d(0.0, 0.0, 1.0)};
+  options.solids = {floor};
+  options.liquid = {box(Vec3d(0.0), Vec3d(2.0, 0.5, 0.3)), box(Vec3d(0.0), Vec3d(2.0, 0.5, 0.1))};
+  const std::vector<std::string> warnings = Solver(options).warnings();
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0] ==
+        "liquid 1 lies wholly inside solids or walls: nothing is poured; put a part of it into the open");
+}
+
 TEST_CASE("flows: a drain and an open side let out what they can") {
   Options options = channel();
   options.cfl = 1.0;

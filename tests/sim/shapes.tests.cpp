@@ -257,6 +257,30 @@ TEST_CASE("triangulate: boxes are twelve triangles, cut at the domain", "[sim]")
   CHECK(triangulate(Shape{Box{Vec3d(3.0), Vec3d(4.0)}}, kDomain, kVoxel).triangles.empty());
 }
 
+TEST_CASE("triangulate: what moves is cut at the domain where it is, not where it began", "[sim]") {
+  Solid solid;
+  solid.keyframes = {{0.0, Vec3d(0.0), 0.0}, {1.0, Vec3d(-1.0, 0.0, 0.0), 0.0}};
+  const auto volumeAt = [&](double t) { return volumeOf(triangulate(solid, t, kDomain, kVoxel)); };
+  SECTION("a box comes in from the right") {
+    solid.shape.kind = Box{Vec3d(2.0, 0.25, 0.25), Vec3d(2.5, 0.75, 0.75)};
+    CHECK(volumeAt(0.0) == 0.0);
+    CHECK_THAT(volumeAt(0.25), WithinAbs(0.0625, 1e-6));
+    CHECK_THAT(volumeAt(1.0), WithinAbs(0.125, 1e-6));
+  }
+  SECTION("a turning one stays a box") {
+    solid.shape.kind = Box{Vec3d(0.75, 0.5, 0.25), Vec3d(1.25, 1.0, 0.75)};
+    solid.keyframes = {{0.0, Vec3d(0.0), 0.0}, {1.0, Vec3d(0.0), 45.0}};
+    CHECK_THAT(volumeAt(0.5), WithinAbs(0.125, 1e-6));
+    CHECK(isClosed(triangulate(solid, 0.5, kDomain, kVoxel)));
+  }
+  SECTION("a ball comes in from the right") {
+    const double ball = 4.0 / 3.0 * std::numbers::pi * 0.027;
+    solid.shape.kind = Sphere{Vec3d(2.0, 0.75, 0.5), 0.3};
+    CHECK_THAT(volumeAt(0.0), WithinAbs(0.5 * ball, 0.05 * ball));
+    CHECK_THAT(volumeAt(1.0), WithinAbs(ball, 0.02 * ball));
+  }
+}
+
 TEST_CASE("triangulate: half-spaces are cut at the domain exactly", "[sim]") {
   const double whole = kDomain.x() * kDomain.y() * kDomain.z();
   const auto mesh = [](const Vec3d& point, const Vec3d& normal) {
