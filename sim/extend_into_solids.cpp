@@ -57,14 +57,18 @@ struct Extension {
   Guess ask(std::int64_t cell, std::int64_t from, const Vec3& normal) const {
     if (depth[from] > kDeepInSolid * h) return {value[from], gradient[from], gradient[from]};
     const bool liquid = value[from] < 0.0f;
-    const auto away = [&] { return letGo ? letGo(table.coord(from)) : value[cell] >= 0.0f; };
-    // Air behind the solid's surface, which has moved with the flow since the liquid let go.
-    if (liquid && away()) return {std::max(value[cell], depth[cell]), Vec3(0.0f), normal};
     const Vec3 slope = openGradient(from);
     const float inward = slope.dot(normal);
+    const auto reachesLiquid = [&](float layers) { return value[from] + layers * h * inward < 0.0f; };
+    // A surface that the wall cuts may well leave air behind it, though the liquid holds to the wall.
+    const auto away = [&] {
+      return letGo ? letGo(table.coord(from))
+                   : value[cell] >= 0.0f && (!liquid || inward > kAlongWall || reachesLiquid(1.0f));
+    };
+    // Air behind the solid's surface, which has moved with the flow since the liquid let go.
+    if (liquid && away()) return {std::max(value[cell], depth[cell]), Vec3(0.0f), normal};
     const Vec3 along = slope - inward * normal;
     if (inward > kAlongWall) return {value[from], along, along};
-    const auto reachesLiquid = [&](float layers) { return value[from] + layers * h * inward < 0.0f; };
     if (liquid || !reachesLiquid(kSolidLayers) || !away()) return {value[from], slope, slope};
     // A film would begin.
     return {value[from], reachesLiquid(1.0f) ? along : slope, along};

@@ -27,6 +27,10 @@ constexpr float kCourant = kReinitReach;
 // move at all, however often it is reinitialised.
 constexpr float kRightEnough = 1e-3f;
 
+// Closer to the surface than this, in cells, the local step would be too short to get anywhere: such cells
+// stay, too.
+constexpr float kClosest = 1e-3f;
+
 // Nearer to solids than this, in cells, the surface is not taken for smooth: phi has been made to go on
 // behind them.
 constexpr float kAwayFromSolids = 2.9f;
@@ -75,9 +79,7 @@ std::vector<NearCell> nearCells(const float* block) {
       const int d = (direction & 1) != 0 ? kStride[direction >> 1] : -kStride[direction >> 1];
       if ((p[0] < 0.0f) == (p[d] < 0.0f)) continue;
       near = true;
-      // Closer than this the local step would be too short to get anywhere; the error is as small.
-      constexpr float kClosest = 1e-3f;
-      cell.reach[direction] = std::clamp(crossing(p[-d], p[0], p[d], p[2 * d]), kClosest, 1.0f);
+      cell.reach[direction] = std::clamp(crossing(p[-d], p[0], p[d], p[2 * d]), 0.0f, 1.0f);
     }
     if (near) cells.push_back(cell);
   }
@@ -146,6 +148,9 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
   static thread_local float block[kBlock];  // 0 where nothing is gathered
   gather(phi, origin, kHalo, block, true);
   plan.near = nearCells(block);
+  for (const NearCell& cell : plan.near) {
+    if (*std::min_element(cell.reach.begin(), cell.reach.end()) < kClosest) held[cell.offset] = true;
+  }
   std::array<bool, kLeafSize> notAsked;
   for (int i = 0; i < kLeafSize; ++i) notAsked[i] = solid[i] < kAwayFromSolids * h;
   for (const CellDistance& cell : surfaceDistances(phi, origin, h, notAsked)) {

@@ -11,6 +11,10 @@ namespace {
 
 using sim::Coord;
 
+// A slab's layers, and those in its middle that are measured: nearer to the walls distances are made another
+// way.
+constexpr int kSlab = 2 * sim::kLeafDim, kFirst = 6, kLast = 9;
+
 double largestDivergence(const sim::Velocity& velocity, const Coord& cells) {
   double largest = 0.0;
   const auto u = velocity.component[0]->getConstUnsafeAccessor(),
@@ -33,7 +37,7 @@ double largestDivergence(const sim::Velocity& velocity, const Coord& cells) {
 AdvectionResult run(const AdvectionTest& test, int resolution, const Progress& progress) {
   const double h = 1.0 / resolution;
   sim::Options options;
-  options.size = Vec3d(test.width, test.height, test.slab ? sim::kLeafDim * h : 1.0);
+  options.size = Vec3d(test.width, test.height, test.slab ? kSlab * h : 1.0);
   options.resolution = static_cast<int>(std::lround(std::max(test.width, test.height) * resolution));
   sim::Solids solids(options);
   const auto solid = solids.at(0.0);
@@ -52,14 +56,19 @@ AdvectionResult run(const AdvectionTest& test, int resolution, const Progress& p
   const double dt = duration / steps;
 
   const Coord samples = test.slab ? Coord(10, 10, 2) : Coord(4);
-  // A slab's measures are areas: of the layers between its first and last cell centres.
-  const double unit = test.slab ? (sim::kLeafDim - 1) * h : 1.0;
-  const int slice = test.slab ? sim::kLeafDim / 2 : static_cast<int>(test.sliceAt * resolution);
+  // A slab's measures are areas.
+  const double unit = test.slab ? (kLast - kFirst) * h : 1.0;
+  const Coord measured = test.slab ? Coord(cells[0], cells[1], kLast + 1) : cells;
+  const Coord firstMeasured(0, 0, test.slab ? kFirst : 0);
+  const auto errorOf = [&](const Distance& exact) {
+    return compare(*phi, exact, measured, samples, firstMeasured);
+  };
+  const int slice = test.slab ? kSlab / 2 : static_cast<int>(test.sliceAt * resolution);
 
   AdvectionResult result;
   result.steps = steps;
   result.divergence = largestDivergence(flow, cells);
-  const ShapeError first = compare(*phi, test.start, cells, samples);
+  const ShapeError first = errorOf(test.start);
   result.volumeBefore = first.volume / unit;
   result.floor = first.difference / unit;
   result.farthestBefore = first.farthest;
@@ -69,12 +78,12 @@ AdvectionResult run(const AdvectionTest& test, int resolution, const Progress& p
     sim::scale(flow, test.flow.strength((n + 0.5) * dt), velocity);
     sim::moveSurface(*phi, markers, velocity, *solid->phi, dt, static_cast<std::uint64_t>(n) + 1);
     if (n + 1 == (steps + 1) / 2) {
-      result.volumeHalf = compare(*phi, test.start, cells, samples).volume / unit;
+      result.volumeHalf = errorOf(test.start).volume / unit;
       result.half = outline(*phi, cells, slice);
     }
     if (progress) progress((n + 1.0) / steps);
   }
-  const ShapeError last = compare(*phi, test.end, cells, samples);
+  const ShapeError last = errorOf(test.end);
   result.volumeAfter = last.volume / unit;
   result.difference = last.difference / unit;
   result.farthest = last.farthest;

@@ -12,7 +12,7 @@ namespace fluidtex::validation {
 struct AdvectionTest {
   Distance start, end;  // the shape before and after
   sim::KnownFlow flow;
-  double width = 1.0, height = 1.0;  // of the domain along x and y; 2D tests are a slab of one leaf along z
+  double width = 1.0, height = 1.0;  // of the domain along x and y; 2D tests are a slab along z
   bool slab = true;
   double surface = 0.0;  // length of the exact outline (slab) or area of the surface
   double cfl = 1.0;

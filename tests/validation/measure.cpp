@@ -60,8 +60,8 @@ ShapeError addCube(const double* q, const Vec3d& corner, double h, const Distanc
 
 }  // namespace
 
-ShapeError compare(const sim::FloatGrid& phi, const Distance& exact, const Coord& cells,
-                   const Coord& samples) {
+ShapeError compare(const sim::FloatGrid& phi, const Distance& exact, const Coord& cells, const Coord& samples,
+                   const Coord& first) {
   const double h = phi.voxelSize()[0];
   const Coord blocks((cells[0] + 7) >> 3, (cells[1] + 7) >> 3, (cells[2] + 7) >> 3);
   const int count = blocks[0] * blocks[1] * blocks[2];
@@ -73,10 +73,12 @@ ShapeError compare(const sim::FloatGrid& phi, const Distance& exact, const Coord
     for (int i = 0; i < std::min(kLeafDim, cells[0] - 1 - origin[0]); ++i) {
       for (int j = 0; j < std::min(kLeafDim, cells[1] - 1 - origin[1]); ++j) {
         for (int k = 0; k < std::min(kLeafDim, cells[2] - 1 - origin[2]); ++k) {
+          const Coord corner = origin.offsetBy(i, j, k);
+          if (corner[0] < first[0] || corner[1] < first[1] || corner[2] < first[2]) continue;
           double q[8];
           for (int n = 0; n < 8; ++n)
             q[n] = values[((i + 1 + (n >> 2)) * kSide + j + 1 + ((n >> 1) & 1)) * kSide + k + 1 + (n & 1)];
-          const ShapeError cube = addCube(q, phi.indexToWorld(origin.offsetBy(i, j, k)), h, exact, samples);
+          const ShapeError cube = addCube(q, phi.indexToWorld(corner), h, exact, samples);
           parts[b].volume += cube.volume;
           parts[b].difference += cube.difference;
           parts[b].farthest = std::max(parts[b].farthest, cube.farthest);

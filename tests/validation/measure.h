@@ -13,10 +13,10 @@ struct ShapeError {
   double farthest = 0.0;    // of the surface's crossings of grid lines from the exact shape, metres
 };
 
-// Of phi against the exact shape over the box between the first and the last cell centres, [0, cells - 1].
-// Cubes between cell centres that the surface of either cuts are split into samples^3 parts.
+// Of phi against the exact shape over the box between the centres of the cells `first` and `cells` - 1. Cubes
+// between cell centres that the surface of either cuts are split into samples^3 parts.
 ShapeError compare(const sim::FloatGrid& phi, const Distance& exact, const sim::Coord& cells,
-                   const sim::Coord& samples);
+                   const sim::Coord& samples, const sim::Coord& first = sim::Coord(0));
 
 // The outline phi = 0 in the plane of the cells with this k, as pairs of points (x, y), metres.
 std::vector<std::array<double, 2>> outline(const sim::FloatGrid& phi, const sim::Coord& cells, int k);
