@@ -141,7 +141,7 @@ struct ViscosityLaw {
   // linear, beyond them it is that of the first or the last.
   std::vector<ViscosityPoint> points{};
   double solidus = 0.0;         // K, solid below
-  double solidViscosity = 1e6;  // Pa s, of the solid; the law never exceeds it
+  double solidViscosity = 1e6;  // Pa s, of the solid; the law exceeds it only as far as `viscosity` does
 };
 
 struct HeatOptions {
