@@ -125,7 +125,7 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt) {
         leave.emplace_back(to, m);
       }
     }
-    markers[n].markers = {};
+    markers[n].markers = std::vector<Marker>();  // and not {}, which keeps its room
     for (int to = 0; to < 27; ++to) start[to + 1] += start[to];
     std::array<std::int32_t, 28> next = start;
     parts[n].stay = stay;
@@ -154,7 +154,7 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt) {
       Moved& part = parts[std::size_t(source - markers.data())];
       if (from == kHere) {
         all.insert(all.end(), part.stay.begin(), part.stay.end());
-        part.stay = {};  // nobody else wants them
+        part.stay = std::vector<Marker>();  // nobody else wants them
       } else {
         const Marker* first = part.leave.data();
         all.insert(all.end(), first + part.start[26 - from], first + part.start[27 - from]);

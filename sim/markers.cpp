@@ -183,7 +183,7 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
         measure(m, here);
         kept.push_back(m);
       }
-      block->markers = {};  // nobody else wants them
+      block->markers = std::vector<Marker>();  // nobody else wants them
     }
     for (std::size_t c = 0; c < kLeafSize; ++c) {
       if (count[c] > kPerCell / 2) continue;

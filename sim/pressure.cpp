@@ -253,7 +253,7 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
       b[i] = -liquid.cells[liquidOf[i]].outflow;
       x[i] = q[liquidOf[i]];
     }
-    q = {};
+    q = std::vector<double>();  // and not {}, which keeps its room
     if (!surface.none()) {
       // Solved for what is left beside the guess.
       takeOut(liquid, surface, guess, enclosed, system, liquidOf, b, x);
@@ -278,7 +278,11 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
     PoissonSolver poisson(system, singular);
     const PoissonReport solved =
         poisson.solve(std::move(b), x, options.tolerance, options.maxIterations,
-                      {kSeparationTolerance, [&](const auto& loose) { return !separates(loose); }});
+                      {kSeparationTolerance, [&](const std::vector<double>& loose) {
+                         const bool goOn = !separates(loose);
+                         if (goOn) q = std::vector<double>();  // memory is shortest while the solve runs
+                         return goOn;
+                       }});
     last = last || !(solved.converged || solved.ended);
     report.iterations += solved.iterations;
     report.residual = solved.residual;
