@@ -3,6 +3,8 @@
 
 #include <openvdb/math/Vec3.h>
 
+#include <string>
+
 namespace fluidtex::render {
 
 using Vec3d = openvdb::math::Vec3<double>;
@@ -34,13 +36,21 @@ struct Surroundings {
   Vec3d tankColor{0.16, 0.16, 0.17};
 };
 
+// Relief from one of the texture's maps, see render/bump.h.
+struct Bump {
+  std::string map;      // its name; empty: none
+  double height = 1.0;  // of values: spacings between 0 and 1; of normals: times their slope; 0: no relief
+  bool any() const { return !map.empty() && height != 0.0; }
+};
+
 struct Options {
   int width = 960, height = 540;
   int samples = 16;         // paths a pixel; powers of two are spread best
   int bounces = 2;          // of light between surfaces; 0: what comes straight from sun and sky
   double gloss = 1.0;       // strength of the clear coat that makes liquid look wet, 0..1
   double roughness = 0.05;  // of the coat, GGX alpha
-  double exposure = 1.0;    // picture value = exposure * radiance, above 0.8 bent to stay below 1
+  Bump bump;
+  double exposure = 1.0;  // picture value = exposure * radiance, above 0.8 bent to stay below 1
   Camera camera;
   Light light;
   Surroundings surroundings;

@@ -3,6 +3,7 @@
 // time, so that rays of a kind reach Embree in one go.
 #include "render/path_tracer.h"
 
+#include "render/bump.h"
 #include "render/camera.h"
 #include "render/embree_scene.h"
 #include "render/sampling.h"
@@ -260,6 +261,7 @@ void buildWorld(World& world, const texture::TexturedSurface& surface, const std
 
   Stage& stage = world.stage;
   stage.liquid = &surface;
+  if (options.bump.any() && !surface.empty()) stage.bumped = bumpedNormals(surface, options.bump);
   stage.colorBetween = view.colorBetween;
   stage.meshes = surroundingMeshes(options.surroundings, view.domainSize);
   for (const Solid& solid : solids)

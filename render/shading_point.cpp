@@ -84,10 +84,11 @@ ShadingPoint shadingPoint(const Stage& stage, const Ray& ray) {
     point.material.roughness = stage.roughness;
     if (!liquid.normals.empty()) {
       const texture::Vec3I& triangle = liquid.triangles[ray.triangle];
+      const std::vector<Vec3f>& shown = stage.bumped.empty() ? liquid.normals : stage.bumped;
       Vec3f smooth(0.0f);
       for (int k = 0; k < 3; ++k) {
         const Vec3f n = liquid.normals[triangle[k]] * side;
-        smooth += n * c.weights[k];
+        smooth += shown[triangle[k]] * (side * c.weights[k]);
         lift -= n * (c.weights[k] * std::min(0.0f, (c.position - c.p[k]).dot(n)));
       }
       smooth = normalized(smooth);

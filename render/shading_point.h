@@ -15,6 +15,7 @@ struct Stage {
   std::vector<Mesh> meshes;
   Vec3f domainSize{1.0f};
   float gloss = 1.0f, roughness = 0.05f;  // of the liquid's coat
+  std::vector<Vec3f> bumped;              // normals to shade by; empty: the liquid's own
   bool seeThrough = false;                // some of the liquid has alpha < 1
   ColorBetween colorBetween;              // see View
 };
@@ -25,7 +26,7 @@ struct ShadingPoint {
   Vec3f position;
   Vec3f origin;      // where rays that leave the point start: free of the surface, see below
   Vec3f faceNormal;  // unit, of the triangle, on the side the ray came from
-  Vec3f normal;      // unit, smooth; always on the side the ray came from
+  Vec3f normal;      // unit, smooth, with bumps; always on the side the ray came from
   Material material;
   float opacity = 1.0f;  // 0: not there at all
 };

@@ -67,8 +67,8 @@ std::vector<Node> readOverrides(const Overrides& overrides, Faults& faults) {
       return Node{Table{{"texture", Node{Table{{key, Node{value, origin}}}, origin}}}, origin};
     };
     layers.push_back(layer("exemplar", name));
-    // Whether it wraps, the maps over it and a finer picture were said of the scene's own picture; --set may
-    // say it of this one.
+    // Whether it wraps, the maps over it, their relief and a finer picture were said of the scene's own
+    // picture; --set may say it of this one.
     layers.insert(layers.begin(),
                   {layer("toroidal", false), layer("map", List{}), layer("between", std::string("points")),
                    layer("between_file", std::string())});
@@ -79,6 +79,9 @@ std::vector<Node> readOverrides(const Overrides& overrides, Faults& faults) {
       const Node unguided{Table{{"by", Node{std::string("none"), origin}}}, origin};
       layers.insert(layers.begin(), layer("guidance", unguided.value));
     }
+    const Node flat{Table{{"height", Node{0.0, origin}}}, origin};
+    const Node unbumped{Table{{"bump", Node{flat.value, origin}}}, origin};
+    layers.insert(layers.begin(), Node{Table{{"render", Node{unbumped.value, origin}}}, origin});
   }
   return layers;
 }

@@ -258,6 +258,10 @@ void describePicture(Visitor& visitor, render::Options& render) {
     visitor.integer("bounces", render.bounces, {.low = 0, .high = 64});
     visitor.number("gloss", render.gloss, kShare);
     visitor.number("roughness", render.roughness, kShare);
+    visitor.table("bump", [&] {
+      visitor.text("map", render.bump.map);
+      visitor.number("height", render.bump.height, kAny);
+    });
     visitor.number("exposure", render.exposure, kPositive);
     visitor.flag("ground", render.surroundings.ground);
     visitor.vector("ground_color", render.surroundings.groundColor, kShare);

@@ -65,6 +65,17 @@ texture::Seeds seedsFor(const texture::TexturedSurface& last, const sim::Frame& 
   return {transport::moved(last.positions, frame), last.positions, last.triangles, last.scale};
 }
 
+// Only the pictures themselves tell how many channels maps have.
+void checkRelief(const render::Bump& bump, const texture::Exemplar& exemplar) {
+  if (!bump.any()) return;
+  const texture::ExemplarMap& map = exemplar.maps.at(bump.map);
+  if (map.holds == texture::MapHolds::values && map.image.channels != 1)
+    throw texture::ExemplarError(fmt::format(
+        "render.bump.map: {} has {} channels, and a relief is made from one or from normals; give a grey "
+        "picture, or holds = \"normals\" in its [[texture.map]].",
+        bump.map, map.image.channels));
+}
+
 class FrameLoop {
  public:
   FrameLoop(const scenes::Scene& scene, const RunOptions& options, const std::atomic<bool>& stop)
@@ -81,6 +92,7 @@ class FrameLoop {
         m_scale(textureScale(scene)),
         m_guidance(textureGuidance(scene)),
         m_solids(scene.sim) {
+    if (options.render) checkRelief(scene.render.bump, m_synthesizer.exemplar);
     m_surface.spacing = scene.texture.spacing;
     m_report.scene = Json::parse(scene.resolved);
     m_report.seed = scene.seed;

@@ -1,4 +1,5 @@
 // fluidtex render SCENE --from DIR: pictures and video of surfaces that are there already.
+#include "render/bump.h"
 #include "render/frame_name.h"
 #include "render/render.h"
 #include "tools/atomic_file.h"
@@ -48,14 +49,24 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
   VisibleSolids solids(scene.sim);
   // Coordinates count in pixels of the exemplar, whose size does not matter to vertices' colours.
   int width = 1, height = 1;
+  std::optional<FinishedRun> run;
   std::optional<texture::Detail> detail;
-  if (scene.texture.exemplar.between != texture::Between::points) {
-    const FinishedRun run = openRun(from, {});
-    width = run.color.width, height = run.color.height;
-    detail = detailOf(optionsOf(run, scene.texture));
+  const bool between = scene.texture.exemplar.between != texture::Between::points;
+  if (between || scene.render.bump.any()) run = openRun(from, {});
+  if (between) {
+    width = run->color.width, height = run->color.height;
+    detail = detailOf(optionsOf(*run, scene.texture));
   }
   for (int frame = first; frame <= last; ++frame) {
-    const texture::TexturedSurface surface = readPly(surfaceOf(frame), width, height);
+    texture::TexturedSurface surface = readPly(surfaceOf(frame), width, height);
+    if (scene.render.bump.any() && !surface.empty()) {
+      if (!hasMap(surface, scene.render.bump))
+        throw UsageError(
+            fmt::format("{0}: has no {1} of one number or of normals, which render.bump.map names; "
+                        "fluidtex apply {2} {1}=IMAGE adds it",
+                        surfaceOf(frame).string(), scene.render.bump.map, from.string()));
+      surface.spacing = spacingOf(*run, surface, frame);
+    }
     const double progress = scene.frames > 1 ? double(frame - 1) / (scene.frames - 1) : 0.0;
     const render::Picture picture = render::render(
         surface, solids.at((frame - 1) / scene.sim.frameRate), scene.render,

@@ -36,6 +36,8 @@ int main(int argc, char** argv) {
   const bool written =
       write((folder / "green_scales.png").string(), scales.size,
             fluidtex::exemplars::makeGreenScales(scales)) &&
+      write((folder / "green_scales_height.png").string(), scales.size,
+            fluidtex::exemplars::makeScalesHeight(scales)) &&
       write((folder / "lava.png").string(), lava.size, fluidtex::exemplars::makeLava(lava)) &&
       write((folder / "lava_cooling.png").string(), coolingSize, cooling.pixels) &&
       write((folder / "lava_cooling_guidance.png").string(), coolingSize, cooling.guidance) &&

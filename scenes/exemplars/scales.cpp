@@ -61,6 +61,15 @@ class Hide {
     return shaded(hit, slopeX, slopeY, x, y);
   }
 
+  // 0..1. Where a scale goes under those above it lies as deep as their edges need it to.
+  double levelAt(double x, double y) const {
+    const Hit hit = find(x, y);
+    const Place place = placeOn(hit.scale, x, y);
+    const double dome = 1.0 - std::pow(std::min(place.rim, 1.0), 2.4);
+    const double raised = dome + 0.4 * std::clamp(place.along, 0.0, 1.0) * smooth(1.0, 0.9, place.rim);
+    return std::clamp(raised * (1.0 - std::exp(-hit.gap / 0.22)), 0.0, 1.0);
+  }
+
  private:
   Scale makeScale(int row, int column) const {
     const auto vary = [&](std::uint64_t what) {
@@ -159,6 +168,19 @@ class Hide {
 std::vector<std::uint8_t> makeGreenScales(const Scales& options) {
   const Hide hide(options);
   return rendered(options.size, options.samples, [&](double x, double y) { return hide.colorAt(x, y); });
+}
+
+std::vector<std::uint8_t> makeScalesHeight(const Scales& options) {
+  const Hide hide(options);
+  const int n = options.samples;
+  const double step = 1.0 / (double(options.size) * n);
+  return levelMap(options.size, [&](double x, double y) {
+    double sum = 0.0;
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        sum += hide.levelAt(x + (i + 0.5 - 0.5 * n) * step, y + (j + 0.5 - 0.5 * n) * step);
+    return sum / (n * n);
+  });
 }
 
 }  // namespace fluidtex::exemplars

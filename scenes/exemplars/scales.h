@@ -19,4 +19,8 @@ struct Scales {
 // top.
 std::vector<std::uint8_t> makeGreenScales(const Scales& options = {});
 
+// How high they stand, over the same image: 0 (black) in the gaps to 1 on the raised ends. size x size, one
+// byte each.
+std::vector<std::uint8_t> makeScalesHeight(const Scales& options = {});
+
 }  // namespace fluidtex::exemplars

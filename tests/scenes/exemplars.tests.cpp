@@ -59,6 +59,26 @@ TEST_CASE("green scales: the image that ships is the generator's, pixel by pixel
   CHECK((shipped("green_scales.png", options.size) == makeGreenScales(options)));
 }
 
+TEST_CASE("green scales: the heights that ship are the generator's, high and low, and toroidal", "[scenes]") {
+  const Scales options;
+  const int size = options.size;
+  const Pixels heights = shipped("green_scales_height.png", size, 1);
+  CHECK((heights == makeScalesHeight(options)));
+  CHECK(std::count_if(heights.begin(), heights.end(), [](int level) { return level < 32; }) >
+        size * size / 50);
+  CHECK(std::count_if(heights.begin(), heights.end(), [](int level) { return level > 160; }) >
+        size * size / 10);
+  const auto step = [&](int a, int b) {
+    double sum = 0.0;
+    for (int i = 0; i < size; ++i)
+      sum += std::abs(int(heights[std::size_t(a * size + i)]) - int(heights[std::size_t(b * size + i)]));
+    return sum;
+  };
+  double largest = 0.0;
+  for (int row = 0; row + 1 < size; ++row) largest = std::max(largest, step(row, row + 1));
+  CHECK(step(size - 1, 0) <= largest);
+}
+
 TEST_CASE("green scales: toroidal, the step over each edge is one of the usual steps", "[scenes]") {
   const int size = small().size;
   const Pixels pixels = makeGreenScales(small());

@@ -223,6 +223,9 @@ ground = false
 ground_color = [0.1, 0.1, 0.1]
 tank = false
 tank_color = [0.2, 0.2, 0.2]
+[render.bump]
+map = "bumps"
+height = 2.5
 )";
 
 }  // namespace fluidtex::scenes

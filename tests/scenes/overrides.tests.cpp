@@ -201,6 +201,12 @@ TEST_CASE("overrides: --exemplar: taken instead of the scene's, relative to the 
   CHECK(loadScene(folder.write("missing.toml", missing), overrides).texture.exemplar.file ==
         folder.path() / "m.obj");
 
+  // Its relief was of the scene's own too.
+  const std::string bumped =
+      kGoodScene + "[[texture.map]]\nname = 'height'\nfile = 'e.png'\n[render.bump]\nmap = 'height'\n";
+  CHECK(loadScene(folder.write("bumped.toml", bumped)).render.bump.any());
+  CHECK_FALSE(loadScene(folder.write("bumped.toml", bumped), overrides).render.bump.any());
+
   overrides.exemplar = "no_such_folder/none.png";
   CHECK(faultsOf(kGoodScene, overrides) ==
         std::vector<std::string>{

@@ -202,6 +202,8 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(render.bounces == 1);
   CHECK(render.gloss == 0.5);
   CHECK(render.roughness == 0.25);
+  CHECK(render.bump.map == "bumps");
+  CHECK(render.bump.height == 2.5);
   CHECK(render.exposure == 1.25);
   CHECK_FALSE(render.surroundings.ground);
   CHECK(render.surroundings.groundColor == sim::Vec3d(0.1));
@@ -316,11 +318,12 @@ TEST_CASE("scene: the resolved scene is the same wherever the file is named from
   std::filesystem::current_path(folder.path() / "pictures");
   Overrides exemplar;
   exemplar.exemplar = "../e.png";
-  // Guidance and maps are of the scene's own exemplar, and left out with another.
+  // Guidance, maps and their relief are of the scene's own exemplar, and left out with another.
   exemplar.set = {"texture.toroidal=true", "texture.between=file", "texture.between_file=../e.png",
                   "texture.guidance.by=field",
                   "texture.map=[{ name = 'height', file = '../e.png', holds = 'normals' }, "
-                  "{ name = 'bumps', file = '../e.png', weight = 0.5 }]"};
+                  "{ name = 'bumps', file = '../e.png', weight = 0.5 }]",
+                  "render.bump.height=2.5"};
   const std::string relative = loadScene("../s.toml").resolved,
                     chosen = loadScene("../s.toml", exemplar).resolved;
   std::filesystem::current_path(before);

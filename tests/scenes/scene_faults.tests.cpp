@@ -125,6 +125,16 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
       {"[[texture.map]]\nname = 'a'\nfile = 'e.png'\n[[texture.map]]\nname = 'a'\nfile = 'e.png'",
        "s.toml:10:1: error: texture.map.1.name: \"a\" is the name of an earlier map too; give each map a "
        "name of its own"},
+      {"[[texture.map]]\nname = 'relief'\nfile = 'e.png'\n[render.bump]\nmap = 'releif'",
+       "s.toml:10:1: error: render.bump.map: \"releif\" is no map of this scene; did you mean \"relief\"?"},
+      {"[[texture.map]]\nname = 'a'\nfile = 'e.png'\nholds = 'directions'\n[render.bump]\nmap = 'a'",
+       "s.toml:11:1: error: render.bump.map: \"a\" holds directions, which make no relief; give a map of "
+       "values or "
+       "of normals"},
+      {"[render.bump]\nheight = 2",
+       "s.toml:7:1: error: render.bump.height: is of no use without a map; give map = \"height\", or "
+       "whatever the "
+       "[[texture.map]] is named that holds heights or normals"},
       {"[[texture.map]]\nname = 'a'\nfile = 'e.png'\nholds = 'normals'\nweight = 1",
        "s.toml:10:1: error: texture.map.0.weight: vectors turn with the texture and cannot be matched; leave "
        "weight out, or match a map of values, the heights for example"},
