@@ -203,6 +203,7 @@ PoissonReport PoissonSolver::solve(std::vector<double> b, std::vector<double>& x
   if (!(normB > 0.0)) {
     std::fill(x.begin(), x.end(), 0.0);
     report.converged = normB == 0.0;
+    report.residual = normB;
     return report;
   }
 

@@ -169,7 +169,8 @@ constexpr double kShortest = 1e-5;
   } else {
     message << "a velocity is not finite";
   }
-  message << ", even with a step of " << dt << " s; a smaller cfl or a finer resolution may help";
+  if (dt > 0.0) message << ", even with a step of " << dt << " s";
+  message << "; a smaller cfl or a finer resolution may help";
   throw SolverError(message.str());
 }
 
@@ -245,10 +246,19 @@ void Solver::applyEvents() {
   const FloatGrid::Ptr whole = m_state.frame > 0 ? liquid.phi->deepCopy() : nullptr;
   // Up to the middle of the first step.
   const double first = longestStep(m_options, fastest(liquid), speedOf(*solid));
-  const double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
+  double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
   StepReport report;
   const double h = m_options.voxelSize();
-  if (!settle(liquid, *solid, kick, m_options, &report, flows)) fail(now, 1.0 / m_options.frameRate, report);
+  for (int halving = 0;; ++halving) {
+    Liquid settled = liquid;
+    settled.phi = liquid.phi->deepCopy();
+    if (settle(settled, *solid, kick, m_options, &report, flows)) {
+      liquid = std::move(settled);
+      break;
+    }
+    if (!(kick > 0.0) || halving == kMaxHalvings) fail(now, 2.0 * kick, report);
+    kick *= 0.5;
+  }
   if (whole != nullptr) {
     liquid.owed =
         owedVolume(*whole, *liquid.phi, liquid.owed.get(), makeVelocity(h), *solid, *solid, flows, 0.0);

@@ -91,7 +91,7 @@ ViscosityReport solveViscous(const ViscousSystem& system, std::vector<double>& x
     r[i] = -q[i];
     return r[i] * r[i];
   }));
-  report.residual = normB > 0.0 ? normR / normB : 0.0;
+  report.residual = normB == 0.0 ? 0.0 : normR / normB;
   report.converged = normR <= options.tolerance * normB;
   if (report.converged) return report;
 

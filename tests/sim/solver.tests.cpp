@@ -141,6 +141,17 @@ TEST_CASE("solver: a velocity of no use ends with a sentence, not with endless s
   CHECK_THROWS_WITH(solver.next(), Catch::Contains("m/s") && Catch::Contains("cannot go on"));
 }
 
+TEST_CASE(
+    "solver: friction of no use ends with a sentence that tells how far the solve came, already in the first "
+    "frame") {
+  Options options = tank(16, {{Shape{Sphere{Vec3d(0.5), 0.2}}, Vec3d(1.0, 0.0, 0.0), 0.0}});
+  options.viscosity = 1e308;
+  options.density = 1e10;
+  Solver solver(options);
+  CHECK_THROWS_WITH(solver.next(), Catch::Contains("viscosity solve did not converge") &&
+                                       Catch::Contains("nan") && Catch::Contains("cannot go on at time 0 s"));
+}
+
 TEST_CASE("solver: nothing hangs at a ceiling, however little it is") {
   const double h = 1.0 / 24;
   Options options;
