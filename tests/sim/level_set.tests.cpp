@@ -242,6 +242,29 @@ TEST_CASE("level set: the surface goes on straight into a floor") {
   CHECK(checked > 100);
 }
 
+TEST_CASE("level set: the air behind a wall that cuts the surface is none that the liquid has let go of") {
+  // The floor as above; the liquid overhangs it, so that there is air below its last cells.
+  const double h = 1.0 / 32;
+  const Vec3d normal = Vec3d(1.0, 0.0, -0.4).unit();
+  const Distance plane = [&](const Vec3d& x) { return (x - Vec3d(0.5, 0.5, 0.3)).dot(normal); };
+  Fixture f(h, Coord(32), plane);
+  FloatGrid::Ptr solid = makePhi(h, 3 * h);
+  unite(
+      *solid, [](const Vec3d& x) { return x.z() - 0.25; }, f.cells, 8);
+  // Who has let go is read off phi itself, time after time.
+  for (int n = 0; n < 10; ++n) extendIntoSolids(*f.phi, *solid, {});
+  int checked = 0;
+  for (auto it = f.phi->cbeginValueOn(); it; ++it) {
+    const float depth = -solid->tree().getValue(it.getCoord());
+    const Vec3d x = f.phi->indexToWorld(it.getCoord());
+    if (depth < 0.5f * h || depth > 1.5f * h || std::abs(plane(x)) > 2.0 * h) continue;
+    if (x.x() < 0.2 || x.x() > 0.8) continue;
+    CHECK(std::abs(*it - plane(x)) < 0.02 * h);
+    ++checked;
+  }
+  CHECK(checked > 50);
+}
+
 TEST_CASE("level set: liquid that rests on a floor goes on below it, liquid that let go does not") {
   const double h = 1.0 / 32;
   // A layer whose lower side is a fifth of a cell above the floor at z = 0.25.
