@@ -2,6 +2,7 @@
 
 #include "texture/map_names.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 

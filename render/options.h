@@ -36,7 +36,7 @@ struct Surroundings {
   Vec3d tankColor{0.16, 0.16, 0.17};
 };
 
-// Relief from one of the texture's maps, see render/bump.h.
+// Relief from one of the texture's maps, see render/bump.h; a surface without that map is drawn without.
 struct Bump {
   std::string map;      // its name; empty: none
   double height = 1.0;  // of values: spacings between 0 and 1; of normals: times their slope; 0: no relief

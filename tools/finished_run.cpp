@@ -67,6 +67,13 @@ double spacingOf(const FinishedRun& run, const texture::TexturedSurface& surface
   return std::sqrt(area / double(surface.positions.size()));
 }
 
+double spacingOf(const fs::path& out, const texture::TexturedSurface& surface, int frame) {
+  const fs::path report = out / "run.json";
+  const Json none{{"frames", Json::array()}};
+  return spacingOf(FinishedRun{out, fs::exists(report) ? readReport(report) : none, {}, {}, false, {}},
+                   surface, frame);
+}
+
 FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
   FinishedRun run{out, readReport(out / "run.json"), exemplar, {}, false, {}};
   const Json& texture = run.report["scene"]["texture"];

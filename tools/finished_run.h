@@ -27,6 +27,9 @@ Json* recordOf(FinishedRun& run, int frame);
 // since one vertex shows a texel.
 double spacingOf(const FinishedRun& run, const texture::TexturedSurface& surface, int frame);
 
+// The same for a surface in the folder of a run whose report may be gone.
+double spacingOf(const std::filesystem::path& out, const texture::TexturedSurface& surface, int frame);
+
 // `exemplar`: instead of the run's own, where that is no longer at its place; else empty. Throws UsageError
 // where the folder holds no run, or its exemplar is gone.
 FinishedRun openRun(const std::filesystem::path& out, const std::filesystem::path& exemplar);

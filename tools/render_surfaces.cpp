@@ -49,23 +49,22 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
   VisibleSolids solids(scene.sim);
   // Coordinates count in pixels of the exemplar, whose size does not matter to vertices' colours.
   int width = 1, height = 1;
-  std::optional<FinishedRun> run;
   std::optional<texture::Detail> detail;
-  const bool between = scene.texture.exemplar.between != texture::Between::points;
-  if (between || scene.render.bump.any()) run = openRun(from, {});
-  if (between) {
-    width = run->color.width, height = run->color.height;
-    detail = detailOf(optionsOf(*run, scene.texture));
+  if (scene.texture.exemplar.between != texture::Between::points) {
+    const FinishedRun run = openRun(from, {});
+    width = run.color.width, height = run.color.height;
+    detail = detailOf(optionsOf(run, scene.texture));
   }
   for (int frame = first; frame <= last; ++frame) {
     texture::TexturedSurface surface = readPly(surfaceOf(frame), width, height);
     if (scene.render.bump.any() && !surface.empty()) {
       if (!hasMap(surface, scene.render.bump))
         throw UsageError(
-            fmt::format("{0}: has no {1} of one number or of normals, which render.bump.map names; "
-                        "fluidtex apply {2} {1}=IMAGE adds it",
+            fmt::format("{0}: has no {1} of one number or of normals, which render.bump.map names; fluidtex "
+                        "apply {2} {1}=IMAGE "
+                        "adds it from a picture of one channel",
                         surfaceOf(frame).string(), scene.render.bump.map, from.string()));
-      surface.spacing = spacingOf(*run, surface, frame);
+      surface.spacing = spacingOf(from, surface, frame);
     }
     const double progress = scene.frames > 1 ? double(frame - 1) / (scene.frames - 1) : 0.0;
     const render::Picture picture = render::render(

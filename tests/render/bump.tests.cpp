@@ -85,6 +85,8 @@ TEST_CASE("bump: normals are taken as they are, or steeper, and also part by par
 TEST_CASE("bump: a map that is not there is an error", "[render]") {
   auto surface = sheet([](const Vec3f&) { return 0.0f; });
   CHECK_THROWS_AS(bumpedNormals(surface, {"other", 1.0}), std::invalid_argument);
+  CHECK(hasMap(surface, {"height", 1.0}));
+  CHECK_FALSE(hasMap(surface, {"other", 1.0}));
   surface.spacing = 0.0;
   CHECK_THROWS_AS(bumpedNormals(surface, {"height", 1.0}), std::invalid_argument);
   surface.normals.clear();
@@ -112,4 +114,12 @@ TEST_CASE("bump: slopes towards the sun are brighter, those away from it darker"
   const float even = shapes::pixel(flat, 8, 16)[0];
   CHECK(left / even == Approx(sunny(0.5f)).epsilon(0.03));
   CHECK(right / even == Approx(sunny(-0.5f)).epsilon(0.03));
+}
+
+TEST_CASE("bump: a surface without the map is drawn without relief", "[render]") {
+  auto surface = sheet([](const Vec3f& p) { return p[0]; });
+  Options options = shapes::evenLight(16, 16, 4);
+  const Picture flat = traceRadiance(surface, {}, options, shapes::unitView());
+  options.bump = {"other", 8.0};
+  CHECK((traceRadiance(surface, {}, options, shapes::unitView()).rgb == flat.rgb));
 }

@@ -146,6 +146,25 @@ TEST_CASE("fluidtex render: shows what the run has shown, and other colours once
   well({"render", kSmallScene, "--from", out.string(), "--out", again.string(), "--frames", "1:2"});
   CHECK(difference(before, picture(again)) > 2.0);
 
+  // Relief, once its map is there.
+  const std::string height = (scratch.path / "height.png").string();
+  writeImage(height, 64, 1);
+  const std::vector<std::string> bumped = {
+      "render",   kSmallScene,
+      "--from",   out.string(),
+      "--out",    again.string(),
+      "--frames", "1:2",
+      "--set",    "texture.map=[{ name = 'height', file = '" + height + "' }]",
+      "--set",    "render.bump={ map = 'height', height = 20 }"};
+  const Finished without = runProgram(bumped);
+  CHECK(without.exitCode == 1);
+  CHECK_THAT(without.err, Catch::Contains("0001.ply: has no height") && Catch::Contains("fluidtex apply"));
+  const std::vector<std::uint8_t> smooth = picture(again);
+  well({"apply", out.string(), "height=" + height});
+  fs::rename(out / "run.json", out / "gone.json");  // relief needs no report
+  well(bumped);
+  CHECK(difference(smooth, picture(again)) > 0.1);
+
   const Finished missing =
       runProgram({"render", kSmallScene, "--from", out.string(), "--out", again.string(), "--frames", "1:3"});
   CHECK(missing.exitCode == 1);
