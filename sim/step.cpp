@@ -28,6 +28,9 @@ constexpr int kMargin = kLeafDim;
 // Cells beyond the liquid that get its temperature: what is newly wet in a step lies within.
 constexpr int kTemperatureLayers = 6;
 
+// How far the surface goes at most in a step to give back what is owed, in cells.
+constexpr double kMostSwelling = 0.5;
+
 double voxelSize(const Liquid& liquid) {
   return liquid.phi->voxelSize()[0];
 }
@@ -110,6 +113,16 @@ FaceMasks drivenFaces(const FaceMasks& valid, const SolidField& solid) {
           driven(valid.w, solid.openW, solid.givenW)};
 }
 
+// Brings a velocity's components within -limit to limit.
+void limitTo(const Velocity& velocity, float limit) {
+  for (const FloatGrid::Ptr& grid : velocity.component) {
+    const auto leaves = leavesOf(grid->tree());
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      for (auto it = leaves[n]->beginValueOn(); it; ++it) it.setValue(std::clamp(*it, -limit, limit));
+    });
+  }
+}
+
 // Velocity, swelling and, where that is wanted, acceleration beyond the faces whose values the projection
 // knows. arrived: the velocity before friction or else before pressure.
 void extrapolateAll(Liquid& liquid, Projection& projection, const SolidField& solid, double dt, bool driven,
@@ -122,7 +135,11 @@ void extrapolateAll(Liquid& liquid, Projection& projection, const SolidField& so
 
   std::vector<Extrapolated> fields{{liquid.velocity, valid}};
   if (driven) fields.push_back({liquid.acceleration, free});
-  if (swells) fields.push_back({projection.swelling, valid});
+  if (swells) {
+    // Where a wall leaves little of a face open, what grows behind it would shoot out; it can wait.
+    limitTo(projection.swelling, static_cast<float>(kMostSwelling * voxelSize(liquid) / dt));
+    fields.push_back({projection.swelling, valid});
+  }
   extrapolate(fields, *liquid.phi, *solid.phi);
   if (!swells) return;
   const auto& [u, v, w] = projection.swelling.component;
