@@ -216,62 +216,70 @@ TEST_CASE("level set: slopes of two become slopes of one, and then nothing moves
   CHECK(kept > 100);
 }
 
-TEST_CASE("level set: the surface goes on straight into a floor") {
-  // Liquid below a slanted plane; the floor is z < 0.25, in the middle of cells' height.
-  const double h = 1.0 / 32;
-  const Vec3d normal = Vec3d(1.0, 0.0, 0.5).unit();
-  const Distance plane = [&](const Vec3d& x) { return (x - Vec3d(0.5, 0.5, 0.3)).dot(normal); };
-  Fixture f(h, Coord(32), plane);
-  FloatGrid::Ptr solid = makePhi(h, 3 * h);
+namespace {
+
+constexpr double kFloorCell = 1.0 / 32;
+
+// The floor z < 0.25, in the middle of cells' height.
+FloatGrid::Ptr floorBelow() {
+  FloatGrid::Ptr solid = makePhi(kFloorCell, 3 * kFloorCell);
   unite(
-      *solid, [](const Vec3d& x) { return x.z() - 0.25; }, f.cells, 8);
+      *solid, [](const Vec3d& x) { return x.z() - 0.25; }, Coord(32), 8);
+  return solid;
+}
+
+// Whether phi is the plane's distance in cells of the floor up to so many cells deep; gives how many were
+// looked at.
+int checkPlaneIn(const FloatGrid& solid, const FloatGrid& phi, const Distance& plane, float deepest,
+                 double farthest) {
+  const double h = kFloorCell;
+  int checked = 0;
+  for (auto it = phi.cbeginValueOn(); it; ++it) {
+    const float depth = -solid.tree().getValue(it.getCoord());
+    const Vec3d x = phi.indexToWorld(it.getCoord());
+    if (depth < 0.5f * h || depth > deepest * h || std::abs(plane(x)) > farthest * h) continue;
+    if (x.x() < 0.2 || x.x() > 0.8) continue;
+    CHECK(std::abs(*it - plane(x)) < 0.02 * h);
+    ++checked;
+  }
+  return checked;
+}
+
+Distance planeAlong(const Vec3d& normal) {
+  return [unit = normal.unit()](const Vec3d& x) { return (x - Vec3d(0.5, 0.5, 0.3)).dot(unit); };
+}
+
+}  // namespace
+
+TEST_CASE("level set: the surface goes on straight into a floor") {
+  // Liquid below a slanted plane.
+  const double h = kFloorCell;
+  const Distance plane = planeAlong(Vec3d(1.0, 0.0, 0.5));
+  Fixture f(h, Coord(32), plane);
+  const FloatGrid::Ptr solid = floorBelow();
   for (auto it = f.phi->beginValueOn(); it; ++it) {
     if (solid->tree().getValue(it.getCoord()) < -0.5f * h) it.setValue(static_cast<float>(-5 * h));
   }
   // Nothing has let go: constant along the floor's normal, as the slope into the floor is falling: linear.
   extendIntoSolids(*f.phi, *solid, [](const Coord&) { return false; });
-  int checked = 0;
-  for (auto it = f.phi->cbeginValueOn(); it; ++it) {
-    const float depth = -solid->tree().getValue(it.getCoord());
-    const Vec3d x = f.phi->indexToWorld(it.getCoord());
-    if (depth < 0.5f * h || depth > 2.6f * h || std::abs(plane(x)) > 3.0 * h) continue;
-    if (x.x() < 0.2 || x.x() > 0.8) continue;
-    CHECK(std::abs(*it - plane(x)) < 0.02 * h);
-    ++checked;
-  }
-  CHECK(checked > 100);
+  CHECK(checkPlaneIn(*solid, *f.phi, plane, 2.6f, 3.0) > 100);
 }
 
 TEST_CASE("level set: the air behind a wall that cuts the surface is none that the liquid has let go of") {
-  // The floor as above; the liquid overhangs it, so that there is air below its last cells.
-  const double h = 1.0 / 32;
-  const Vec3d normal = Vec3d(1.0, 0.0, -0.4).unit();
-  const Distance plane = [&](const Vec3d& x) { return (x - Vec3d(0.5, 0.5, 0.3)).dot(normal); };
-  Fixture f(h, Coord(32), plane);
-  FloatGrid::Ptr solid = makePhi(h, 3 * h);
-  unite(
-      *solid, [](const Vec3d& x) { return x.z() - 0.25; }, f.cells, 8);
+  // The liquid overhangs the floor, so that there is air below its last cells.
+  const Distance plane = planeAlong(Vec3d(1.0, 0.0, -0.4));
+  Fixture f(kFloorCell, Coord(32), plane);
+  const FloatGrid::Ptr solid = floorBelow();
   // Who has let go is read off phi itself, time after time.
   for (int n = 0; n < 10; ++n) extendIntoSolids(*f.phi, *solid, {});
-  int checked = 0;
-  for (auto it = f.phi->cbeginValueOn(); it; ++it) {
-    const float depth = -solid->tree().getValue(it.getCoord());
-    const Vec3d x = f.phi->indexToWorld(it.getCoord());
-    if (depth < 0.5f * h || depth > 1.5f * h || std::abs(plane(x)) > 2.0 * h) continue;
-    if (x.x() < 0.2 || x.x() > 0.8) continue;
-    CHECK(std::abs(*it - plane(x)) < 0.02 * h);
-    ++checked;
-  }
-  CHECK(checked > 50);
+  CHECK(checkPlaneIn(*solid, *f.phi, plane, 1.5f, 2.0) > 50);
 }
 
 TEST_CASE("level set: liquid that rests on a floor goes on below it, liquid that let go does not") {
-  const double h = 1.0 / 32;
+  const double h = kFloorCell;
   // A layer whose lower side is a fifth of a cell above the floor at z = 0.25.
   const Distance layer = [&](const Vec3d& x) { return std::abs(x.z() - 0.4) - (0.15 - 0.2 * h); };
-  FloatGrid::Ptr solid = makePhi(h, 3 * h);
-  unite(
-      *solid, [](const Vec3d& x) { return x.z() - 0.25; }, Coord(32), 8);
+  const FloatGrid::Ptr solid = floorBelow();
   for (const bool letGo : {false, true}) {
     Fixture f(h, Coord(32), layer);
     extendIntoSolids(*f.phi, *solid, [&](const Coord&) { return letGo; });
