@@ -35,6 +35,10 @@ constexpr double kSeparationTolerance = 1e-3;
 // A face whose solid lies within about 25 degrees of square to it takes the solid's normal velocity.
 constexpr float kSquare = 0.9f;
 
+// What a solid leaves open of a face towards the air is a nozzle below this share: all that enters a cell whose
+// surface is there would leave by it, as fast as it has to. The liquid beside it knows better how fast it flows.
+constexpr float kNozzle = 0.1f;
+
 // Nothing comes in over an edge: where the pressure would draw it in, the face is shut. True if any was.
 bool shutEdges(LiquidCells& liquid, const std::vector<double>& q) {
   bool any = false;
@@ -182,6 +186,7 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
         const LiquidCell& cell = liquid.cells[upper >= 0 ? upper : lower];
         const int side = 2 * axis + (upper >= 0 ? 0 : 1);
         if (cell.open[side] > 0.0f) {
+          if (cell.theta[side] > 0.0f && cell.open[side] < kNozzle) continue;
           const double step = (upper < 0 ? surface.at(lower, side) : q[upper]) -
                               (lower < 0 ? surface.at(upper, side) : q[lower]);
           const double change = cell.theta[side] > 0.0f ? step / cell.theta[side] : step;

@@ -36,9 +36,9 @@ struct PressureReport {
 
 struct Projection {
   PressureReport report;
-  // Faces whose velocity is now right: open faces that touch liquid, and closed ones that touch liquid and
-  // lie square to the solid (0 there, or the speed at which liquid leaves it). All others are for the caller
-  // to extrapolate.
+  // Faces whose velocity is now right: open faces that touch liquid, but not those towards the air of which a
+  // solid leaves less than a tenth open, and closed ones that touch liquid and lie square to the solid (0
+  // there, or the speed at which liquid leaves it). All others are for the caller to extrapolate.
   FaceMasks valid;
   MaskGrid::Ptr separating;  // cells of liquid that leave a solid
   // What makes the liquid grow (PressureOptions::growth), on the valid faces: a potential flow beside the

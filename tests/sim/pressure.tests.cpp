@@ -198,6 +198,31 @@ TEST_CASE("pressure: single cells by hand", "[sim]") {
   CHECK(result.valid.u->activeVoxelCount() == 2);
 }
 
+TEST_CASE("pressure: a face that a solid leaves open by a hair is no nozzle", "[sim]") {
+  // One liquid cell as above between two open faces: 0.6 = (1 + share) q / (1/2).
+  const float share = GENERATE(0.05f, 0.2f);
+  CAPTURE(share);
+  Scene scene(8, {}, [](const Vec3d& x) { return (x - Vec3d(0.4375)).length() - 0.0625; });
+  SolidField narrow = *scene.solid;
+  for (FloatGrid::Ptr* open : {&narrow.openU, &narrow.openV, &narrow.openW}) *open = (*open)->deepCopy();
+  const Coord cell(3, 3, 3), behind(4, 3, 3);
+  narrow.openU->tree().setValue(behind, share);
+  for (const FloatGrid::Ptr& open : {narrow.openV, narrow.openW}) {
+    open->tree().setValue(cell, 0.0f);
+    open->tree().setValue(open == narrow.openV ? Coord(3, 4, 3) : Coord(3, 3, 4), 0.0f);
+  }
+  scene.solid = std::make_shared<const SolidField>(narrow);
+  scene.setVelocity([](const Vec3d&) { return Vec3d(0.0); });
+  FloatGrid& u = *scene.velocity.component[0];
+  u.tree().setValueOn(cell, 0.6f);
+  const Projection result = scene.projected(precise());
+  const double q = 0.3 / (1.0 + share);
+  CHECK_THAT(u.tree().getValue(cell), WithinAbs(0.6 - 2.0 * q, 1e-6));
+  const bool wide = share > 0.1f;
+  CHECK(result.valid.u->tree().isValueOn(behind) == wide);
+  CHECK_THAT(u.tree().getValue(behind), WithinAbs(wide ? 2.0 * q : 0.0, 1e-6));
+}
+
 TEST_CASE("pressure: liquid that grows swells out of its surface, and its velocity does not know", "[sim]") {
   // A ball in the floor, one of air in the tank's liquid.
   const auto level = [](const Vec3d& x) {

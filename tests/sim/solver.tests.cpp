@@ -122,6 +122,23 @@ TEST_CASE("solver: what a splash loses when a solid goes is owed") {
   CHECK(std::abs(water() / before - 1.0) < 0.005);
 }
 
+TEST_CASE("solver: however much is owed, the surface goes half a cell a step at most to give it back") {
+  Options options = tank(32, {{Shape{Sphere{Vec3d(0.5), 0.28}}, Vec3d(0.0), 0.0}});
+  options.gravity = Vec3d(0.0);
+  Solver made(options);
+  made.next();
+  State state = made.state();
+  state.owed = FloatGrid::create(0.0f);
+  for (auto it = state.phi->cbeginValueOn(); it; ++it) {
+    if (*it < 0.0f) state.owed->tree().setValueOn(it.getCoord(), 5.0f);
+  }
+  Solver solver(options, state);
+  const double dt = solver.next().substeps.back().dt;
+  const State& now = solver.state();
+  REQUIRE(now.su != nullptr);
+  CHECK_THAT(maxAbs({{now.su, now.sv, now.sw}}) * dt * 32.0, Catch::Matchers::WithinRel(0.5, 1e-5));
+}
+
 TEST_CASE("solver: water leaves a ceiling") {
   Solver solver(tank(24, {box(Vec3d(0.25, 0.25, 0.8), Vec3d(0.75, 0.75, 1.0))}));
   const double start = centreHeight(solver.next());
