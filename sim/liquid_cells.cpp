@@ -87,6 +87,24 @@ std::vector<CellBlock> liquidBlocks(const FloatGrid& phi, const SolidField& soli
   return blocks;
 }
 
+// One list of all blocks' sides, which cells' numbers have counted block by block.
+void gatherSides(std::vector<std::vector<LiquidSides>>& sidesOf, LiquidCells& liquid) {
+  std::vector<int> first(sidesOf.size() + 1, 0);
+  for (std::size_t b = 0; b < sidesOf.size(); ++b)
+    first[b + 1] = first[b] + static_cast<int>(sidesOf[b].size());
+  liquid.sides.resize(first.back());
+  tbb::parallel_for(Range(0, static_cast<int>(sidesOf.size())), [&](const Range& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      std::copy(sidesOf[b].begin(), sidesOf[b].end(), liquid.sides.begin() + first[b]);
+      sidesOf[b] = {};
+      const int* numbers = liquid.numbering.block(liquid.blocks[b].origin);
+      for (int c = 0; c < kLeafSize; ++c) {
+        if (numbers[c] >= 0 && liquid.special[numbers[c]] >= 0) liquid.special[numbers[c]] += first[b];
+      }
+    }
+  });
+}
+
 }  // namespace
 
 bool endsAt(Side kind, const SolidField& solid, const Coord& cell, int side) {
@@ -100,7 +118,9 @@ LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
   LiquidCells liquid;
   liquid.blocks = liquidBlocks(phiGrid, solid);
   liquid.numbering = CellNumbering(liquid.blocks, solid.cells);
-  liquid.cells.resize(liquid.numbering.size());
+  liquid.outflow.resize(liquid.numbering.size());
+  liquid.special.resize(liquid.numbering.size());
+  std::vector<std::vector<LiquidSides>> sidesOf(liquid.blocks.size());
   const float shallowest = -kLeastDepth * static_cast<float>(solid.voxelSize);
   tbb::parallel_for(Range(0, static_cast<int>(liquid.blocks.size())), [&](const Range& range) {
     for (int b = range.begin(); b < range.end(); ++b) {
@@ -116,7 +136,8 @@ LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
       const auto given = givenPatches(solid, origin);
       for (int c = 0; c < kLeafSize; ++c) {
         if (numbers[c] < 0) continue;
-        LiquidCell& cell = liquid.cells[numbers[c]];
+        LiquidSides cell;
+        double& outflow = liquid.outflow[numbers[c]];
         const int here = patchIndex(c);
         for (int s = 0; s < kSides; ++s) {
           const int axis = s >> 1, up = s & 1;
@@ -126,7 +147,7 @@ LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
           const bool isGiven = given[axis][face] != kNotGiven;
           const double outward = out * (isGiven ? given[axis][face] : speed[axis][face]);
           const double push = out * solidSpeed[axis][face];
-          cell.outflow += open[axis][face] * outward + closed * push;
+          outflow += open[axis][face] * outward + closed * push;
           if (isGiven) {
             cell.open[s] = cell.theta[s] = 0.0f;
             continue;
@@ -142,14 +163,18 @@ LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
           const float inside = std::min(distance[here], shallowest), outside = distance[beside];
           cell.theta[s] = cell.open[s] > 0.0f && outside >= 0.0f ? inside / (inside - outside) : 0.0f;
         }
+        int& special = liquid.special[numbers[c]];
+        special = cell == kAllLiquid ? -1 : static_cast<int>(sidesOf[b].size());
+        if (special >= 0) sidesOf[b].push_back(cell);
       }
     }
   });
+  gatherSides(sidesOf, liquid);
   if (std::find(solid.sides.begin(), solid.sides.end(), Side::open) != solid.sides.end()) {
     for (int i = 0; i < liquid.numbering.size(); ++i) {
       const Coord& place = liquid.numbering.cells()[i];
       for (int s = 0; s < kSides; ++s) {
-        if (liquid.cells[i].open[s] <= 0.0f || !endsAt(Side::open, solid, place, s)) continue;
+        if (liquid.sidesOf(i).open[s] <= 0.0f || !endsAt(Side::open, solid, place, s)) continue;
         const double along = velocity[s >> 1]->getValue(s & 1 ? neighborOf(place, s) : place);
         liquid.edges.push_back({i, s, s & 1 ? along : -along, false});
       }

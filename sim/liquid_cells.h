@@ -17,15 +17,18 @@ namespace fluidtex::sim {
 // From a cell's centre to the surface on the domain's open side, in cells.
 inline constexpr float kEdgeTheta = 0.5f;
 
-// One liquid cell and its six sides. Pressure is kept as q = p dt / (density h), a velocity.
-struct LiquidCell {
+// What lies on the six sides of a liquid cell. Pressure is kept as q = p dt / (density h), a velocity.
+struct LiquidSides {
   std::array<float, kSides> open;   // area share
   std::array<float, kSides> theta;  // to the surface, in cells; 0 where the neighbour is not air
-  // Before projection: sum of open area times outward velocity, and of closed area times the solid's.
-  double outflow = 0.0;
-  float closed = 0.0f;   // sum of closed area, of solids that liquid can let go of
-  float leaving = 0.0f;  // before projection: sum of closed area times velocity away from it
+  float closed = 0.0f;              // sum of closed area, of solids that liquid can let go of
+  float leaving = 0.0f;             // before projection: sum of closed area times velocity away from it
+
+  bool operator==(const LiquidSides&) const = default;
 };
+
+// In the liquid's middle all sides are open and lead to liquid.
+inline constexpr LiquidSides kAllLiquid{{1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f}, {}};
 
 // A face through which a liquid cell meets an open side of the domain: there the surface is.
 struct Edge {
@@ -37,8 +40,13 @@ struct Edge {
 struct LiquidCells {
   std::vector<CellBlock> blocks;
   CellNumbering numbering;
-  std::vector<LiquidCell> cells;
+  // Before projection: sum of open area times outward velocity, and of closed area times the solid's.
+  std::vector<double> outflow;
+  std::vector<int> special;        // into `sides`; -1: kAllLiquid
+  std::vector<LiquidSides> sides;  // most cells need none
   std::vector<Edge> edges;
+
+  const LiquidSides& sidesOf(int cell) const { return special[cell] < 0 ? kAllLiquid : sides[special[cell]]; }
 };
 
 // The neighbour of a cell on a side: 0 towards -x, 1 towards +x, 2 towards -y, ...

@@ -35,21 +35,22 @@ constexpr double kSeparationTolerance = 1e-3;
 // A face whose solid lies within about 25 degrees of square to it takes the solid's normal velocity.
 constexpr float kSquare = 0.9f;
 
-// What a solid leaves open of a face towards the air is a nozzle below this share: all that enters a cell whose
-// surface is there would leave by it, as fast as it has to. The liquid beside it knows better how fast it flows.
+// What a solid leaves open of a face towards the air is a nozzle below this share: all that enters a cell
+// whose surface is there would leave by it, as fast as it has to. The liquid beside it knows better how fast
+// it flows.
 constexpr float kNozzle = 0.1f;
 
 // Nothing comes in over an edge: where the pressure would draw it in, the face is shut. True if any was.
 bool shutEdges(LiquidCells& liquid, const std::vector<double>& q) {
   bool any = false;
   for (Edge& edge : liquid.edges) {
-    LiquidCell& cell = liquid.cells[edge.cell];
+    LiquidSides& cell = liquid.sides[liquid.special[edge.cell]];
     if (edge.shut || edge.outward + q[edge.cell] / kEdgeTheta >= 0.0) continue;
     // A cell's only way out stays one.
     if (std::count_if(cell.open.begin(), cell.open.end(), [](float open) { return open > 0.0f; }) < 2)
       continue;
     edge.shut = any = true;
-    cell.outflow -= cell.open[edge.side] * edge.outward;
+    liquid.outflow[edge.cell] -= cell.open[edge.side] * edge.outward;
     cell.open[edge.side] = cell.theta[edge.side] = 0.0f;
   }
   return any;
@@ -66,7 +67,7 @@ void takeOut(const LiquidCells& liquid, const SurfacePressure& surface, const st
     for (int i = range.begin(); i < range.end(); ++i) {
       const int number = liquidOf[i];
       if (enclosed[number]) continue;
-      const LiquidCell& cell = liquid.cells[number];
+      const LiquidSides& cell = liquid.sidesOf(number);
       x[i] -= guess[number];
       for (int s = 0; s < kSides; ++s) {
         const int neighbor = system.rows.neighbor[i][s];
@@ -84,9 +85,9 @@ void takeOut(const LiquidCells& liquid, const SurfacePressure& surface, const st
 // What flows out of a cell's open faces once the pressure has acted.
 double projectedOutflow(const LiquidCells& liquid, const SurfacePressure& surface,
                         const std::vector<double>& q, int number) {
-  const LiquidCell& cell = liquid.cells[number];
+  const LiquidSides& cell = liquid.sidesOf(number);
   const Coord& place = liquid.numbering.cells()[number];
-  double outflow = cell.outflow;
+  double outflow = liquid.outflow[number];
   for (int s = 0; s < kSides; ++s) {
     if (cell.open[s] <= 0.0f) continue;
     const bool ends = cell.theta[s] > 0.0f;
@@ -97,20 +98,20 @@ double projectedOutflow(const LiquidCells& liquid, const SurfacePressure& surfac
   return outflow;
 }
 
-// What is to flow out of each cell so that it grows, m/s through one open face.
-std::vector<double> outflowOf(const FloatGrid& growth, const LiquidCells& liquid, double h) {
-  std::vector<double> outflow(liquid.numbering.size(), 0.0);
+// What is to flow out of each unknown's cell so that it grows, m/s through one open face.
+void setOutflow(const FloatGrid& growth, const LiquidCells& liquid, const PoissonSystem& system, double h,
+                std::vector<double>& outflow) {
+  outflow.assign(system.numbering.size(), 0.0);
   tbb::parallel_for(Range(0, static_cast<int>(liquid.blocks.size())), [&](const Range& range) {
     for (int b = range.begin(); b < range.end(); ++b) {
       const FloatLeaf* leaf = growth.constTree().probeConstLeaf(liquid.blocks[b].origin);
-      if (leaf == nullptr) continue;
-      const int* numbers = liquid.numbering.block(liquid.blocks[b].origin);
+      const int* numbers = system.numbering.block(liquid.blocks[b].origin);
+      if (leaf == nullptr || numbers == nullptr) continue;
       for (int c = 0; c < kLeafSize; ++c) {
         if (numbers[c] >= 0) outflow[numbers[c]] = leaf->getValue(c) * h;
       }
     }
   });
-  return outflow;
 }
 
 // One step of the active set method: cells at solids that let go of them, or are pressed back. True if any
@@ -123,7 +124,7 @@ bool updateDetached(const LiquidCells& liquid, const SurfacePressure& surface, c
   std::vector<char> changed(n, 0);
   tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
     for (int i = range.begin(); i < range.end(); ++i) {
-      const LiquidCell& cell = liquid.cells[i];
+      const LiquidSides& cell = liquid.sidesOf(i);
       if (cell.closed <= 0.0f) continue;
       double anchored = 1.0;
       for (int s = 0; s < kSides; ++s) {
@@ -183,7 +184,7 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
         const int upper = numbers.at(c), lower = numbers.beside(c, 2 * axis);
         if (upper < 0 && lower < 0) continue;
 
-        const LiquidCell& cell = liquid.cells[upper >= 0 ? upper : lower];
+        const LiquidSides& cell = liquid.sidesOf(upper >= 0 ? upper : lower);
         const int side = 2 * axis + (upper >= 0 ? 0 : 1);
         if (cell.open[side] > 0.0f) {
           if (cell.theta[side] > 0.0f && cell.open[side] < kNozzle) continue;
@@ -205,7 +206,7 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
         if (detached[wet] && !endsAt(Side::symmetry, solid, liquid.numbering.cells()[wet], wall)) {
           // What the cell loses through its open faces comes off its walls, so that there is no divergence
           // there either; from each in proportion to the speed at which the liquid was about to leave it.
-          const auto& [open, theta, outflow, closed, leaving] = liquid.cells[wet];
+          const auto& [open, theta, closed, leaving] = liquid.sidesOf(wet);
           const double relative = leaf.getValue(c) - push;
           const double ready = std::max(0.0, solidBelow ? relative : -relative);
           const double share = leaving > 0.0f ? ready / leaving : 1.0 / closed;
@@ -255,7 +256,7 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
     }
     std::vector<double> b(liquidOf.size()), x(liquidOf.size());
     for (std::size_t i = 0; i < liquidOf.size(); ++i) {
-      b[i] = -liquid.cells[liquidOf[i]].outflow;
+      b[i] = -liquid.outflow[liquidOf[i]];
       x[i] = q[liquidOf[i]];
     }
     q = std::vector<double>();  // and not {}, which keeps its room
@@ -295,9 +296,7 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
     report.separationPasses = pass;
     if (again || separates(x)) continue;
     if (options.growth != nullptr && solved.converged) {
-      const std::vector<double> outflow = outflowOf(*options.growth, liquid, solid.voxelSize);
-      b.resize(liquidOf.size());
-      for (std::size_t i = 0; i < liquidOf.size(); ++i) b[i] = outflow[liquidOf[i]];
+      setOutflow(*options.growth, liquid, system, solid.voxelSize, b);
       std::fill(x.begin(), x.end(), 0.0);
       // Where that fails nothing is given back in this step.
       if (poisson.solve(std::move(b), x, kGrowthTolerance, options.maxIterations).converged) {

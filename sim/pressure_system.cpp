@@ -37,7 +37,7 @@ PoissonSystem pressureSystem(const LiquidCells& liquid, const std::vector<char>&
         const int i = numbers.at(c);
         if (i < 0) continue;
         liquidOf[i] = all.at(c);
-        const LiquidCell& cell = liquid.cells[liquidOf[i]];
+        const LiquidSides& cell = liquid.sidesOf(liquidOf[i]);
         for (int s = 0; s < kSides; ++s) {
           const int neighbor = numbers.beside(c, s);
           const bool linked = cell.open[s] > 0.0f && neighbor >= 0;

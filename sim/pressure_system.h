@@ -10,7 +10,7 @@ namespace fluidtex::sim {
 
 // The system for q = p dt / (density h) in the liquid's cells that are not detached (one entry a cell; those
 // have pressure 0 at their centre). `liquidOf` gets each unknown's number as a liquid cell. The right-hand
-// side is LiquidCell::outflow with the sign changed.
+// side is LiquidCells::outflow with the sign changed.
 PoissonSystem pressureSystem(const LiquidCells& liquid, const std::vector<char>& detached,
                              std::vector<int>& liquidOf);
 

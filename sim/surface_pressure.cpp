@@ -12,7 +12,7 @@ namespace {
 using Range = tbb::blocked_range<int>;
 
 // Whether the cell's side is the liquid's own surface, and no open side of the domain.
-bool meetsAir(const LiquidCells& liquid, const LiquidCell& cell, const Coord& place, int side) {
+bool meetsAir(const LiquidCells& liquid, const LiquidSides& cell, const Coord& place, int side) {
   if (cell.theta[side] <= 0.0f) return false;
   const Coord beside = neighborOf(place, side);
   const Coord& extent = liquid.numbering.extent();
@@ -25,12 +25,12 @@ bool meetsAir(const LiquidCells& liquid, const LiquidCell& cell, const Coord& pl
 
 SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi, const FloatGrid& solidPhi,
                                  double scale)
-    : m_row(liquid.cells.size(), -1) {
+    : m_row(liquid.outflow.size(), -1) {
   std::vector<int> cells;
   for (int i = 0; i < static_cast<int>(m_row.size()); ++i) {
     const Coord& place = liquid.numbering.cells()[i];
     bool any = false;
-    for (int s = 0; s < kSides; ++s) any = any || meetsAir(liquid, liquid.cells[i], place, s);
+    for (int s = 0; s < kSides; ++s) any = any || meetsAir(liquid, liquid.sidesOf(i), place, s);
     if (!any) continue;
     m_row[i] = static_cast<int>(cells.size());
     cells.push_back(i);
@@ -40,7 +40,7 @@ SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi
   tbb::parallel_for(Range(0, static_cast<int>(cells.size()), 1024), [&](const Range& range) {
     const openvdb::tree::ValueAccessor<const FloatTree> bend(curvature->constTree());
     for (int n = range.begin(); n < range.end(); ++n) {
-      const LiquidCell& cell = liquid.cells[cells[n]];
+      const LiquidSides& cell = liquid.sidesOf(cells[n]);
       const Coord& place = liquid.numbering.cells()[cells[n]];
       for (int s = 0; s < kSides; ++s) {
         if (!meetsAir(liquid, cell, place, s)) continue;
@@ -51,12 +51,12 @@ SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi
 }
 
 std::vector<double> guessedPressure(const LiquidCells& liquid, const SurfacePressure& surface) {
-  const std::size_t n = liquid.cells.size();
+  const std::size_t n = liquid.outflow.size();
   std::vector<double> guess(n, 0.0);
   std::vector<char> known(n, 0);
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    const LiquidCell& cell = liquid.cells[i];
+    const LiquidSides& cell = liquid.sidesOf(static_cast<int>(i));
     double total = 0.0, weights = 0.0;
     for (int s = 0; s < kSides; ++s) {
       if (cell.theta[s] <= 0.0f) continue;

@@ -8,7 +8,7 @@
 namespace fluidtex::sim {
 
 // Where each liquid cell meets the surface on its six sides: surface tension times curvature, in units of
-// LiquidCell's q. 0 on other sides, and everywhere where there is no surface tension.
+// LiquidSides' q. 0 on other sides, and everywhere where there is no surface tension.
 class SurfacePressure {
  public:
   SurfacePressure() = default;

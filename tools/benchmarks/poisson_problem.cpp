@@ -68,7 +68,7 @@ PoissonProblem damBreakProblem(int resolution, int frames) {
   std::vector<int> liquidOf;
   problem.system =
       sim::pressureSystem(liquid, std::vector<char>(std::size_t(liquid.numbering.size()), 0), liquidOf);
-  for (const int cell : liquidOf) problem.b.push_back(-liquid.cells[cell].outflow);
+  for (const int cell : liquidOf) problem.b.push_back(-liquid.outflow[cell]);
   return problem;
 }
 
