@@ -14,7 +14,7 @@ namespace fluidtex::texture {
 // is less than twice as wide as the exemplar.
 Image vertexMap(Image map, int exemplarWidth, bool toroidal);
 
-// Reads a map and makes it ready for vertices. Throws ExemplarError as readMap() does, and where vectors are
+// Reads a map and makes it ready for vertices; values that are grey throughout become one channel. Throws ExemplarError as readMap() does, and where vectors are
 // asked of an image without three channels.
 ExemplarMap loadMap(const MapOptions& options, int exemplarWidth, bool toroidal);
 

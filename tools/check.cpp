@@ -2,6 +2,7 @@
 #include "sim/mac_grid.h"
 #include "sim/motion.h"
 #include "texture/exemplar.h"
+#include "tools/check_relief.h"
 #include "tools/color_between.h"
 #include "tools/common_options.h"
 #include "tools/errors.h"
@@ -29,6 +30,7 @@ void check(const CommonOptions& options) {
   const texture::Exemplar exemplar =
       texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis, scene.texture.surface.levels);
   const std::optional<texture::Detail> detail = detailOf(scene.texture);
+  checkRelief(scene.render.bump, exemplar);
   if (options.quiet) return;
   const double h = scene.sim.voxelSize();
   const LiquidPlan liquid = planLiquid(scene.sim);
@@ -41,9 +43,13 @@ void check(const CommonOptions& options) {
              static_cast<double>(liquid.atStart) * h * h * h);
   if (liquid.cells != liquid.atStart) fmt::print("; {} cells once all is poured", liquid.cells);
   fmt::print("\n");
+  // Of what flows in later nobody can tell how much there will be.
+  const bool dry = liquid.cells == 0;
   const double spacing = scene.texture.spacing;
   double points = scene.texture.points;
-  if (spacing > 0.0) {
+  if (spacing > 0.0 && dry) {
+    fmt::print("points    one every {:.4g} m of what flows in\n", spacing);
+  } else if (spacing > 0.0) {
     points = static_cast<double>(liquid.surfaceCells) * (h / spacing) * (h / spacing);
     fmt::print("points    one every {:.4g} m, about {:.2g}\n", spacing, points);
   } else {
@@ -52,9 +58,15 @@ void check(const CommonOptions& options) {
   fmt::print("exemplar  {}, {} x {} pixels{}\n", scene.texture.exemplar.file.string(), exemplar.color.width,
              exemplar.color.height, scene.texture.exemplar.toroidal ? ", toroidal" : "");
   const double pixels = double(exemplar.color.width) * exemplar.color.height;
-  fmt::print(
-      "texture   one point shows one pixel: {:.2g} exemplars cover the surface{}\n", points / pixels,
-      points < kFewExemplars * pixels ? "; more points, or a smaller image, would show more of it" : "");
+  fmt::print("texture   one point shows one pixel: ");
+  if (spacing > 0.0)
+    fmt::print("the exemplar is {:.3g} x {:.3g} m", spacing * exemplar.color.width,
+               spacing * exemplar.color.height);
+  if (!(spacing > 0.0 && dry))
+    fmt::print(
+        "{}{:.2g} exemplars cover the surface{}", spacing > 0.0 ? ", and " : "", points / pixels,
+        points < kFewExemplars * pixels ? "; more points, or a smaller image, would show more of it" : "");
+  fmt::print("\n");
   fmt::print("guidance  {}\n",
              exemplar.guided ? scene.texture.exemplar.guidance.string() : std::string("none"));
   for (const texture::MapOptions& map : scene.texture.exemplar.maps) {
@@ -77,7 +89,11 @@ void check(const CommonOptions& options) {
              scene.render.samples);
   const double bytes =
       kBytesProgram + kBytesPerLiquidCell * static_cast<double>(liquid.cells) + kBytesPerPoint * points;
-  fmt::print("memory    about {:.2g} GB\n", bytes / 1e9);
+  if (dry)
+    fmt::print("memory    {:.2g} GB and {:.0f} kB a cell of what flows in\n", kBytesProgram / 1e9,
+               kBytesPerLiquidCell / 1e3);
+  else
+    fmt::print("memory    about {:.2g} GB\n", bytes / 1e9);
   for (const std::string& warning : sim::warningsOf(sim::makeMotion(scene.sim, scene.motion)))
     fmt::print(stderr, "warning: {}\n", warning);
 }

@@ -98,6 +98,7 @@ void addCompare(CLI::App& app, int& exitCode) {
       "compare", "Run a scene in the paper's variants; contact sheet, video and table side by side");
   auto options = std::make_shared<CommonOptions>();
   addSceneOptions(*command, *options);
+  command->get_option("--out")->description("Folder for the results (default: out/SCENE_NAME_compare)");
   command->add_flag("--resume", options->resume,
                     "Go on with the variants that an earlier call has left undone");
   command->add_flag("--no-render", options->noRender, "Only the table, no pictures and no video");

@@ -8,6 +8,7 @@
 #include "texture/synthesize.h"
 #include "tools/atomic_file.h"
 #include "tools/cache_folder.h"
+#include "tools/check_relief.h"
 #include "tools/color_between.h"
 #include "tools/earlier_run.h"
 #include "tools/errors.h"
@@ -63,17 +64,6 @@ texture::Seeds seedsFor(const texture::TexturedSurface& last, const sim::Frame& 
                         const texture::SurfaceOptions& options) {
   if (options.points == texture::Points::random) return {};
   return {transport::moved(last.positions, frame), last.positions, last.triangles, last.scale};
-}
-
-// Only the pictures themselves tell how many channels maps have.
-void checkRelief(const render::Bump& bump, const texture::Exemplar& exemplar) {
-  if (!bump.any()) return;
-  const texture::ExemplarMap& map = exemplar.maps.at(bump.map);
-  if (map.holds == texture::MapHolds::values && map.image.channels != 1)
-    throw texture::ExemplarError(fmt::format(
-        "render.bump.map: {} has {} channels, and a relief is made from one or from normals; give a "
-        "picture of one channel, or holds = \"normals\" in its [[texture.map]].",
-        bump.map, map.image.channels));
 }
 
 class FrameLoop {

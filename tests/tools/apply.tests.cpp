@@ -13,14 +13,15 @@ using namespace fluidtex;
 
 namespace {
 
-// Bright in the middle, dark at the edges, where a toroidal exemplar leads over: `channels` of 8 bits each.
-void writeImage(const fs::path& file, int size, int channels) {
+// Bright in the middle, dark at the edges, where a toroidal exemplar leads over: `channels` of 8 bits each,
+// the later ones darker unless it is grey.
+void writeImage(const fs::path& file, int size, int channels, bool grey = false) {
   std::vector<std::uint8_t> pixels;
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x)
       for (int c = 0; c < channels; ++c)
         pixels.push_back(std::uint8_t(std::lround(255.0 * std::sin(M_PI * (x + 0.5) / size) *
-                                                  std::sin(M_PI * (y + 0.5) / size) / (c + 1))));
+                                                  std::sin(M_PI * (y + 0.5) / size) / (grey ? 1 : c + 1))));
   const auto out = OIIO::ImageOutput::create(file.string());
   REQUIRE(out);
   REQUIRE(out->open(file.string(), OIIO::ImageSpec(size, size, channels, OIIO::TypeDesc::UINT8)));
@@ -112,6 +113,25 @@ TEST_CASE("fluidtex apply: what is no map is refused in one sentence", "[tools]"
   CHECK_THAT(twice.err, Catch::Contains("bump_x: is the name of an earlier map too"));
   refused("bump:bumps=a.png", "a map of bumps is not known");
   refused("height=a.png", "run.json: cannot be read");
+}
+
+TEST_CASE("fluidtex check: relief is refused of a coloured map, not of a grey one, however it is stored",
+          "[tools]") {
+  const Scratch scratch;
+  const std::string file = (scratch.path / "height.png").string();
+  const auto check = [&] {
+    return runProgram({"check", kSmallScene, "--set",
+                       "texture.map=[{ name = 'height', file = '" + file + "' }]", "--set",
+                       "render.bump={ map = 'height' }"});
+  };
+  writeImage(file, 64, 3);
+  const Finished colored = check();
+  CHECK(colored.exitCode == 1);
+  CHECK_THAT(colored.err, Catch::Contains("render.bump.map: height has 3 channels"));
+  writeImage(file, 64, 3, true);
+  CHECK(check().exitCode == 0);
+  writeImage(file, 64, 1);
+  CHECK(check().exitCode == 0);
 }
 
 TEST_CASE("fluidtex render: shows what the run has shown, and other colours once they are applied",
