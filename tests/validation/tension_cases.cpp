@@ -22,10 +22,14 @@ using std::numbers::pi;
 
 constexpr double kTension = 1.0, kDensity = 1.0, kRadius = 0.25;
 
-// Without gravity, walls, and, where `viscosity` is 0, friction. `flat`: a slab one leaf thick.
+// Layers of a slab between two sides of symmetry, of which the middle one is measured. Near its sides the
+// surface is a little off: with half as many the middle feels it.
+constexpr int kLayers = 16;
+
+// Without gravity, walls, and, where `viscosity` is 0, friction. `flat`: a slab.
 sim::Options dropOptions(int resolution, bool flat, double viscosity) {
   sim::Options options;
-  options.size = Vec3d(1.0, 1.0, flat ? 8.0 / resolution : 1.0);
+  options.size = Vec3d(1.0, 1.0, flat ? double(kLayers) / resolution : 1.0);
   options.resolution = resolution;
   if (flat) options.sides[4] = options.sides[5] = sim::Side::symmetry;
   options.gravity = Vec3d(0.0);
@@ -37,11 +41,12 @@ sim::Options dropOptions(int resolution, bool flat, double viscosity) {
 }
 
 // Liquid at rest where distance(x) is negative; the distance need not be one far from the surface.
-sim::Solver shaped(const sim::Options& options, const std::function<double(const Vec3d&)>& distance) {
+sim::Solver shaped(const sim::Options& options, bool flat,
+                   const std::function<double(const Vec3d&)>& distance) {
   sim::Options within = options;
   // A body that reaches as far as the shape, so that the band is there.
   const Vec3d middle = 0.5 * options.size;
-  if (options.size[2] < options.size[0]) {
+  if (flat) {
     within.liquid = {
         {{sim::Cylinder{middle - Vec3d(0.0, 0.0, 1.0), middle + Vec3d(0.0, 0.0, 1.0), kRadius}}}};
   } else {
@@ -146,7 +151,7 @@ double stretch(const sim::State& state, int resolution, bool flat) {
   double sum = 0.0, size = 0.0;
   for (int i = 0; i < resolution; ++i) {
     for (int j = 0; j < resolution; ++j) {
-      for (int k = flat ? 4 : 0; k < (flat ? 5 : resolution); ++k) {
+      for (int k = flat ? kLayers / 2 : 0; k < (flat ? kLayers / 2 + 1 : resolution); ++k) {
         const double wet = std::clamp(0.5 - phi.getValue(Coord(i, j, k)) / h, 0.0, 1.0);
         const double x = (i + 0.5) * h - 0.5, y = (j + 0.5) * h - 0.5, z = (k + 0.5) * h - 0.5;
         sum += wet * (flat ? x * x - y * y : z * z - 0.5 * (x * x + y * y));
@@ -165,7 +170,7 @@ Result swingingDrop(bool flat, int resolution, const Progress& progress) {
   constexpr int kPerPeriod = 40, kPeriods = 3;
   options.frameRate = kPerPeriod / period;
   const Vec3d middle = 0.5 * options.size;
-  sim::Solver solver = shaped(options, [&](const Vec3d& x) {
+  sim::Solver solver = shaped(options, flat, [&](const Vec3d& x) {
     const Vec3d from = x - middle;
     if (flat) {
       const double r = std::hypot(from[0], from[1]), c = r > 0.0 ? from[0] / r : 0.0;
