@@ -50,7 +50,7 @@ bool beyondOpening(const SolidField& solid, const Coord& face, int axis) {
   return false;
 }
 
-// A leaf's active faces that are closed and not known.
+// A leaf's active faces that are closed, or all but closed, and not known.
 FloatLeaf::NodeMaskType closedFaces(const FloatLeaf& leaf, const FloatTree& open, const MaskTree& known) {
   float scratch[kLeafSize];
   const float* openness = leafValues(open, leaf.origin(), scratch);
@@ -61,7 +61,7 @@ FloatLeaf::NodeMaskType closedFaces(const FloatLeaf& leaf, const FloatTree& open
     faces.setOff();
   }
   for (int i = 0; i < kLeafSize; ++i) {
-    if (openness[i] > 0.0f) faces.setOff(i);
+    if (openness[i] >= kLeastOpen) faces.setOff(i);
   }
   return faces;
 }

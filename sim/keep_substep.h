@@ -4,18 +4,19 @@
 #include "sim/frame.h"
 #include "sim/mac_grid.h"
 
-#include <array>
+#include <vector>
 
 namespace fluidtex::sim {
 
-// A velocity in the leaves of phi's band only; its own grids where nothing is left out.
-Velocity nearSurface(const Velocity& velocity, const FloatGrid& phi);
+// A velocity in the leaves of phi's band and of the surfaces of solids only: whoever follows the surface for a
+// step, which runs along solids too, never leaves them. phi: before the step; its band is wider than a step is
+// long. solids: distances (metres) before and after the step. The velocity's own grids where nothing is left
+// out.
+Velocity nearSurface(const Velocity& velocity, const FloatGrid& phi,
+                     const std::vector<const FloatGrid*>& solids);
 
-// The substep of a velocity without leaves that nobody reads who follows the surface for dt seconds: those
-// farther from both `surfaces`, before and after the step, than half the way that the flow leads there, and
-// from the surfaces of solids, along which the liquid's surface runs; each with room for an interpolation.
-// Both narrow-band distances in metres; solids: before and after the step.
-Substep keepSubstep(double dt, const Velocity& velocity, const std::array<const FloatGrid*, 2>& surfaces,
-                    const std::array<const FloatGrid*, 2>& solids);
+// The substep of a velocity, which leaves out the liquid's inside as nearSurface() does.
+Substep keepSubstep(double dt, const Velocity& velocity, const FloatGrid& phi,
+                    const std::vector<const FloatGrid*>& solids);
 
 }  // namespace fluidtex::sim

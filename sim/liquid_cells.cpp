@@ -88,15 +88,15 @@ std::vector<CellBlock> liquidBlocks(const FloatGrid& phi, const SolidField& soli
 }
 
 // One list of all blocks' sides, which cells' numbers have counted block by block.
-void gatherSides(std::vector<std::vector<LiquidSides>>& sidesOf, LiquidCells& liquid) {
-  std::vector<int> first(sidesOf.size() + 1, 0);
-  for (std::size_t b = 0; b < sidesOf.size(); ++b)
-    first[b + 1] = first[b] + static_cast<int>(sidesOf[b].size());
+void gatherSides(std::vector<std::vector<LiquidSides>>& sidesIn, LiquidCells& liquid) {
+  std::vector<int> first(sidesIn.size() + 1, 0);
+  for (std::size_t b = 0; b < sidesIn.size(); ++b)
+    first[b + 1] = first[b] + static_cast<int>(sidesIn[b].size());
   liquid.sides.resize(first.back());
-  tbb::parallel_for(Range(0, static_cast<int>(sidesOf.size())), [&](const Range& range) {
+  tbb::parallel_for(Range(0, static_cast<int>(sidesIn.size())), [&](const Range& range) {
     for (int b = range.begin(); b < range.end(); ++b) {
-      std::copy(sidesOf[b].begin(), sidesOf[b].end(), liquid.sides.begin() + first[b]);
-      sidesOf[b] = {};
+      std::copy(sidesIn[b].begin(), sidesIn[b].end(), liquid.sides.begin() + first[b]);
+      sidesIn[b] = {};
       const int* numbers = liquid.numbering.block(liquid.blocks[b].origin);
       for (int c = 0; c < kLeafSize; ++c) {
         if (numbers[c] >= 0 && liquid.special[numbers[c]] >= 0) liquid.special[numbers[c]] += first[b];
@@ -120,7 +120,7 @@ LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
   liquid.numbering = CellNumbering(liquid.blocks, solid.cells);
   liquid.outflow.resize(liquid.numbering.size());
   liquid.special.resize(liquid.numbering.size());
-  std::vector<std::vector<LiquidSides>> sidesOf(liquid.blocks.size());
+  std::vector<std::vector<LiquidSides>> sidesIn(liquid.blocks.size());
   const float shallowest = -kLeastDepth * static_cast<float>(solid.voxelSize);
   tbb::parallel_for(Range(0, static_cast<int>(liquid.blocks.size())), [&](const Range& range) {
     for (int b = range.begin(); b < range.end(); ++b) {
@@ -164,12 +164,12 @@ LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
           cell.theta[s] = cell.open[s] > 0.0f && outside >= 0.0f ? inside / (inside - outside) : 0.0f;
         }
         int& special = liquid.special[numbers[c]];
-        special = cell == kAllLiquid ? -1 : static_cast<int>(sidesOf[b].size());
-        if (special >= 0) sidesOf[b].push_back(cell);
+        special = cell == kAllLiquid ? -1 : static_cast<int>(sidesIn[b].size());
+        if (special >= 0) sidesIn[b].push_back(cell);
       }
     }
   });
-  gatherSides(sidesOf, liquid);
+  gatherSides(sidesIn, liquid);
   if (std::find(solid.sides.begin(), solid.sides.end(), Side::open) != solid.sides.end()) {
     for (int i = 0; i < liquid.numbering.size(); ++i) {
       const Coord& place = liquid.numbering.cells()[i];

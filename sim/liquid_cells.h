@@ -19,10 +19,10 @@ inline constexpr float kEdgeTheta = 0.5f;
 
 // What lies on the six sides of a liquid cell. Pressure is kept as q = p dt / (density h), a velocity.
 struct LiquidSides {
-  std::array<float, kSides> open;   // area share
-  std::array<float, kSides> theta;  // to the surface, in cells; 0 where the neighbour is not air
-  float closed = 0.0f;              // sum of closed area, of solids that liquid can let go of
-  float leaving = 0.0f;             // before projection: sum of closed area times velocity away from it
+  std::array<float, kSides> open{};   // area share
+  std::array<float, kSides> theta{};  // to the surface, in cells; 0 where the neighbour is not air
+  float closed = 0.0f;                // sum of closed area, of solids that liquid can let go of
+  float leaving = 0.0f;               // before projection: sum of closed area times velocity away from it
 
   bool operator==(const LiquidSides&) const = default;
 };

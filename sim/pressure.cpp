@@ -35,15 +35,11 @@ constexpr double kSeparationTolerance = 1e-3;
 // A face whose solid lies within about 25 degrees of square to it takes the solid's normal velocity.
 constexpr float kSquare = 0.9f;
 
-// What a solid leaves open of a face towards the air is a nozzle below this share: all that enters a cell
-// whose surface is there would leave by it, as fast as it has to. The liquid beside it knows better how fast
-// it flows.
-constexpr float kNozzle = 0.1f;
-
 // Nothing comes in over an edge: where the pressure would draw it in, the face is shut. True if any was.
 bool shutEdges(LiquidCells& liquid, const std::vector<double>& q) {
   bool any = false;
   for (Edge& edge : liquid.edges) {
+    assert(liquid.special[edge.cell] >= 0);
     LiquidSides& cell = liquid.sides[liquid.special[edge.cell]];
     if (edge.shut || edge.outward + q[edge.cell] / kEdgeTheta >= 0.0) continue;
     // A cell's only way out stays one.
@@ -187,7 +183,11 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
         const LiquidSides& cell = liquid.sidesOf(upper >= 0 ? upper : lower);
         const int side = 2 * axis + (upper >= 0 ? 0 : 1);
         if (cell.open[side] > 0.0f) {
-          if (cell.theta[side] > 0.0f && cell.open[side] < kNozzle) continue;
+          // A nozzle: all that enters a cell whose surface is there would leave by it, as fast as it has to.
+          // The liquid beside it knows better how fast it flows.
+          if (cell.theta[side] > 0.0f && cell.open[side] < kLeastOpen &&
+              !endsAt(Side::open, solid, liquid.numbering.cells()[upper >= 0 ? upper : lower], side))
+            continue;
           const double step = (upper < 0 ? surface.at(lower, side) : q[upper]) -
                               (lower < 0 ? surface.at(upper, side) : q[lower]);
           const double change = cell.theta[side] > 0.0f ? step / cell.theta[side] : step;

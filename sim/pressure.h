@@ -36,9 +36,9 @@ struct PressureReport {
 
 struct Projection {
   PressureReport report;
-  // Faces whose velocity is now right: open faces that touch liquid, but not those towards the air of which a
-  // solid leaves less than a tenth open, and closed ones that touch liquid and lie square to the solid (0
-  // there, or the speed at which liquid leaves it). All others are for the caller to extrapolate.
+  // Faces whose velocity is now right: open faces that touch liquid, but not those between it and the air of
+  // which a solid leaves less than kLeastOpen, and closed ones that touch liquid and lie square to the solid
+  // (0 there, or the speed at which liquid leaves it). All others are for the caller to extrapolate.
   FaceMasks valid;
   MaskGrid::Ptr separating;  // cells of liquid that leave a solid
   // What makes the liquid grow (PressureOptions::growth), on the valid faces: a potential flow beside the
@@ -52,15 +52,16 @@ struct Projection {
 };
 
 // Projects u, v, w (m/s) onto fields free of divergence in the liquid (cells with phi < 0 that have an open
-// face). phi in metres, at cell centres, of the index space of solid.phi; it must be valid one cell around
-// the liquid, inside solids too. Pressure is 0 at the surface (see PressureOptions::surfaceTension), whose
-// place between two cell centres is taken from phi (second order); solids are walls without friction, known
-// by their open face areas and their speed, and liquid may leave them (see PressureOptions). On an open side
-// of the domain pressure is 0, and nothing comes in. Faces with a given velocity get it, whatever the
-// pressure. dt in s, density in kg/m3. Faces are written, and made active, where Projection::valid says; the
-// rest stays as it was. The same bytes on any number of threads. Does not throw when it fails to converge:
-// the report says so. Sources: Gibou, Fedkiw, Cheng, Kang 2002 (surface); Ng, Min, Gibou 2009 (solids);
-// Batty, Bertails, Bridson 2007, section 5 (separation).
+// face), but for what goes through faces that Projection::valid leaves out. phi in metres, at cell centres,
+// of the index space of solid.phi; it must be valid one cell around the liquid, inside solids too. Pressure
+// is 0 at the surface (see PressureOptions::surfaceTension), whose place between two cell centres is taken
+// from phi (second order); solids are walls without friction, known by their open face areas and their speed,
+// and liquid may leave them (see PressureOptions). On an open side of the domain pressure is 0, and nothing
+// comes in. Faces with a given velocity get it, whatever the pressure. dt in s, density in kg/m3. Faces are
+// written, and made active, where Projection::valid says; the rest stays as it was. The same bytes on any
+// number of threads. Does not throw when it fails to converge: the report says so. Sources: Gibou, Fedkiw,
+// Cheng, Kang 2002 (surface); Ng, Min, Gibou 2009 (solids); Batty, Bertails, Bridson 2007, section 5
+// (separation).
 [[nodiscard]] Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
                                  const SolidField& solid, double dt, double density,
                                  const PressureOptions& options = {});

@@ -24,6 +24,10 @@ namespace fluidtex::sim {
 // Value of a face whose velocity is not given.
 inline constexpr float kNotGiven = std::numeric_limits<float>::max();
 
+// A face of which a solid leaves less than this share open counts as closed where the pressure does not say
+// how fast it is.
+inline constexpr float kLeastOpen = 0.1f;
+
 // What the solver needs to know about a set of solids. Cell (i,j,k) of the domain has 0 <= i < cells.x() and
 // so on, its centre at ((i+1/2) h, (j+1/2) h, (k+1/2) h). Everything outside the domain is solid.
 struct SolidField {

@@ -314,8 +314,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       last = false;
     }
     frame.substeps.push_back(
-        keepSubstep(dt, movingVelocity(liquid), {liquid.phi.get(), next->phi.get()},
-                    {m_solid->phi.get(), solid->phi.get()}));
+        keepSubstep(dt, movingVelocity(liquid), *liquid.phi, {m_solid->phi.get(), solid->phi.get()}));
     FrameStats& stats = frame.stats;
     stats.dtMin = stats.dtMin > 0.0 ? std::min(stats.dtMin, dt) : dt;
     stats.pressureIterations += solves.pressure.iterations;

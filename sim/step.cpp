@@ -144,7 +144,7 @@ void extrapolateAll(Liquid& liquid, Projection& projection, const SolidField& so
   if (!swells) return;
   const auto& [u, v, w] = projection.swelling.component;
   constrainToSolids(*u, *v, *w, *liquid.phi, atRest(solid), valid, *projection.separating);
-  liquid.swelling = nearSurface(projection.swelling, *liquid.phi);
+  liquid.swelling = nearSurface(projection.swelling, *liquid.phi, {});
 }
 
 // kick: how long forces act, in seconds. viscous: whether friction is felt, so that liquid can stick to

@@ -25,7 +25,7 @@ bool meetsAir(const LiquidCells& liquid, const LiquidSides& cell, const Coord& p
 
 SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi, const FloatGrid& solidPhi,
                                  double scale)
-    : m_row(liquid.outflow.size(), -1) {
+    : m_row(liquid.numbering.size(), -1) {
   std::vector<int> cells;
   for (int i = 0; i < static_cast<int>(m_row.size()); ++i) {
     const Coord& place = liquid.numbering.cells()[i];

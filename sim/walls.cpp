@@ -98,7 +98,7 @@ void stickToWalls(Velocity& velocity, const SolidField& solid, const FaceMasks& 
         if (depth < 0.0f) continue;
         const float slipHere = slip.getValue(d1 < d0 ? face : below) / h;
         if (!std::isfinite(slipHere)) continue;
-        if (open[axis]->constTree().getValue(face) > 0.0f || known.isValueOn(face)) continue;
+        if (open[axis]->constTree().getValue(face) >= kLeastOpen || known.isValueOn(face)) continue;
         float wall = 0.0f;
         if (moving[axis]) wall += moving[axis]->constTree().getValue(face);
         if (solid.slide[axis]) wall += solid.slide[axis]->constTree().getValue(face);

@@ -14,8 +14,8 @@ namespace fluidtex::texture {
 // is less than twice as wide as the exemplar.
 Image vertexMap(Image map, int exemplarWidth, bool toroidal);
 
-// Reads a map and makes it ready for vertices; values that are grey throughout become one channel. Throws ExemplarError as readMap() does, and where vectors are
-// asked of an image without three channels.
+// Reads a map and makes it ready for vertices; values that are grey throughout become one channel. Throws
+// ExemplarError as readMap() does, and where vectors are asked of an image without three channels.
 ExemplarMap loadMap(const MapOptions& options, int exemplarWidth, bool toroidal);
 
 // The names under which a map of so many channels is kept: its own, or name_red, name_green and name_blue for

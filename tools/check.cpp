@@ -90,7 +90,8 @@ void check(const CommonOptions& options) {
   const double bytes =
       kBytesProgram + kBytesPerLiquidCell * static_cast<double>(liquid.cells) + kBytesPerPoint * points;
   if (dry)
-    fmt::print("memory    {:.2g} GB and {:.0f} kB a cell of what flows in\n", kBytesProgram / 1e9,
+    fmt::print("memory    {:.2g} GB and {:.0f} kB a cell of what flows in\n",
+               (kBytesProgram + (spacing > 0.0 ? 0.0 : kBytesPerPoint * points)) / 1e9,
                kBytesPerLiquidCell / 1e3);
   else
     fmt::print("memory    about {:.2g} GB\n", bytes / 1e9);
