@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <random>
 
 namespace fluidtex::validation {
 namespace {
@@ -70,7 +72,8 @@ const std::string kIsoAdvector = "isoAdvector iso-alpha, TwoPhaseFlow";
 const std::string kPlicRdf = "isoAdvector plicRDF, TwoPhaseFlow";
 
 Case translation() {
-  AdvectionTest test{circle(0.5, 0.5, 0.15), circle(1.5, 1.5, 0.15), sim::diagonal(), 2.0, 2.0, true, 0.3 * pi};
+  AdvectionTest test{
+      circle(0.5, 0.5, 0.15), circle(1.5, 1.5, 0.15), sim::diagonal(), 2.0, 2.0, true, 0.3 * pi};
   return advectionCase("translation", "A circle moved by (1, 1)", test, {32, 64, 128}, {},
                        {{64, {.volume = {0.05, 0.005, {}}, .farthest = {0.1, 0.02, {}}}}});
 }
@@ -103,8 +106,13 @@ Case zalesakSphere() {
 }
 
 Case vortex(double duration) {
-  AdvectionTest test{
-      circle(0.5, 0.75, 0.15), circle(0.5, 0.75, 0.15), sim::singleVortex(duration), 1.0, 1.0, true, 0.3 * pi};
+  AdvectionTest test{circle(0.5, 0.75, 0.15),
+                     circle(0.5, 0.75, 0.15),
+                     sim::singleVortex(duration),
+                     1.0,
+                     1.0,
+                     true,
+                     0.3 * pi};
   if (duration < 3.0) {
     return advectionCase(
         "vortex_2", "The single vortex, T = 2", test, {64, 128, 256}, {},
@@ -136,6 +144,31 @@ Case deformation16() {
                        {{128, {.volume = {2.0, 0.2, {}}}}});
 }
 
+// Of the unit square, which it does not leave; eddies down to a quarter of it, of speeds drawn by chance.
+sim::KnownFlow randomFlow(double duration) {
+  constexpr int kWaves = 4;
+  std::array<std::array<double, kWaves>, kWaves> weight{};
+  std::mt19937 random(20071);
+  // Whole numbers are the same everywhere, distributions are not. Speeds of one size at every wave.
+  for (int m = 0; m < kWaves; ++m)
+    for (int n = 0; n < kWaves; ++n)
+      weight[m][n] = 0.8 * (random() / 4294967296.0 - 0.5) / (pi * std::hypot(m + 1.0, n + 1.0));
+  const auto potential = [weight](const Vec3d& x) {
+    double sum = 0.0;
+    for (int m = 0; m < kWaves; ++m)
+      for (int n = 0; n < kWaves; ++n)
+        sum += weight[m][n] * std::sin((m + 1) * pi * x[0]) * std::sin((n + 1) * pi * x[1]);
+    return Vec3d(0.0, 0.0, sum);
+  };
+  return {potential, [duration](double t) { return std::cos(pi * t / duration); }, duration};
+}
+
+Case thereAndBack() {
+  AdvectionTest test{
+      circle(0.5, 0.5, 0.15), circle(0.5, 0.5, 0.15), randomFlow(4.0), 1.0, 1.0, true, 0.3 * pi};
+  return advectionCase("random_flow", "A flow drawn by chance, there and back", test, {64, 128}, {}, {});
+}
+
 Case deformation() {
   const Distance ball = sphere(Vec3d(0.35), 0.15);
   AdvectionTest test{ball, ball, sim::deformation3d(), 1.0, 1.0, false, 0.09 * pi};
@@ -156,8 +189,8 @@ Case deformation() {
 }  // namespace
 
 std::vector<Case> levelSetCases() {
-  return {translation(), zalesak(1),  zalesak(2),      zalesakSphere(),
-          vortex(2.0),   vortex(8.0), deformation16(), deformation()};
+  return {translation(), zalesak(1),      zalesak(2),     zalesakSphere(), vortex(2.0),
+          vortex(8.0),   deformation16(), thereAndBack(), deformation()};
 }
 
 }  // namespace fluidtex::validation
