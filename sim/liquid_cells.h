@@ -42,8 +42,9 @@ struct LiquidCells {
   CellNumbering numbering;
   // Before projection: sum of open area times outward velocity, and of closed area times the solid's.
   std::vector<double> outflow;
-  std::vector<int> special;        // into `sides`; -1: kAllLiquid
-  std::vector<LiquidSides> sides;  // most cells need none
+  // A cell's own place in `sides`, or -1: kAllLiquid, as most cells are, but none with an edge.
+  std::vector<int> special;
+  std::vector<LiquidSides> sides;
   std::vector<Edge> edges;
 
   const LiquidSides& sidesOf(int cell) const { return special[cell] < 0 ? kAllLiquid : sides[special[cell]]; }

@@ -184,7 +184,7 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
         const int side = 2 * axis + (upper >= 0 ? 0 : 1);
         if (cell.open[side] > 0.0f) {
           // A nozzle: all that enters a cell whose surface is there would leave by it, as fast as it has to.
-          // The liquid beside it knows better how fast it flows.
+          // The liquid beside it knows better how fast it flows; over an edge, only the pressure does.
           if (cell.theta[side] > 0.0f && cell.open[side] < kLeastOpen &&
               !endsAt(Side::open, solid, liquid.numbering.cells()[upper >= 0 ? upper : lower], side))
             continue;

@@ -51,7 +51,7 @@ SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi
 }
 
 std::vector<double> guessedPressure(const LiquidCells& liquid, const SurfacePressure& surface) {
-  const std::size_t n = liquid.outflow.size();
+  const auto n = static_cast<std::size_t>(liquid.numbering.size());
   std::vector<double> guess(n, 0.0);
   std::vector<char> known(n, 0);
   double sum = 0.0, count = 0.0;

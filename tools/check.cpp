@@ -43,12 +43,14 @@ void check(const CommonOptions& options) {
              static_cast<double>(liquid.atStart) * h * h * h);
   if (liquid.cells != liquid.atStart) fmt::print("; {} cells once all is poured", liquid.cells);
   fmt::print("\n");
-  // Of what flows in later nobody can tell how much there will be.
-  const bool dry = liquid.cells == 0;
+  // How much sources bring cannot be told beforehand.
+  const bool fed = !scene.sim.sources.empty();
   const double spacing = scene.texture.spacing;
+  const bool counted = spacing <= 0.0 || !fed;
   double points = scene.texture.points;
-  if (spacing > 0.0 && dry) {
-    fmt::print("points    one every {:.4g} m of what flows in\n", spacing);
+  if (!counted) {
+    points = 0.0;
+    fmt::print("points    one every {:.4g} m, as many as what flows in needs\n", spacing);
   } else if (spacing > 0.0) {
     points = static_cast<double>(liquid.surfaceCells) * (h / spacing) * (h / spacing);
     fmt::print("points    one every {:.4g} m, about {:.2g}\n", spacing, points);
@@ -62,7 +64,7 @@ void check(const CommonOptions& options) {
   if (spacing > 0.0)
     fmt::print("the exemplar is {:.3g} x {:.3g} m", spacing * exemplar.color.width,
                spacing * exemplar.color.height);
-  if (!(spacing > 0.0 && dry))
+  if (counted)
     fmt::print(
         "{}{:.2g} exemplars cover the surface{}", spacing > 0.0 ? ", and " : "", points / pixels,
         points < kFewExemplars * pixels ? "; more points, or a smaller image, would show more of it" : "");
@@ -89,12 +91,9 @@ void check(const CommonOptions& options) {
              scene.render.samples);
   const double bytes =
       kBytesProgram + kBytesPerLiquidCell * static_cast<double>(liquid.cells) + kBytesPerPoint * points;
-  if (dry)
-    fmt::print("memory    {:.2g} GB and {:.0f} kB a cell of what flows in\n",
-               (kBytesProgram + (spacing > 0.0 ? 0.0 : kBytesPerPoint * points)) / 1e9,
-               kBytesPerLiquidCell / 1e3);
-  else
-    fmt::print("memory    about {:.2g} GB\n", bytes / 1e9);
+  fmt::print("memory    about {:.2g} GB", bytes / 1e9);
+  if (fed) fmt::print(", and {:.0f} kB a cell of what flows in", kBytesPerLiquidCell / 1e3);
+  fmt::print("\n");
   for (const std::string& warning : sim::warningsOf(sim::makeMotion(scene.sim, scene.motion)))
     fmt::print(stderr, "warning: {}\n", warning);
 }

@@ -9,8 +9,8 @@ void checkRelief(const render::Bump& bump, const texture::Exemplar& exemplar) {
   const texture::ExemplarMap& map = exemplar.maps.at(bump.map);
   if (map.holds == texture::MapHolds::values && map.image.channels != 1)
     throw texture::ExemplarError(fmt::format(
-        "render.bump.map: {} has {} channels, and a relief is made from one or from normals; give a "
-        "picture of one channel, or holds = \"normals\" in its [[texture.map]].",
+        "render.bump.map: {} has {} channels, and a relief is made from one or from normals; give a grey "
+        "picture, or holds = \"normals\" in its [[texture.map]].",
         bump.map, map.image.channels));
 }
 

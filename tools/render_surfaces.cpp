@@ -60,9 +60,8 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
     if (scene.render.bump.any() && !surface.empty()) {
       if (!hasMap(surface, scene.render.bump))
         throw UsageError(
-            fmt::format("{0}: has no {1} of one number or of normals, which render.bump.map names; fluidtex "
-                        "apply {2} {1}=IMAGE "
-                        "adds it from a picture of one channel",
+            fmt::format("{0}: has no {1} of one number or of normals, which render.bump.map names; "
+                        "fluidtex apply {2} {1}=IMAGE adds it from a grey picture",
                         surfaceOf(frame).string(), scene.render.bump.map, from.string()));
       surface.spacing = spacingOf(from, surface, frame);
     }

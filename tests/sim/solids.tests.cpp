@@ -197,6 +197,20 @@ TEST_CASE("constrain: closed faces keep the motion along the solid only", "[sim]
     for (int a = 0; a < 3; ++a) REQUIRE_THAT(c[a]->tree().getValue(open), WithinAbs(velocity[a], 1e-6));
     const Coord closed(8, 8, 6);
     REQUIRE(field->openW->tree().getValue(closed) == 0.0f);
+    // All but closed is closed, no more than that.
+    int hair = 0, gap = 0;
+    for (int i = 3; i < n - 3; ++i) {
+      for (int k = 4; k < n - 2; ++k) {
+        const Coord face(i, 8, k);
+        const float share = field->openW->tree().getValue(face);
+        if (share <= 0.0f || share >= 1.0f) continue;
+        const bool same = std::abs(c[2]->tree().getValue(face) - velocity[2]) < 1e-6;
+        (share < kLeastOpen ? hair : gap) += 1;
+        CHECK(same == (share >= kLeastOpen || (sign > 0.0 && !separating.empty())));
+      }
+    }
+    CHECK(hair > 0);
+    CHECK(gap > 0);
     return Vec3d(c[0]->tree().getValue(closed), c[1]->tree().getValue(closed), c[2]->tree().getValue(closed));
   };
   CHECK_THAT(speedInto(-1.0, *nobody).z(), WithinAbs(std::tan(angle), 0.02));
