@@ -66,9 +66,14 @@ void checkHeat(const sim::ViscosityLaw& law, Reader& reader) {
 
 void checkPlace(const sim::Shape& shape, const std::string& path, const Scene& scene, Reader& reader) {
   checkShape(shape, path, reader);
-  if (reader.clean(path) && reader.clean("domain.size") && !reachesDomain(shape, scene.sim.size)) {
+  if (!reader.clean(path) || !reader.clean("domain")) return;
+  const sim::Box domain = domainOf(scene.sim);
+  if (!reachesDomain(shape, domain)) {
     reader.fault(path, "lies wholly outside the domain",
                  "put at least a part of it between [0, 0, 0] and " + written(scene.sim.size));
+  } else if (!endsInDomain(shape, domain)) {
+    reader.fault(path, "has no end on a side of the domain that is unbounded",
+                 "give a shape that ends, for example a box, or a side of another kind");
   }
 }
 
@@ -109,6 +114,10 @@ void checkKnownFlow(const Scene& scene, Reader& reader) {
   ofUse("rate", {MotionKind::rotation, MotionKind::vortex, MotionKind::stretch, MotionKind::sourceSink},
         "\"rotation\", \"vortex\", \"stretch\" or \"source_sink\"");
   if (flow == MotionKind::solver || !reader.clean("motion.flow")) return;
+  if (reader.clean("domain.sides") && std::find(scene.sim.sides.begin(), scene.sim.sides.end(),
+                                                sim::Side::unbounded) != scene.sim.sides.end())
+    reader.fault("domain.sides", "a flow in closed form is known inside the domain only",
+                 "give no side that is \"unbounded\", or give motion.flow = \"solver\"");
   for (const char* key : {"solid", "source", "drain"})
     if (reader.given(key))
       reader.fault(key, "is of no use with a flow in closed form, which knows of no other bodies",

@@ -37,7 +37,7 @@ void describeLiquid(Visitor& visitor, sim::Options& sim) {
         visitor.table("sides", [&] {
           static const char* const kKeys[] = {"x_low", "x_high", "y_low", "y_high", "z_low", "z_high"};
           for (std::size_t n = 0; n < sim.sides.size(); ++n)
-            choice(visitor, kKeys[n], sim.sides[n], {"wall", "open", "stream", "symmetry"});
+            choice(visitor, kKeys[n], sim.sides[n], {"wall", "open", "stream", "symmetry", "unbounded"});
         });
       },
       Need::required);
@@ -67,9 +67,7 @@ void describeLiquid(Visitor& visitor, sim::Options& sim) {
       visitor.number("viscosity", point.viscosity, kPositive, Need::required);
     });
   });
-  visitor.table("simulation", [&] {
-    visitor.number("cfl", sim.cfl, {.low = 0.1, .high = 4.0});
-  });
+  visitor.table("simulation", [&] { visitor.number("cfl", sim.cfl, {.low = 0.1, .high = 4.0}); });
   visitor.list("wall", sim.walls, [&](sim::DomainWall& wall) {
     choice(visitor, "face", wall.face, kDomainFaces);
     describeWall(visitor, wall.wall);

@@ -22,8 +22,14 @@ void describe(Visitor& visitor, Scene& scene);
 // The shape keys of one liquid, solid or part: kShapeKeys.
 void describeShape(Visitor& visitor, sim::Shape& shape);
 
-// Whether any of the shape can lie inside the domain [0, size]. Meshes are taken to: their triangles are read
-// later.
-bool reachesDomain(const sim::Shape& shape, const Vec3d& size);
+// The domain: [0, size], without an end on sides that are unbounded.
+sim::Box domainOf(const sim::Options& options);
+
+// Whether any of the shape can lie inside the domain. Meshes are taken to: their triangles are read later.
+bool reachesDomain(const sim::Shape& shape, const sim::Box& domain);
+
+// Whether there is an end to what of the shape lies inside the domain. Half-spaces that are askew, and
+// ground, are taken to have none of their own.
+bool endsInDomain(const sim::Shape& shape, const sim::Box& domain);
 
 }  // namespace fluidtex::scenes

@@ -22,21 +22,22 @@ void describeParts(Visitor& visitor, const std::string& key, std::vector<sim::Sh
       key, parts, [&](sim::Shape& part) { describeShape(visitor, part); }, Need::required);
 }
 
-bool overlaps(const sim::Box& box, const Vec3d& size) {
+bool overlaps(const sim::Box& box, const sim::Box& domain) {
   for (int axis = 0; axis < 3; ++axis) {
-    if (box.max[axis] <= 0.0 || box.min[axis] >= size[axis]) return false;
+    if (box.max[axis] <= domain.min[axis] || box.min[axis] >= domain.max[axis]) return false;
   }
   return true;
 }
 
-bool overlaps(const sim::Sphere& sphere, const Vec3d& size) {
+bool overlaps(const sim::Sphere& sphere, const sim::Box& domain) {
   Vec3d nearest = sphere.center;
-  for (int axis = 0; axis < 3; ++axis) nearest[axis] = std::clamp(nearest[axis], 0.0, size[axis]);
+  for (int axis = 0; axis < 3; ++axis)
+    nearest[axis] = std::clamp(nearest[axis], domain.min[axis], domain.max[axis]);
   return (sphere.center - nearest).length() < sphere.radius;
 }
 
 // Its box, somewhat too large where it lies askew.
-bool overlaps(const sim::Cylinder& cylinder, const Vec3d& size) {
+bool overlaps(const sim::Cylinder& cylinder, const sim::Box& domain) {
   sim::Box box{cylinder.from, cylinder.to};
   const Vec3d along = (cylinder.to - cylinder.from).unit();
   for (int axis = 0; axis < 3; ++axis) {
@@ -45,34 +46,55 @@ bool overlaps(const sim::Cylinder& cylinder, const Vec3d& size) {
     box.min[axis] -= reach;
     box.max[axis] += reach;
   }
-  return overlaps(box, size);
+  return overlaps(box, domain);
 }
 
-bool overlaps(const sim::HeightField& ground, const Vec3d&) {
-  return std::max(ground.low, ground.high) + ground.translate.z() > 0.0;
+bool overlaps(const sim::HeightField& ground, const sim::Box& domain) {
+  return std::max(ground.low, ground.high) + ground.translate.z() > domain.min.z();
 }
 
-bool overlaps(const sim::HalfSpace& space, const Vec3d& size) {
+bool overlaps(const sim::HalfSpace& space, const sim::Box& domain) {
   Vec3d deepest;  // the domain's corner furthest behind the plane
-  for (int axis = 0; axis < 3; ++axis) deepest[axis] = space.normal[axis] > 0.0 ? 0.0 : size[axis];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double n = space.normal[axis];
+    deepest[axis] = n > 0.0 ? domain.min[axis] : n < 0.0 ? domain.max[axis] : space.point[axis];
+  }
   return (deepest - space.point).dot(space.normal) < 0.0;
 }
 
-bool overlaps(const sim::MeshShape&, const Vec3d&) {
+bool overlaps(const sim::MeshShape&, const sim::Box&) {
   return true;
 }
 
-bool overlaps(const sim::MeshSequence&, const Vec3d&) {
+bool overlaps(const sim::MeshSequence&, const sim::Box&) {
   return true;
 }
 
-bool overlaps(const sim::Union& shape, const Vec3d& size) {
+bool overlaps(const sim::Union& shape, const sim::Box& domain) {
   return std::any_of(shape.parts.begin(), shape.parts.end(),
-                     [&](const sim::Shape& part) { return reachesDomain(part, size); });
+                     [&](const sim::Shape& part) { return reachesDomain(part, domain); });
 }
 
-bool overlaps(const sim::Difference& shape, const Vec3d& size) {
-  return !shape.parts.empty() && reachesDomain(shape.parts.front(), size);
+bool overlaps(const sim::Difference& shape, const sim::Box& domain) {
+  return !shape.parts.empty() && reachesDomain(shape.parts.front(), domain);
+}
+
+// The part of the domain in which the shape lies, as far as that is known without reading its files.
+sim::Box roomOf(const sim::Shape& shape, sim::Box domain) {
+  if (const auto* space = std::get_if<sim::HalfSpace>(&shape.kind)) {
+    int axis = 0, askew = -1;
+    for (int a = 0; a < 3; ++a) {
+      if (space->normal[a] != 0.0) {
+        ++askew;
+        axis = a;
+      }
+    }
+    if (askew == 0 && space->normal[axis] > 0.0) domain.max[axis] = space->point[axis];
+    if (askew == 0 && space->normal[axis] < 0.0) domain.min[axis] = space->point[axis];
+    return domain;
+  }
+  if (std::holds_alternative<sim::HeightField>(shape.kind)) return domain;
+  return {};
 }
 
 }  // namespace
@@ -140,8 +162,30 @@ void describeShape(Visitor& visitor, sim::Shape& shape) {
   }
 }
 
-bool reachesDomain(const sim::Shape& shape, const Vec3d& size) {
-  return std::visit([&](const auto& kind) { return overlaps(kind, size); }, shape.kind);
+sim::Box domainOf(const sim::Options& options) {
+  sim::Box domain{Vec3d(0.0), options.size};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (options.sides[2 * axis] == sim::Side::unbounded) domain.min[axis] = -sim::kForever;
+    if (options.sides[2 * axis + 1] == sim::Side::unbounded) domain.max[axis] = sim::kForever;
+  }
+  return domain;
+}
+
+bool reachesDomain(const sim::Shape& shape, const sim::Box& domain) {
+  return std::visit([&](const auto& kind) { return overlaps(kind, domain); }, shape.kind);
+}
+
+bool endsInDomain(const sim::Shape& shape, const sim::Box& domain) {
+  if (const auto* both = std::get_if<sim::Union>(&shape.kind))
+    return std::all_of(both->parts.begin(), both->parts.end(),
+                       [&](const sim::Shape& part) { return endsInDomain(part, domain); });
+  if (const auto* rest = std::get_if<sim::Difference>(&shape.kind))
+    return rest->parts.empty() || endsInDomain(rest->parts.front(), domain);
+  const sim::Box room = roomOf(shape, domain);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(room.min[axis]) || !std::isfinite(room.max[axis])) return false;
+  }
+  return true;
 }
 
 }  // namespace fluidtex::scenes

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace fluidtex::sim {
@@ -48,6 +49,13 @@ Vec3d turnedBack(const Vec3d& x, const Vec3d& middle, double angle) {
   return middle + Vec3d(c * from[0] + s * from[1], c * from[1] - s * from[0], from[2]);
 }
 
+// Along each axis.
+Coord boundedCells(const SolidField& solid) {
+  if (isEndless(solid.domain))
+    throw std::invalid_argument("a flow in closed form needs a domain with bounds");
+  return solid.domain.dim();
+}
+
 }  // namespace
 
 AnalyticFlow::AnalyticFlow(const Options& options, const MotionOptions& motion,
@@ -56,7 +64,7 @@ AnalyticFlow::AnalyticFlow(const Options& options, const MotionOptions& motion,
       m_motion(motion),
       m_flow(flowOf(options, motion)),
       m_solid(std::move(solid)),
-      m_velocity(faceVelocity(m_flow, m_solid->cells, kMargin, options.voxelSize())),
+      m_velocity(faceVelocity(m_flow, boundedCells(*m_solid), kMargin, options.voxelSize())),
       m_speed(maxAbs(m_velocity)) {}
 
 AnalyticFlow::AnalyticFlow(const Options& options, const MotionOptions& motion)
@@ -84,8 +92,8 @@ FloatGrid::Ptr AnalyticFlow::start(double angle) const {
   for (const LiquidBody& body : m_options.liquid) {
     const ShapeDistance distance(body.shape, h, m_options.size);
     unite(
-        *phi, [&](const Vec3d& x) { return distance(turnedBack(x, middle, angle)); }, m_solid->cells,
-        kMargin);
+        *phi, [&](const Vec3d& x) { return distance(turnedBack(x, middle, angle)); },
+        grown(m_solid->domain, kMargin));
   }
   settleSurface(*phi, *m_solid);
   return phi;

@@ -43,8 +43,8 @@ Coord shifted(Coord c, int axis, int by) {
 // Whether a face lies beyond a side of the domain that lets liquid pass.
 bool beyondOpening(const SolidField& solid, const Coord& face, int axis) {
   for (int a = 0; a < 3; ++a) {
-    const int last = solid.cells[a] - (a == axis ? 0 : 1);
-    if (face[a] < 0 && !isClosed(solid.sides[2 * a])) return true;
+    const int last = solid.domain.max()[a] + (a == axis ? 1 : 0);
+    if (face[a] < solid.domain.min()[a] && !isClosed(solid.sides[2 * a])) return true;
     if (face[a] > last && !isClosed(solid.sides[2 * a + 1])) return true;
   }
   return false;

@@ -36,24 +36,21 @@ double rateAt(const std::vector<RatePoint>& rate, double t) {
 
 // All faces of the domain's cells whose middle lies in the source. Its back is shut, for under water what
 // leaves at the front would come in there.
-std::array<FloatGrid::Ptr, 3> facesOf(const FloatGrid& phi, const Vec3d& velocity, const Coord& cells) {
+std::array<FloatGrid::Ptr, 3> facesOf(const FloatGrid& phi, const Vec3d& velocity, const CoordBBox& domain) {
   const auto shape = phi.getConstUnsafeAccessor();
   const auto outside = [&](const Coord& cell) {
-    for (int a = 0; a < 3; ++a) {
-      if (cell[a] < 0 || cell[a] >= cells[a]) return false;
-    }
-    return shape.getValue(cell) >= 0.0f;
+    return domain.isInside(cell) && shape.getValue(cell) >= 0.0f;
   };
   std::array<FloatGrid::Ptr, 3> faces;
   for (int axis = 0; axis < 3; ++axis) {
     FloatGrid::Ptr grid = FloatGrid::create(0.0f);
     grid->setTransform(faceTransform(phi.voxelSize()[0], axis));
-    for (const Coord& origin : wetLeaves(phi, cells, 0)) {
+    for (const Coord& origin : wetLeaves(phi, domain)) {
       float scratch[kLeafSize];
       const float* values = leafValues(phi.constTree(), origin, scratch);
       for (int c = 0; c < kLeafSize; ++c) {
         const Coord cell = origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
-        if (values[c] >= 0.0f || cell[0] >= cells[0] || cell[1] >= cells[1] || cell[2] >= cells[2]) continue;
+        if (values[c] >= 0.0f || !domain.isInside(cell)) continue;
         Coord next = cell, before = cell;
         next[axis] += 1;
         before[axis] -= 1;
@@ -70,8 +67,7 @@ std::array<FloatGrid::Ptr, 3> facesOf(const FloatGrid& phi, const Vec3d& velocit
 // Leaves of phi wherever the shape has a leaf or is inside.
 std::vector<FloatLeaf*> leavesAt(FloatGrid& phi, const FloatGrid& shape) {
   std::vector<FloatLeaf*> leaves;
-  const Coord reach = shape.evalActiveVoxelBoundingBox().max();
-  for (const Coord& origin : wetLeaves(shape, reach + Coord(1), kLeafDim))
+  for (const Coord& origin : wetLeaves(shape, CoordBBox::inf()))
     leaves.push_back(phi.tree().touchLeaf(origin));
   return leaves;
 }
@@ -150,12 +146,20 @@ struct GivenFaces {
   void set(int axis, const Coord& face, float speed) { grid[axis]->tree().setValueOn(face, speed); }
 };
 
-// Depth of the liquid in the column of cells through `cell` along `down`, metres.
-double depthOf(const FloatGrid& phi, const SolidField& solid, Coord cell, int down) {
+// The cells of the domain between which all liquid lies.
+CoordBBox boxAround(const FloatGrid& phi, const CoordBBox& domain) {
+  CoordBBox box;
+  for (const Coord& origin : wetLeaves(phi, domain)) box.expand(CoordBBox::createCube(origin, kLeafDim));
+  box.intersect(domain);
+  return box;
+}
+
+// Depth of the liquid in the column of cells through `cell` along `down`, metres. box: of all liquid.
+double depthOf(const FloatGrid& phi, const SolidField& solid, const CoordBBox& box, Coord cell, int down) {
   const auto liquid = phi.getConstUnsafeAccessor();
   const auto wall = solid.phi->getConstUnsafeAccessor();
   double depth = 0.0;
-  for (cell[down] = 0; cell[down] < solid.cells[down]; ++cell[down]) {
+  for (cell[down] = box.min()[down]; cell[down] <= box.max()[down]; ++cell[down]) {
     const double p = std::max(liquid.getValue(cell), -wall.getValue(cell));
     depth += std::clamp(0.5 * solid.voxelSize - p, 0.0, solid.voxelSize);
   }
@@ -175,21 +179,22 @@ void giveStream(GivenFaces& given, int side, const SolidField& solid, const Floa
     if (std::abs(gravity[a]) > std::abs(gravity[down])) down = a;
   const int across = 3 - axis - down;
   const double h = solid.voxelSize;
+  const CoordBBox box = boxAround(phi, solid.domain);
   // Waves on shallow water run along the surface only: not where the side is the floor or the ceiling.
   const bool waves = axis != down;
   const int beside = waves ? across : (axis + 1) % 3, along = waves ? down : (axis + 2) % 3;
-  for (int i = 0; i < solid.cells[beside]; ++i) {
+  for (int i = box.min()[beside]; i <= box.max()[beside]; ++i) {
     double wave = -1.0;
-    for (int j = 0; j < solid.cells[along]; ++j) {
+    for (int j = box.min()[along]; j <= box.max()[along]; ++j) {
       Coord cell;
-      cell[axis] = out > 0 ? solid.cells[axis] - 1 : 0;
+      cell[axis] = (out > 0 ? solid.domain.max() : solid.domain.min())[axis];
       cell[beside] = i;
       cell[along] = j;
       Coord face = cell;
       if (out > 0) face[axis] += 1;
       if (liquid.getValue(cell) >= 0.0f || share.getValue(face) <= 0.0f) continue;
       if (wave < 0.0)
-        wave = waves ? std::sqrt(std::abs(gravity[down]) * depthOf(phi, solid, cell, down)) : 0.0;
+        wave = waves ? std::sqrt(std::abs(gravity[down]) * depthOf(phi, solid, box, cell, down)) : 0.0;
       const double here = out * speed.getValue(face);
       const double back = std::clamp((here + wave) * dt / h, 0.0, kLeafDim - 1.0);
       // The faces on the way inwards, as far as they are open.
@@ -215,22 +220,20 @@ Flows::Flows(const Options& options)
     : m_sources(options.sources),
       m_drains(options.drains),
       m_h(options.voxelSize()),
-      m_cells(cellCount(options.size, m_h)),
+      m_domain(domainCells(options)),
       m_size(options.size),
       m_band(bandWidth(options.cfl) * m_h) {
   for (const Source& source : m_sources) {
     SourceGrids grids{gridOf(source.shape), source.velocity, source.temperature, {}};
-    if (source.velocity != Vec3d(0.0)) grids.velocity = facesOf(*grids.phi, source.velocity, m_cells);
+    if (source.velocity != Vec3d(0.0)) grids.velocity = facesOf(*grids.phi, source.velocity, m_domain);
     m_sourceGrids.push_back(std::move(grids));
   }
   for (const Drain& drain : m_drains) m_drainGrids.push_back(gridOf(drain.shape));
 }
 
 FloatGrid::Ptr Flows::gridOf(const Shape& shape) const {
-  const ShapeDistance distance(shape, m_h, m_size);
   FloatGrid::Ptr phi = makePhi(m_h, m_band);
-  unite(
-      *phi, [&](const Vec3d& x) { return distance(x); }, m_cells, kLeafDim);
+  unite(*phi, ShapeDistance(shape, m_h, m_size), m_domain);
   return phi;
 }
 
@@ -263,12 +266,18 @@ double Flows::nextChange(double t) const {
   return next;
 }
 
+std::vector<const FloatGrid*> Flows::places() const {
+  std::vector<const FloatGrid*> grids;
+  for (const SourceGrids& source : m_sourceGrids) grids.push_back(source.phi.get());
+  return grids;
+}
+
 std::vector<std::string> Flows::warnings(const std::vector<LiquidBody>& bodies, const Solids& solids) const {
   std::vector<std::string> warnings;
   enum class Found { nothing, inSolid, open };
   const auto look = [&](const FloatGrid& shape, double t) {
     Found found = Found::nothing;
-    for (const Coord& origin : wetLeaves(shape, m_cells, 0)) {
+    for (const Coord& origin : wetLeaves(shape, m_domain)) {
       float scratch[kLeafSize];
       const float* values = leafValues(shape.constTree(), origin, scratch);
       for (int c = 0; c < kLeafSize; ++c) {

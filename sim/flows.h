@@ -41,6 +41,9 @@ class Flows {
   // The first time after t at which a source or a drain begins or ends; kForever where none does.
   double nextChange(double t) const;
 
+  // Where liquid can come from: the phi of each source.
+  std::vector<const FloatGrid*> places() const;
+
   // One sentence for each body of liquid, source or drain that cannot do anything.
   std::vector<std::string> warnings(const std::vector<LiquidBody>& bodies, const Solids& solids) const;
 
@@ -50,7 +53,7 @@ class Flows {
   std::vector<Source> m_sources;
   std::vector<Drain> m_drains;
   double m_h;
-  Coord m_cells;
+  CoordBBox m_domain;
   Vec3d m_size;
   double m_band;
   std::vector<SourceGrids> m_sourceGrids;

@@ -27,14 +27,13 @@ std::vector<CellBlock> liquidCellBlocks(const FloatGrid& temperature, const Floa
   std::vector<CellBlock> blocks(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     const Coord& origin = blocks[n].origin = leaves[n]->origin();
-    if (origin[0] < 0 || origin[1] < 0 || origin[2] < 0) return;
+    if (!solid.domain.isInside(origin)) return;
     float phiScratch[kLeafSize], solidScratch[kLeafSize];
     const float* p = leafValues(phi.constTree(), origin, phiScratch);
     const float* s = leafValues(solid.phi->constTree(), origin, solidScratch);
     for (int i = 0; i < kLeafSize; ++i) {
       const Coord cell = origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7);
-      const bool inside = cell[0] < solid.cells[0] && cell[1] < solid.cells[1] && cell[2] < solid.cells[2];
-      blocks[n].cells[i] = inside && isLiquid(p[i], s[i], h);
+      blocks[n].cells[i] = solid.domain.isInside(cell) && isLiquid(p[i], s[i], h);
     }
   });
   std::erase_if(blocks, [](const CellBlock& block) { return block.cells.none(); });
@@ -149,7 +148,7 @@ bool conductHeat(FloatGrid& temperature, const FloatGrid& phi, const SolidField&
   const double wallLoss = heat.wallTransfer * dt / (volumeHeat * h);
 
   PoissonSystem system;
-  system.numbering = CellNumbering(liquidCellBlocks(temperature, phi, solid), solid.cells);
+  system.numbering = CellNumbering(liquidCellBlocks(temperature, phi, solid));
   const int n = system.numbering.size();
   if (n == 0) return true;
   system.rows.resize(n);

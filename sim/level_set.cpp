@@ -1,5 +1,6 @@
 #include "sim/level_set.h"
 
+#include "sim/chunks.h"
 #include "sim/leaf_table.h"
 
 #include <openvdb/tools/Prune.h>
@@ -8,20 +9,15 @@
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
 
 namespace fluidtex::sim {
 namespace {
 
-// Origins of all leaves that touch the box of cells [-margin, cells + margin).
-std::vector<Coord> allLeaves(const Coord& cells, int margin) {
-  std::vector<Coord> origins;
-  const int first = -margin & ~(kLeafDim - 1);
-  for (int i = first; i < cells.x() + margin; i += kLeafDim) {
-    for (int j = first; j < cells.y() + margin; j += kLeafDim) {
-      for (int k = first; k < cells.z() + margin; k += kLeafDim) origins.emplace_back(i, j, k);
-    }
-  }
-  return origins;
+// Origin of the leaf that a cell lies in.
+Coord leafOf(const Coord& cell) {
+  constexpr int kMask = ~(kLeafDim - 1);
+  return Coord(cell.x() & kMask, cell.y() & kMask, cell.z() & kMask);
 }
 
 // A level set from blocks: fill(origin, values) writes the 512 values of a block; blocks beyond the band
@@ -57,13 +53,13 @@ void build(FloatTree& tree, const std::vector<Coord>& origins, const Fill& fill)
 // Sum of value(phi, solid) over the cells of the domain that may hold liquid.
 template <class Value>
 double sumOverCells(const FloatGrid& phi, const SolidField& solid, const Value& value) {
-  const auto origins = wetLeaves(phi, solid.cells, 0);
+  const auto origins = wetLeaves(phi, solid.domain);
   std::vector<double> sums(origins.size());
   tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
     float phiScratch[kLeafSize], solidScratch[kLeafSize];
     const float* p = leafValues(phi.constTree(), origins[n], phiScratch);
     const float* s = leafValues(solid.phi->constTree(), origins[n], solidScratch);
-    const Coord last = solid.cells - origins[n];
+    const Coord last = solid.domain.max() + Coord(1) - origins[n];
     for (int i = 0; i < std::min(kLeafDim, last.x()); ++i) {
       for (int j = 0; j < std::min(kLeafDim, last.y()); ++j) {
         for (int k = 0; k < std::min(kLeafDim, last.z()); ++k) {
@@ -119,10 +115,9 @@ void addTilesOf(const FloatTree& tree, const openvdb::CoordBBox& within, const A
 
 }  // namespace
 
-std::vector<Coord> wetLeaves(const FloatGrid& phi, const Coord& cells, int margin) {
+std::vector<Coord> wetLeaves(const FloatGrid& phi, const CoordBBox& within) {
   std::vector<Coord> origins;
-  const Coord low(-margin & ~(kLeafDim - 1));
-  const Coord high = cells.offsetBy(margin - 1);
+  const Coord low = leafOf(within.min()), &high = within.max();
   const auto inBox = [&](const Coord& origin) {
     return Coord::lessThan(origin, low) ? false : !Coord::lessThan(high, origin);
   };
@@ -167,27 +162,60 @@ void trimBand(FloatGrid& phi, const FloatGrid& solidPhi) {
   setBand(phi.tree(), &solidPhi.constTree(), static_cast<float>(phi.voxelSize()[0]));
 }
 
-void unite(FloatGrid& phi, const std::function<double(const Vec3d&)>& distance, const Coord& cells,
-           int margin) {
+void unite(FloatGrid& phi, const std::function<double(const Vec3d&)>& distance, const CoordBBox& within) {
   const double h = phi.voxelSize()[0], background = phi.background();
-  auto united = FloatGrid::create(phi.background());
-  build(united->tree(), allLeaves(cells, margin), [&](const Coord& origin, float* values) {
-    const float* was = leafValues(phi.constTree(), origin, values);
-    if (was != values) std::copy_n(was, kLeafSize, values);
-    // Farther than the band from the whole block: the sign at its centre is that of all.
-    const double centre =
-        distance(phi.indexToWorld(Vec3d(origin.x() + 3.5, origin.y() + 3.5, origin.z() + 3.5)));
-    const double halfDiagonal = 0.5 * std::sqrt(3.0) * (kLeafDim - 1) * h;
-    if (std::abs(centre) > background + halfDiagonal) {
-      if (centre < 0.0) std::fill_n(values, kLeafSize, static_cast<float>(-background));
+  // Farther than the band from a whole cube of cells: the sign at its centre is that of all.
+  const auto sideOf = [&](const Coord& origin, int size) {
+    const double d = distance(phi.indexToWorld(origin.asVec3d() + Vec3d(0.5 * (size - 1))));
+    const double farthest = background + 0.5 * std::sqrt(3.0) * (size - 1) * h;
+    return d > farthest ? 1 : d < -farthest ? -1 : 0;
+  };
+  const Coord low = leafOf(within.min()), &high = within.max();
+  const Chunks chunks = within.empty() ? Chunks() : chunksIn(within);
+  std::vector<std::vector<Coord>> parts(chunks.size());
+  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t n) {
+    if (sideOf(chunks[n], kChunkDim) > 0) return;
+    CoordBBox box = CoordBBox::createCube(chunks[n], kChunkDim);
+    box.intersect({low, high});
+    for (int i = box.min().x(); i <= box.max().x(); i += kLeafDim)
+      for (int j = box.min().y(); j <= box.max().y(); j += kLeafDim)
+        for (int k = box.min().z(); k <= box.max().z(); k += kLeafDim)
+          if (sideOf(Coord(i, j, k), kLeafDim) <= 0) parts[n].emplace_back(i, j, k);
+  });
+  std::vector<Coord> origins;
+  for (const auto& part : parts) origins.insert(origins.end(), part.begin(), part.end());
+  FloatTree united(phi.background());
+  build(united, origins, [&](const Coord& origin, float* values) {
+    if (sideOf(origin, kLeafDim) < 0) {
+      std::fill_n(values, kLeafSize, static_cast<float>(-background));
       return;
     }
+    const float* was = leafValues(phi.constTree(), origin, values);
+    if (was != values) std::copy_n(was, kLeafSize, values);
     for (int i = 0; i < kLeafSize; ++i) {
       const Coord ijk = origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7);
       values[i] = std::min(values[i], static_cast<float>(distance(phi.indexToWorld(ijk))));
     }
   });
-  phi.setTree(united->treePtr());
+  for (const Coord& origin : origins) {
+    const float value = united.getValue(origin);
+    if (FloatLeaf* leaf = united.stealNode<FloatLeaf>(origin, phi.background(), false)) {
+      phi.tree().addLeaf(leaf);
+    } else {
+      phi.tree().addTile(1, origin, value, false);
+    }
+  }
+  for (FloatLeaf* leaf : leavesOf(phi.tree())) leaf->setValuesOn();
+}
+
+void unite(FloatGrid& phi, const ShapeDistance& shape, const CoordBBox& domain) {
+  const double h = phi.voxelSize()[0];
+  CoordBBox within = grown(cellsIn(shape.bounds(), h), static_cast<int>(std::ceil(phi.background() / h)) + 1);
+  within.intersect(grown(domain, kLeafDim));
+  if (!within.empty() && isEndless(within))
+    throw std::invalid_argument("a shape has no end on a side on which the domain has none");
+  unite(
+      phi, [&](const Vec3d& x) { return shape(x); }, within);
 }
 
 FloatGrid::Ptr visibleSurface(const FloatGrid& phi, const SolidField& solid, int halfWidth) {
@@ -195,16 +223,17 @@ FloatGrid::Ptr visibleSurface(const FloatGrid& phi, const SolidField& solid, int
   FloatGrid::Ptr surface = makePhi(h, halfWidth * h);
   surface->setName("surface");
   const float background = surface->background();
-  build(surface->tree(), wetLeaves(phi, solid.cells, kLeafDim), [&](const Coord& origin, float* values) {
-    float scratch[kLeafSize];
-    const float* p = leafValues(phi.constTree(), origin, scratch);
-    const float* s = leafValues(solid.phi->constTree(), origin, values);
-    // The solid's distance is known to 3 h only: beyond, it says no more than its sign.
-    for (int i = 0; i < kLeafSize; ++i) {
-      const float outside = s[i] >= static_cast<float>(2.999 * h) ? -background : -s[i];
-      values[i] = std::max(p[i], outside);
-    }
-  });
+  build(surface->tree(), wetLeaves(phi, grown(solid.domain, kLeafDim)),
+        [&](const Coord& origin, float* values) {
+          float scratch[kLeafSize];
+          const float* p = leafValues(phi.constTree(), origin, scratch);
+          const float* s = leafValues(solid.phi->constTree(), origin, values);
+          // The solid's distance is known to 3 h only: beyond, it says no more than its sign.
+          for (int i = 0; i < kLeafSize; ++i) {
+            const float outside = s[i] >= static_cast<float>(2.999 * h) ? -background : -s[i];
+            values[i] = std::max(p[i], outside);
+          }
+        });
   const auto nothing = FloatGrid::create(static_cast<float>(3.0 * h));
   reinitialize(*surface, *nothing, 2 * halfWidth + 2);
   setBand(surface->tree(), nullptr, static_cast<float>(h));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sim/mac_grid.h"
+#include "sim/shapes.h"
 #include "sim/solids.h"
 
 #include <functional>
@@ -50,11 +51,13 @@ void cutSolids(FloatGrid& phi, const FloatGrid& solidPhi, const MaskGrid& where)
 // Sets the active voxels anew, clamps all others, and drops leaves without any.
 void trimBand(FloatGrid& phi, const FloatGrid& solidPhi);
 
-// phi = min(phi, distance) over all cells of the domain and `margin` cells around it, in full leaves, liquid
-// inside included: call reinitialize and trimBand afterwards. distance: at world positions; at least its sign
-// and a lower bound of its magnitude are right.
-void unite(FloatGrid& phi, const std::function<double(const Vec3d&)>& distance, const Coord& cells,
-           int margin);
+// phi = min(phi, distance) in the leaves that touch the box and where that is less than the background: call
+// reinitialize and trimBand afterwards. All leaves that phi then has are active as a whole. distance: at
+// world positions; at least its sign and a lower bound of its magnitude are right.
+void unite(FloatGrid& phi, const std::function<double(const Vec3d&)>& distance, const CoordBBox& within);
+// The same wherever the shape is in the domain and a leaf beyond. Throws std::invalid_argument where it has
+// no end.
+void unite(FloatGrid& phi, const ShapeDistance& shape, const CoordBBox& domain);
 
 // The textured surface: liquid with solids taken out, max(phi, -solidPhi), a distance `halfWidth` voxels
 // either side.
@@ -67,8 +70,8 @@ double liquidVolume(const FloatGrid& phi, const SolidField& solid);
 // Cells of the domain with phi < 0 whose centre is not in a solid.
 std::int64_t liquidCells(const FloatGrid& phi, const SolidField& solid);
 
-// Leaf origins in the box of cells [-margin, cells + margin) where phi has a leaf or is inside: all liquid,
-// and the band.
-std::vector<Coord> wetLeaves(const FloatGrid& phi, const Coord& cells, int margin);
+// Origins, in order, of the leaves touching the box where phi has a leaf or is inside: all liquid, and the
+// band.
+std::vector<Coord> wetLeaves(const FloatGrid& phi, const CoordBBox& within);
 
 }  // namespace fluidtex::sim

@@ -57,7 +57,7 @@ std::array<Patch, 3> givenPatches(const SolidField& solid, const Coord& origin) 
 
 // Cells of the domain with phi < 0 and an open face whose velocity is not given.
 std::vector<CellBlock> liquidBlocks(const FloatGrid& phi, const SolidField& solid) {
-  const std::vector<Coord> origins = wetLeaves(phi, solid.cells, 0);
+  const std::vector<Coord> origins = wetLeaves(phi, solid.domain);
   std::vector<CellBlock> blocks(origins.size());
   tbb::parallel_for(Range(0, static_cast<int>(blocks.size())), [&](const Range& range) {
     for (int b = range.begin(); b < range.end(); ++b) {
@@ -66,8 +66,7 @@ std::vector<CellBlock> liquidBlocks(const FloatGrid& phi, const SolidField& soli
       const FloatLeaf* leaf = phi.constTree().probeConstLeaf(block.origin);
       for (int c = 0; c < kLeafSize; ++c) {
         const Coord cell = block.origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
-        const bool inside = cell[0] < solid.cells[0] && cell[1] < solid.cells[1] && cell[2] < solid.cells[2];
-        block.cells[c] = inside && (leaf == nullptr || leaf->getValue(c) < 0.0f);
+        block.cells[c] = solid.domain.isInside(cell) && (leaf == nullptr || leaf->getValue(c) < 0.0f);
       }
       if (block.cells.none()) continue;
       const auto open = openPatches(solid, block.origin);
@@ -109,7 +108,8 @@ void gatherSides(std::vector<std::vector<LiquidSides>>& sidesIn, LiquidCells& li
 
 bool endsAt(Side kind, const SolidField& solid, const Coord& cell, int side) {
   const int axis = side >> 1;
-  return solid.sides[side] == kind && cell[axis] == (side & 1 ? solid.cells[axis] - 1 : 0);
+  return solid.sides[side] == kind &&
+         cell[axis] == (side & 1 ? solid.domain.max() : solid.domain.min())[axis];
 }
 
 LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
@@ -117,7 +117,7 @@ LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
   const FloatTree& phi = phiGrid.constTree();
   LiquidCells liquid;
   liquid.blocks = liquidBlocks(phiGrid, solid);
-  liquid.numbering = CellNumbering(liquid.blocks, solid.cells);
+  liquid.numbering = CellNumbering(liquid.blocks);
   liquid.outflow.resize(liquid.numbering.size());
   liquid.special.resize(liquid.numbering.size());
   std::vector<std::vector<LiquidSides>> sidesIn(liquid.blocks.size());

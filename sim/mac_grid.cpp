@@ -37,6 +37,40 @@ Coord cellCount(const Vec3d& size, double h) {
   return n;
 }
 
+CoordBBox firstCells(const Coord& count) {
+  return {Coord(0), count.offsetBy(-1)};
+}
+
+CoordBBox domainCells(const Options& options) {
+  CoordBBox box = firstCells(cellCount(options.size, options.voxelSize()));
+  for (int a = 0; a < 3; ++a) {
+    if (options.sides[2 * a] == Side::unbounded) box.min()[a] = -kEndless;
+    if (options.sides[2 * a + 1] == Side::unbounded) box.max()[a] = kEndless - 1;
+  }
+  return box;
+}
+
+CoordBBox cellsIn(const openvdb::BBoxd& box, double h) {
+  CoordBBox cells;
+  for (int a = 0; a < 3; ++a) {
+    cells.min()[a] = static_cast<int>(std::max(std::floor(box.min()[a] / h), double(-kEndless)));
+    cells.max()[a] = static_cast<int>(std::min(std::floor(box.max()[a] / h), kEndless - 1.0));
+  }
+  return cells;
+}
+
+bool isEndless(const CoordBBox& box) {
+  for (int a = 0; a < 3; ++a) {
+    if (box.min()[a] <= -kEndless || box.max()[a] >= kEndless - 1) return true;
+  }
+  return false;
+}
+
+CoordBBox grown(CoordBBox box, int layers) {
+  box.expand(layers);
+  return box;
+}
+
 FloatGrid::Ptr makePhi(double h, double background) {
   auto phi = FloatGrid::create(static_cast<float>(background));
   phi->setTransform(cellTransform(h));

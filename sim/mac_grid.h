@@ -2,8 +2,9 @@
 //
 // Cell (i,j,k) is the cube [i h, (i+1) h] x ...; its centre, where phi sits, is ((i+1/2) h, ...).
 // u(i,j,k) sits in the middle of that cell's lower x face, (i h, (j+1/2) h, (k+1/2) h); v and w likewise.
-// The domain is [0, size]. Cells with an index below 0 or beyond cellCount() lie beyond its sides, in walls
-// where these are closed; a few layers of them hold values so that stencils need no special cases.
+// The domain is [0, size], or goes on where a side is unbounded (see domainCells). Other cells lie beyond its
+// sides, in walls where these are closed; a few layers of them hold values so that stencils need no special
+// cases.
 #pragma once
 
 #include "sim/grids.h"
@@ -17,6 +18,7 @@
 namespace fluidtex::sim {
 
 using openvdb::Coord;
+using openvdb::CoordBBox;
 using FloatLeaf = FloatTree::LeafNodeType;
 
 inline constexpr int kLeafDim = FloatLeaf::DIM;    // 8
@@ -30,8 +32,26 @@ inline constexpr double kMaxTrace = 5.0;
 openvdb::math::Transform::Ptr cellTransform(double h);
 openvdb::math::Transform::Ptr faceTransform(double h, int axis);
 
-// Cells along each axis: the fewest that cover the domain.
+// Cells along each axis: the fewest that cover [0, size].
 Coord cellCount(const Vec3d& size, double h);
+
+// So many cells from the origin on.
+CoordBBox firstCells(const Coord& count);
+
+// Cells from the origin to the end of what a domain without bounds can number.
+inline constexpr int kEndless = 1 << 22;
+
+// The cells of the domain: from 0 to cellCount() - 1, and kEndless from 0 where a side is unbounded.
+CoordBBox domainCells(const Options& options);
+
+// The cells that touch a box in metres, as far as kEndless.
+CoordBBox cellsIn(const openvdb::BBoxd& box, double h);
+
+// Whether a box of cells ends nowhere on some side.
+bool isEndless(const CoordBBox& box);
+
+// The box and `layers` of cells around it.
+CoordBBox grown(CoordBBox box, int layers);
 
 // Face velocities in m/s; three grids of one topology, background 0.
 struct Velocity {

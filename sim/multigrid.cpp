@@ -64,20 +64,19 @@ constexpr std::array<Giver, kGivers> kRedGivers = [] {
 }();
 
 // The coarse blocks that hold the parents of all cells.
-std::vector<CellBlock> coarseBlocks(const CellNumbering& fine, const Coord& extent) {
-  const Coord blocks((extent[0] + 7) >> 3, (extent[1] + 7) >> 3, (extent[2] + 7) >> 3);
-  const int count = blocks[0] * blocks[1] * blocks[2];
-  std::vector<CellBlock> all(count);
-  tbb::parallel_for(Range(0, count), [&](const Range& range) {
+std::vector<CellBlock> coarseBlocks(const CellNumbering& fine) {
+  std::vector<Coord> origins;
+  for (const Coord& origin : fine.origins()) origins.push_back((origin >> 4) << 3);
+  std::sort(origins.begin(), origins.end());
+  origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
+  std::vector<CellBlock> all(origins.size());
+  tbb::parallel_for(Range(0, static_cast<int>(all.size())), [&](const Range& range) {
     for (int b = range.begin(); b < range.end(); ++b) {
       CellBlock& block = all[b];
-      block.origin = Coord(b / (blocks[1] * blocks[2]), b / blocks[2] % blocks[1], b % blocks[2]) << 3;
+      block.origin = origins[b];
       for (int octant = 0; octant < 8; ++octant) {
         const Coord half((octant >> 2) & 1, (octant >> 1) & 1, octant & 1);
-        const Coord corner = (block.origin << 1) + (half << 3);
-        const Coord& end = fine.extent();
-        if (corner[0] >= end[0] || corner[1] >= end[1] || corner[2] >= end[2]) continue;
-        const int* numbers = fine.block(corner);
+        const int* numbers = fine.block((block.origin << 1) + (half << 3));
         if (numbers == nullptr) continue;
         for (int c = 0; c < 512; ++c) {
           if (numbers[c] < 0) continue;
@@ -88,7 +87,6 @@ std::vector<CellBlock> coarseBlocks(const CellNumbering& fine, const Coord& exte
       }
     }
   });
-  std::erase_if(all, [](const CellBlock& block) { return block.cells.none(); });
   return all;
 }
 
@@ -125,12 +123,10 @@ Multigrid::Multigrid(const PoissonSystem& system, const EvenRows& even) {
 }
 
 std::unique_ptr<Multigrid::Level> Multigrid::coarsen(const Level& fine, int depth) {
-  const Coord& fineExtent = fine.numbering->extent();
-  const Coord extent((fineExtent[0] + 1) >> 1, (fineExtent[1] + 1) >> 1, (fineExtent[2] + 1) >> 1);
   auto level = std::make_unique<Level>();
   Level& coarse = *level;
-  const std::vector<CellBlock> blocks = coarseBlocks(*fine.numbering, extent);
-  coarse.ownNumbering = CellNumbering(blocks, extent);
+  const std::vector<CellBlock> blocks = coarseBlocks(*fine.numbering);
+  coarse.ownNumbering = CellNumbering(blocks);
   coarse.numbering = &coarse.ownNumbering;
   coarse.rows = &coarse.ownRows;
   coarse.anchor = &coarse.ownAnchor;

@@ -38,7 +38,7 @@ bool leavesSolid(const FloatGrid& phi, const Velocity& velocity, const SolidFiel
     beyond[axis] -= out;
     if (out < 0) face[axis] += 1;
     if (solidPhi.constTree().getValue(beyond) >= deep) continue;
-    const bool outside = beyond[axis] < 0 || beyond[axis] >= solid.cells[axis];
+    const bool outside = !solid.domain.isInside(beyond);
     if (outside && solid.sides[side] == Side::symmetry) continue;
     if (outside && !isClosed(solid.sides[side])) return true;  // what is beyond is of no account
     double speed = velocity.component[axis]->constTree().getValue(face);

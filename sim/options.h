@@ -1,5 +1,6 @@
 // Settings of the solver: what a scene file says about the liquid and its surroundings.
-// Units are SI; Z is up; right-handed. Positions are in world space, the domain is [0, size].
+// Units are SI; Z is up; right-handed. Positions are in world space, the domain is [0, size], and goes on
+// beyond it on sides that are unbounded.
 #pragma once
 
 #include <openvdb/math/Vec3.h>
@@ -70,8 +71,8 @@ struct MeshSequence {
 
 // Ground from a grey image of 8 or 16 bits: black lies at height `low`, white at `high`; one pixel is `pixel`
 // metres wide, the picture's top is at high y. translate: of its lower left corner, and of all heights.
-// Between pixel centres the heights are bicubic. All below is inside; where the picture ends at the domain's
-// side or beyond, its rim goes on.
+// Between pixel centres the heights are bicubic. All below is inside; where the picture ends at a side of
+// [0, size] or beyond, its rim goes on.
 struct HeightField {
   std::filesystem::path file;
   double pixel = 1.0;
@@ -198,9 +199,10 @@ struct Drain {
 };
 
 // What the domain's face is: a wall; an edge that liquid falls off (no pressure beyond, and nothing comes
-// back); a cut through a stream that goes on beyond, so that waves pass through; or a plane beyond which all
-// goes on as its mirror image: liquid slips along it and never lets go.
-enum class Side { wall, open, stream, symmetry };
+// back); a cut through a stream that goes on beyond, so that waves pass through; a plane beyond which all
+// goes on as its mirror image: liquid slips along it and never lets go; or no face: the domain goes on as far
+// as liquid gets.
+enum class Side { wall, open, stream, symmetry, unbounded };
 
 // Whether nothing passes.
 inline bool isClosed(Side side) {
@@ -208,10 +210,10 @@ inline bool isClosed(Side side) {
 }
 
 struct Options {
-  Vec3d size{1.0};  // of the domain, metres
+  Vec3d size{1.0};  // of the domain, metres; on unbounded sides, where it would end
   // Its faces: at low x, high x, low y, high y, low z, high z.
   std::array<Side, 6> sides{};
-  int resolution = 64;  // cells along the longest side
+  int resolution = 64;  // cells along the longest side of [0, size]
   Vec3d gravity{0.0, 0.0, -9.81};
   double density = 1000.0;      // kg/m3
   double viscosity = 0.001;     // Pa s

@@ -28,13 +28,10 @@ constexpr float kFar = 1e6f;
 
 // The leaves in which something can be owed.
 LeafTable leavesAround(const FloatGrid& before, const FloatGrid& after, const FloatGrid* owed,
-                       const Coord& cells) {
+                       const CoordBBox& domain) {
   FloatTree topology(0.0f);
   const auto touch = [&](const Coord& origin) {
-    for (int a = 0; a < 3; ++a) {
-      if (origin[a] < 0 || origin[a] >= cells[a]) return;
-    }
-    topology.touchLeaf(origin);
+    if (domain.isInside(origin)) topology.touchLeaf(origin);
   };
   for (auto leaf = before.constTree().cbeginLeaf(); leaf; ++leaf) touch(leaf->origin());
   for (auto leaf = after.constTree().cbeginLeaf(); leaf; ++leaf) touch(leaf->origin());
@@ -175,7 +172,7 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
                           const Velocity& velocity, const SolidField& solid, const SolidField& solidAfter,
                           const RunningFlows& flows, double dt) {
   VolumeFlux flux =
-      volumeFlux(leavesAround(before, after, owed, solid.cells), before, after, velocity, solid, dt);
+      volumeFlux(leavesAround(before, after, owed, solid.domain), before, after, velocity, solid, dt);
   const LeafTable& leaves = flux.leaves;
   std::vector<float> due(leaves.voxels(), 0.0f), shares = wetShares(before, solid, leaves);
   if (owed != nullptr) {

@@ -51,10 +51,17 @@ void removeMeans(const std::vector<std::vector<int>>& parts, std::vector<Scalar>
 
 }  // namespace
 
-CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks, const Coord& extent)
-    : m_extent(extent), m_blocks((extent[0] + 7) >> 3, (extent[1] + 7) >> 3, (extent[2] + 7) >> 3) {
+CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks) {
+  if (blocks.empty()) return;
   const auto lists = std::make_shared<Lists>();
-  lists->blockStart.assign(static_cast<std::size_t>(m_blocks[0]) * m_blocks[1] * m_blocks[2], -1);
+  openvdb::CoordBBox box;
+  for (const CellBlock& block : blocks) {
+    lists->origins.push_back(block.origin);
+    box.expand(block.origin);
+  }
+  m_first = box.min() >> 5;
+  m_tables = (box.max() >> 5) - m_first + Coord(1);
+  lists->tableStart.assign(static_cast<std::size_t>(m_tables[0]) * m_tables[1] * m_tables[2], -1);
   lists->numbers.assign(blocks.size() * 512, -1);
   std::bitset<512> red;
   for (int c = 0; c < 512; ++c) red[c] = (((c >> 6) ^ (c >> 3) ^ c) & 1) == 0;
@@ -63,7 +70,15 @@ CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks, const Coord& 
   std::vector<int> firstRed(count), firstBlack(count);
   int size = 0;
   for (int b = 0; b < count; ++b) {
-    lists->blockStart[blockIndex(blocks[b].origin)] = b * 512;
+    const Coord table = (blocks[b].origin >> 5) - m_first;
+    int& start =
+        lists->tableStart[(static_cast<std::size_t>(table[0]) * m_tables[1] + table[1]) * m_tables[2] +
+                          table[2]];
+    if (start < 0) {
+      start = static_cast<int>(lists->blockStart.size());
+      lists->blockStart.resize(lists->blockStart.size() + 64, -1);
+    }
+    lists->blockStart[start + placeInTable(blocks[b].origin)] = b * 512;
     firstRed[b] = m_red;
     const int reds = static_cast<int>((blocks[b].cells & red).count());
     m_red += reds;
@@ -90,17 +105,11 @@ CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks, const Coord& 
 }
 
 BlockNumbers::BlockNumbers(const CellNumbering& numbering, const Coord& origin) {
-  const auto numbersAt = [&](const Coord& there) -> const int* {
-    for (int a = 0; a < 3; ++a) {
-      if (there[a] < 0 || there[a] >= numbering.extent()[a]) return nullptr;
-    }
-    return numbering.block(there);
-  };
-  m_own = numbersAt(origin);
+  m_own = numbering.block(origin);
   for (int s = 0; s < kSides; ++s) {
     Coord there = origin;
     there[s >> 1] += (s & 1) != 0 ? 8 : -8;
-    m_beside[s] = numbersAt(there);
+    m_beside[s] = numbering.block(there);
   }
 }
 

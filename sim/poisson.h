@@ -28,45 +28,55 @@ struct CellBlock {
 };
 
 // Numbers the cells of a list of blocks: first all with even i+j+k ("red"), then the others ("black"), each
-// in the order of the blocks. Coordinates are not negative and below `extent`. Copies share the lists.
+// in the order of the blocks. Copies share the lists. Memory follows the blocks, wherever they lie: tables of
+// 64 blocks are found through one that takes 4 bytes for each in the box around all.
 class CellNumbering {
  public:
   CellNumbering() = default;
-  CellNumbering(const std::vector<CellBlock>& blocks, const Coord& extent);
+  explicit CellNumbering(const std::vector<CellBlock>& blocks);
 
   int size() const { return static_cast<int>(m_lists->cells.size()); }
   int redCount() const { return m_red; }
-  const Coord& extent() const { return m_extent; }
   const std::vector<Coord>& cells() const { return m_lists->cells; }
+  const std::vector<Coord>& origins() const { return m_lists->origins; }  // of the blocks, as they were given
 
   // The numbers of a block's 512 cells (-1: not one of them), or null where the block has none.
   const int* block(const Coord& anyCellInside) const {
-    const int start = m_lists->blockStart[blockIndex(anyCellInside)];
+    const int table = tableOf(anyCellInside);
+    if (table < 0) return nullptr;
+    const int start = m_lists->blockStart[table + placeInTable(anyCellInside)];
     return start < 0 ? nullptr : m_lists->numbers.data() + start;
   }
 
-  // -1 for cells that are not in the list, also beyond the extent.
+  // -1 for cells that are not in the list.
   int at(const Coord& cell) const {
-    for (int a = 0; a < 3; ++a) {
-      if (static_cast<std::uint32_t>(cell[a]) >= static_cast<std::uint32_t>(m_extent[a])) return -1;
-    }
     const int* numbers = block(cell);
     return numbers == nullptr ? -1 : numbers[((cell[0] & 7) << 6) | ((cell[1] & 7) << 3) | (cell[2] & 7)];
   }
 
  private:
-  std::size_t blockIndex(const Coord& cell) const {
-    return (static_cast<std::size_t>(cell[0] >> 3) * m_blocks[1] + (cell[1] >> 3)) * m_blocks[2] +
-           (cell[2] >> 3);
+  // Where the table of the 4 x 4 x 4 blocks around a cell begins in blockStart; -1: none has cells.
+  int tableOf(const Coord& cell) const {
+    std::size_t place = 0;
+    for (int a = 0; a < 3; ++a) {
+      const auto at = static_cast<std::uint32_t>((cell[a] >> 5) - m_first[a]);
+      if (at >= static_cast<std::uint32_t>(m_tables[a])) return -1;
+      place = place * static_cast<std::size_t>(m_tables[a]) + at;
+    }
+    return m_lists->tableStart[place];
+  }
+  static int placeInTable(const Coord& cell) {
+    return (((cell[0] >> 3) & 3) << 4) | (((cell[1] >> 3) & 3) << 2) | ((cell[2] >> 3) & 3);
   }
 
   struct Lists {
-    std::vector<Coord> cells;     // by number
-    std::vector<int> blockStart;  // into numbers, -1: no cells
+    std::vector<Coord> cells, origins;
+    std::vector<int> tableStart;  // into blockStart; -1: none of its blocks has cells
+    std::vector<int> blockStart;  // into numbers; -1: no cells
     std::vector<int> numbers;
   };
 
-  Coord m_extent{0}, m_blocks{0};
+  Coord m_first{0}, m_tables{0};  // the lowest of the tables, in cells / 32, and how many along each axis
   int m_red = 0;
   std::shared_ptr<const Lists> m_lists = std::make_shared<Lists>();
 };

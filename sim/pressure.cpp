@@ -235,9 +235,9 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   const int n = liquid.numbering.size();
   const double pascal = density * solid.voxelSize / dt;  // of one unit of q
 
-  const SurfacePressure surface =
-      options.surfaceTension > 0.0 ? SurfacePressure(liquid, phi, *solid.phi, options.surfaceTension / pascal)
-                                   : SurfacePressure();
+  const SurfacePressure surface = options.surfaceTension > 0.0
+                                      ? SurfacePressure(liquid, phi, solid, options.surfaceTension / pascal)
+                                      : SurfacePressure();
   const std::vector<double> guess = surface.none() ? std::vector<double>() : guessedPressure(liquid, surface);
 
   Projection result;

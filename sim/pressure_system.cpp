@@ -22,7 +22,7 @@ PoissonSystem pressureSystem(const LiquidCells& liquid, const std::vector<char>&
       }
     }
     std::erase_if(blocks, [](const CellBlock& block) { return block.cells.none(); });
-    system.numbering = CellNumbering(blocks, liquid.numbering.extent());
+    system.numbering = CellNumbering(blocks);
   }
   const int n = system.numbering.size();
   system.rows.resize(n);

@@ -52,17 +52,24 @@ struct ShapeDistance::Node {
   struct Plane {
     Vec3d point, normal;
   };
+  // Made within limits; it goes on beyond them as it is at them.
+  struct Ground {
+    openvdb::FloatGrid::ConstPtr grid;
+    Vec3d low, high;
+  };
   struct Any {
     std::vector<Node> parts;
   };
   struct Less {
     std::vector<Node> parts;
   };
-  std::variant<Box, Sphere, Cylinder, Plane, openvdb::FloatGrid::ConstPtr, Any, Less> kind;
+  std::variant<Box, Sphere, Cylinder, Plane, openvdb::FloatGrid::ConstPtr, Ground, Any, Less> kind;
 
   static Node of(const Shape& shape, double voxelSize, const Vec3d& domainSize);
   static Node of(const TriangleMesh& mesh, double voxelSize);
+  static Node of(const HeightField& ground, double voxelSize, const Vec3d& domainSize);
   double distance(const Vec3d& x) const;
+  openvdb::BBoxd bounds() const;
 };
 
 ShapeDistance::Node ShapeDistance::Node::of(const Shape& shape, double voxelSize, const Vec3d& domainSize) {
@@ -81,8 +88,22 @@ ShapeDistance::Node ShapeDistance::Node::of(const Shape& shape, double voxelSize
   if (const auto* sequence = std::get_if<MeshSequence>(&shape.kind))
     return of(MovingMesh(*sequence, 0, 0).at(0, 0.0), voxelSize);
   if (const auto* mesh = std::get_if<MeshShape>(&shape.kind)) return of(readMesh(*mesh), voxelSize);
-  const double beyond = 2.0 * kMeshBand * voxelSize;
-  return of(groundMesh(std::get<HeightField>(shape.kind), domainSize, voxelSize, beyond, -beyond), voxelSize);
+  return of(std::get<HeightField>(shape.kind), voxelSize, domainSize);
+}
+
+ShapeDistance::Node ShapeDistance::Node::of(const HeightField& ground, double voxelSize,
+                                            const Vec3d& domainSize) {
+  const double band = kMeshBand * voxelSize, beyond = 2.0 * band;
+  const TriangleMesh mesh = groundMesh(ground, domainSize, voxelSize, beyond, -beyond);
+  openvdb::BBoxd box;
+  for (const openvdb::Vec3f& x : mesh.positions) box.expand(Vec3d(x));
+  Vec3d low(-kForever), high(kForever);
+  for (int a = 0; a < 2; ++a) {
+    if (box.min()[a] < -band) low[a] = -band;
+    if (box.max()[a] > domainSize[a] + band) high[a] = domainSize[a] + band;
+  }
+  low[2] = box.min()[2] + band;
+  return {Ground{std::get<openvdb::FloatGrid::ConstPtr>(of(mesh, voxelSize).kind), low, high}};
 }
 
 ShapeDistance::Node ShapeDistance::Node::of(const TriangleMesh& mesh, double voxelSize) {
@@ -102,6 +123,11 @@ double ShapeDistance::Node::distance(const Vec3d& x) const {
     double operator()(const openvdb::FloatGrid::ConstPtr& grid) const {
       return openvdb::tools::BoxSampler::sample(grid->constTree(), grid->worldToIndex(x));
     }
+    double operator()(const Ground& ground) const {
+      Vec3d within = x;
+      for (int a = 0; a < 3; ++a) within[a] = std::clamp(x[a], ground.low[a], ground.high[a]);
+      return openvdb::tools::BoxSampler::sample(ground.grid->constTree(), ground.grid->worldToIndex(within));
+    }
     double operator()(const Any& any) const {
       double nearest = kForever;
       for (const Node& part : any.parts) nearest = std::min(nearest, part.distance(x));
@@ -115,6 +141,57 @@ double ShapeDistance::Node::distance(const Vec3d& x) const {
     }
   };
   return std::visit(Visitor{x}, kind);
+}
+
+openvdb::BBoxd ShapeDistance::Node::bounds() const {
+  struct Visitor {
+    using Bounds = openvdb::BBoxd;
+    Bounds operator()(const Box& box) const { return {box.min, box.max}; }
+    Bounds operator()(const Sphere& sphere) const {
+      return {sphere.center - Vec3d(sphere.radius), sphere.center + Vec3d(sphere.radius)};
+    }
+    Bounds operator()(const Cylinder& cylinder) const {
+      Bounds box;
+      for (const Vec3d& end : {cylinder.from, cylinder.to}) {
+        box.expand(end - Vec3d(cylinder.radius));
+        box.expand(end + Vec3d(cylinder.radius));
+      }
+      return box;
+    }
+    // One that is askew has no end along any axis.
+    Bounds operator()(const Plane& plane) const {
+      Bounds box(Vec3d(-kForever), Vec3d(kForever));
+      for (int a = 0; a < 3; ++a) {
+        if (plane.normal[a] == 1.0) box.max()[a] = plane.point[a];
+        if (plane.normal[a] == -1.0) box.min()[a] = plane.point[a];
+      }
+      return box;
+    }
+    Bounds operator()(const openvdb::FloatGrid::ConstPtr& grid) const {
+      return grid->transform().indexToWorld(grid->evalActiveVoxelBoundingBox());
+    }
+    Bounds operator()(const Ground& ground) const {
+      Bounds box = (*this)(ground.grid);
+      for (int a = 0; a < 3; ++a) {
+        if (std::isfinite(ground.low[a])) box.min()[a] = -kForever;
+        if (std::isfinite(ground.high[a])) box.max()[a] = kForever;
+      }
+      return box;
+    }
+    Bounds operator()(const Any& any) const {
+      Bounds box;
+      for (const Node& part : any.parts) box.expand(part.bounds());
+      return box;
+    }
+    Bounds operator()(const Less& less) const {
+      return less.parts.empty() ? Bounds() : less.parts.front().bounds();
+    }
+  };
+  return std::visit(Visitor{}, kind);
+}
+
+openvdb::BBoxd ShapeDistance::bounds() const {
+  return m_root->bounds();
 }
 
 ShapeDistance::ShapeDistance(const Shape& shape, double voxelSize, const Vec3d& domainSize)

@@ -23,11 +23,14 @@ TriangleMesh readMesh(const MeshShape& shape);
 // into a level set once.
 class ShapeDistance {
  public:
-  // domainSize: height fields go on beyond a domain of this size where they reach its sides. A mesh sequence
-  // is as in its first file.
+  // domainSize: height fields go on for ever where they reach the sides of a domain of this size. A mesh
+  // sequence is as in its first file.
   ShapeDistance(const Shape& shape, double voxelSize, const Vec3d& domainSize = Vec3d(0.0));
   ShapeDistance(const TriangleMesh& mesh, double voxelSize);
   double operator()(const Vec3d& x) const;
+
+  // Of the shape, metres; infinite where it has no end, as a half-space, and ground whose rim goes on.
+  openvdb::BBoxd bounds() const;
 
  private:
   struct Node;

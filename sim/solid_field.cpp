@@ -5,7 +5,6 @@
 
 #include "sim/mac_grid.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -16,9 +15,6 @@ namespace fluidtex::sim {
 
 namespace {
 
-using Range = tbb::blocked_range<int>;
-
-constexpr int kMargin = 8;  // cells outside the domain where solid.phi is right
 constexpr int kNodes = kLeafDim + 1;
 
 // Open shares below this count as closed: they would let next to nothing through and spoil the matrix.
@@ -63,21 +59,17 @@ double snapped(double fraction) {
   return fraction > 1.0 - kOnWall ? 1.0 : fraction;
 }
 
-enum class Fill { closed, open, cut };
+// Open shares of the lower faces of a block's cells.
+using Faces = std::array<std::array<float, kLeafSize>, 3>;
 
-struct Block {
-  Coord origin;
-  Fill fill = Fill::closed;
-  std::array<std::array<float, kLeafSize>, 3> faces;
-};
-
-// Open shares of the lower faces of the block's cells, from distances at its 9^3 nodes.
-void computeFaces(const SolidDistance& distance, const Coord& cells, double h, Block& block) {
+// From distances at the block's 9^3 nodes.
+Faces openShares(const SolidDistance& distance, const CoordBBox& domain, double h, const Coord& origin) {
+  Faces faces;
   std::vector<double> node(kNodes * kNodes * kNodes);
   for (int i = 0, n = 0; i < kNodes; ++i) {
     for (int j = 0; j < kNodes; ++j) {
       for (int k = 0; k < kNodes; ++k, ++n) {
-        const Coord at = block.origin.offsetBy(i, j, k);
+        const Coord at = origin.offsetBy(i, j, k);
         const double d = distance(Vec3d(at[0] * h, at[1] * h, at[2] * h));
         node[n] = std::abs(d) < kOnWall * h ? 0.0 : d;
       }
@@ -89,103 +81,145 @@ void computeFaces(const SolidDistance& distance, const Coord& cells, double h, B
     const double* d = node.data() + local[0] * kStep[0] + local[1] * kStep[1] + local[2] * kStep[2];
     for (int axis = 0; axis < 3; ++axis) {
       const int s = kStep[(axis + 1) % 3], t = kStep[(axis + 2) % 3];
-      const Coord at = block.origin + local;
-      const int beside = (axis + 1) % 3, along = (axis + 2) % 3;
-      const bool inside = at[axis] <= cells[axis] && at[beside] < cells[beside] && at[along] < cells[along];
-      block.faces[axis][c] = inside ? static_cast<float>(openAreaFraction(d[0], d[s], d[s + t], d[t])) : 0.0f;
+      // Only the faces of the domain's own cells are open, also where a side is no wall.
+      const Coord above = origin + local;
+      Coord below = above;
+      below[axis] -= 1;
+      const bool inside = domain.isInside(above) || domain.isInside(below);
+      faces[axis][c] = inside ? static_cast<float>(openAreaFraction(d[0], d[s], d[s + t], d[t])) : 0.0f;
     }
+  }
+  return faces;
+}
+
+// Calls body(origin, size) for the parts of a chunk that touch the box: for the chunk as a whole where
+// that says it is settled, and else for each of its blocks.
+template <class Body>
+void forPieces(const Coord& chunk, const CoordBBox& box, const Body& body) {
+  const CoordBBox all = CoordBBox::createCube(chunk, kChunkDim);
+  if (box.isInside(all) && body(chunk, kChunkDim)) return;
+  for (int n = 0; n < 64; ++n) {
+    const Coord origin = chunk + (Coord(n >> 4, (n >> 2) & 3, n & 3) << 3);
+    if (box.hasOverlap(CoordBBox::createCube(origin, kLeafDim))) body(origin, kLeafDim);
   }
 }
 
-FloatGrid::Ptr cellDistances(const SolidDistance& distance, const Coord& cells, double h) {
+Vec3d middleOf(const Coord& origin, int size, double h) {
+  return (origin.asVec3d() + Vec3d(0.5 * size)) * h;
+}
+
+// Which level of a tree has tiles of this many cells.
+int levelOf(int size) {
+  return size == kChunkDim ? 2 : 1;
+}
+
+FloatGrid::Ptr cellDistances(const SolidDistance& distance, const CoordBBox& domain, const Chunks& chunks,
+                             double h) {
   const float band = static_cast<float>(kSolidBand * h);
   FloatGrid::Ptr grid = makePhi(h, band);
   grid->setName("solidPhi");
-  const Coord n((cells[0] + 2 * kMargin + 7) >> 3, (cells[1] + 2 * kMargin + 7) >> 3,
-                (cells[2] + 2 * kMargin + 7) >> 3);
-  const int count = n[0] * n[1] * n[2];
-  // Farther than this from the block's middle, no cell of the block is in the band.
-  const double radius = (0.5 * std::sqrt(3.0) * (kLeafDim - 1) + kSolidBand) * h;
-  std::vector<std::unique_ptr<FloatLeaf>> leaves(count);
-  std::vector<char> solid(count, 0);
-  const auto originOf = [&](int b) {
-    return (Coord(b / (n[1] * n[2]), b / n[2] % n[1], b % n[2]) << 3).offsetBy(-kMargin);
+  struct Piece {
+    Coord origin;
+    int size;
+    std::unique_ptr<FloatLeaf> leaf;  // null: solid throughout
   };
-  tbb::parallel_for(Range(0, count), [&](const Range& range) {
-    for (int b = range.begin(); b < range.end(); ++b) {
-      const Coord origin = originOf(b);
-      const double middle = distance(Vec3d((origin[0] + 4) * h, (origin[1] + 4) * h, (origin[2] + 4) * h));
+  const CoordBBox box = grown(domain, kSolidMargin);
+  std::vector<std::vector<Piece>> pieces(chunks.size());
+  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t n) {
+    forPieces(chunks[n], box, [&](const Coord& origin, int size) {
+      // Farther than this from its middle, none of its cells is in the band.
+      const double radius = (0.5 * std::sqrt(3.0) * (size - 1) + kSolidBand) * h;
+      const double middle = distance(middleOf(origin, size, h));
       if (std::abs(middle) > radius) {
-        solid[b] = middle < 0.0;
-        continue;
+        if (middle < 0.0) pieces[n].push_back({origin, size, nullptr});
+        return true;
       }
-      leaves[b] = std::make_unique<FloatLeaf>(origin, band, false);
+      if (size > kLeafDim) return false;
+      auto leaf = std::make_unique<FloatLeaf>(origin, band, false);
       for (int c = 0; c < kLeafSize; ++c) {
-        const Coord at = leaves[b]->offsetToGlobalCoord(c);
+        const Coord at = leaf->offsetToGlobalCoord(c);
         const double d = distance(Vec3d((at[0] + 0.5) * h, (at[1] + 0.5) * h, (at[2] + 0.5) * h));
-        leaves[b]->setValueOnly(c, std::clamp(static_cast<float>(d), -band, band));
-        if (std::abs(d) < band) leaves[b]->setActiveState(c, true);
+        leaf->setValueOnly(c, std::clamp(static_cast<float>(d), -band, band));
+        if (std::abs(d) < band) leaf->setActiveState(c, true);
       }
-    }
+      pieces[n].push_back({origin, size, std::move(leaf)});
+      return true;
+    });
   });
-  for (int b = 0; b < count; ++b) {
-    if (leaves[b] != nullptr) {
-      grid->tree().addLeaf(leaves[b].release());
-    } else if (solid[b]) {
-      grid->tree().addTile(1, originOf(b), -band, false);
+  for (auto& ofChunk : pieces) {
+    for (Piece& piece : ofChunk) {
+      if (piece.leaf != nullptr) {
+        grid->tree().addLeaf(piece.leaf.release());
+      } else {
+        grid->tree().addTile(levelOf(piece.size), piece.origin, -band, false);
+      }
     }
   }
   return grid;
 }
 
-}  // namespace
-
-SolidField makeSolidField(const SolidDistance& distance, const SolidDistance& openDistance,
-                          const Coord& cells, double h) {
-  SolidField field;
-  field.voxelSize = h;
-  field.cells = cells;
-  field.phi = cellDistances(distance, cells, h);
-
-  const Coord n((cells[0] + 8) >> 3, (cells[1] + 8) >> 3, (cells[2] + 8) >> 3);  // room for the last faces
-  const int count = n[0] * n[1] * n[2];
-  std::vector<std::unique_ptr<Block>> blocks(count);
-  const double radius = 0.5 * std::sqrt(3.0) * kLeafDim * h;
-  tbb::parallel_for(Range(0, count), [&](const Range& range) {
-    for (int b = range.begin(); b < range.end(); ++b) {
-      const Coord origin = Coord(b / (n[1] * n[2]), b / n[2] % n[1], b % n[2]) << 3;
-      const double middle =
-          openDistance(Vec3d((origin[0] + 4) * h, (origin[1] + 4) * h, (origin[2] + 4) * h));
-      if (middle < -radius) continue;
-      blocks[b] = std::make_unique<Block>();
-      blocks[b]->origin = origin;
-      // Only the faces of the domain's own cells are open, also where a side is no wall.
-      bool inside = true;
-      for (int a = 0; a < 3; ++a) inside = inside && origin[a] + kLeafDim <= cells[a];
-      blocks[b]->fill = middle > radius && inside ? Fill::open : Fill::cut;
-      if (blocks[b]->fill == Fill::cut) computeFaces(openDistance, cells, h, *blocks[b]);
-    }
+// The three grids of open shares.
+std::array<FloatGrid::Ptr, 3> openFaces(const SolidDistance& distance, const CoordBBox& domain,
+                                        const Chunks& chunks, double h) {
+  struct Piece {
+    Coord origin;
+    int size;
+    std::unique_ptr<Faces> faces;  // null: open throughout
+  };
+  const CoordBBox box(domain.min(), domain.max().offsetBy(1));  // the last cells' upper faces as well
+  std::vector<std::vector<Piece>> pieces(chunks.size());
+  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t n) {
+    forPieces(chunks[n], box, [&](const Coord& origin, int size) {
+      const double radius = 0.5 * std::sqrt(3.0) * size * h;
+      const double middle = distance(middleOf(origin, size, h));
+      if (middle < -radius) return true;
+      if (middle > radius && domain.isInside(CoordBBox::createCube(origin, size))) {
+        pieces[n].push_back({origin, size, nullptr});
+        return true;
+      }
+      if (size > kLeafDim) return false;
+      pieces[n].push_back({origin, size, std::make_unique<Faces>(openShares(distance, domain, h, origin))});
+      return true;
+    });
   });
-  FloatGrid::Ptr* const grids[3] = {&field.openU, &field.openV, &field.openW};
+  std::array<FloatGrid::Ptr, 3> open;
   static constexpr const char* kNames[3] = {"openU", "openV", "openW"};
   for (int axis = 0; axis < 3; ++axis) {
     FloatGrid::Ptr grid = FloatGrid::create(0.0f);
     grid->setTransform(faceTransform(h, axis));
     grid->setName(kNames[axis]);
-    for (const auto& block : blocks) {
-      if (block == nullptr) continue;
-      if (block->fill == Fill::open) {
-        grid->tree().addTile(1, block->origin, 1.0f, true);
-        continue;
-      }
-      FloatLeaf* leaf = grid->tree().touchLeaf(block->origin);
-      for (int c = 0; c < kLeafSize; ++c) {
-        if (block->faces[axis][c] > 0.0f) leaf->setValueOn(c, block->faces[axis][c]);
+    for (const auto& ofChunk : pieces) {
+      for (const Piece& piece : ofChunk) {
+        if (piece.faces == nullptr) {
+          grid->tree().addTile(levelOf(piece.size), piece.origin, 1.0f, true);
+          continue;
+        }
+        FloatLeaf* leaf = grid->tree().touchLeaf(piece.origin);
+        const auto& shares = (*piece.faces)[axis];
+        for (int c = 0; c < kLeafSize; ++c) {
+          if (shares[c] > 0.0f) leaf->setValueOn(c, shares[c]);
+        }
       }
     }
     grid->tree().prune();
-    *grids[axis] = grid;
+    open[axis] = grid;
   }
+  return open;
+}
+
+}  // namespace
+
+SolidField makeSolidField(const SolidDistance& distance, const SolidDistance& openDistance,
+                          const CoordBBox& domain, Chunks chunks, double h) {
+  SolidField field;
+  field.voxelSize = h;
+  field.domain = domain;
+  field.phi = cellDistances(distance, domain, chunks, h);
+  const auto& [u, v, w] = openFaces(openDistance, domain, chunks, h);
+  field.openU = u;
+  field.openV = v;
+  field.openW = w;
+  field.chunks = std::move(chunks);
   return field;
 }
 

@@ -1,6 +1,7 @@
 // Solids on the grid.
 #pragma once
 
+#include "sim/chunks.h"
 #include "sim/solids.h"
 
 #include <functional>
@@ -13,9 +14,12 @@ inline constexpr int kSolidBand = 3;
 // Metres at a world position, negative inside solids, never too large in magnitude.
 using SolidDistance = std::function<double(const Vec3d&)>;
 
-// Distances at cells and open shares of faces. `distance`: to solids and all sides of the domain;
-// `openDistance`: to solids and those sides only that are walls.
+// Layers of cells around the domain in which distances are known.
+inline constexpr int kSolidMargin = 8;
+
+// Distances at cells and open shares of faces, in these chunks. `distance`: to solids and all sides of the
+// domain; `openDistance`: to solids and those sides only that are walls.
 SolidField makeSolidField(const SolidDistance& distance, const SolidDistance& openDistance,
-                          const openvdb::Coord& cells, double h);
+                          const CoordBBox& domain, Chunks chunks, double h);
 
 }  // namespace fluidtex::sim

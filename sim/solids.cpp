@@ -4,7 +4,6 @@
 #include "sim/solid_field.h"
 #include "sim/walls.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -15,7 +14,35 @@ namespace fluidtex::sim {
 
 namespace {
 
-using Range = tbb::blocked_range<int>;
+// What is done to liquid in a step stays within a chunk of it: it moves by kMaxTrace cells at most, its band
+// is little wider, and stencils reach a leaf further. Some more is made at once, so that it lasts for many
+// steps.
+constexpr int kNeeded = 1, kMade = 2;
+
+// Of what is within these bounds before it is moved.
+openvdb::BBoxd boundsAt(const openvdb::BBoxd& bounds, const Pose& pose) {
+  const Vec3d &low = bounds.min(), &high = bounds.max();
+  for (int a = 0; a < 3; ++a) {
+    if (!std::isfinite(low[a]) || !std::isfinite(high[a])) return {Vec3d(-kForever), Vec3d(kForever)};
+  }
+  openvdb::BBoxd moved;
+  for (int n = 0; n < 8; ++n) {
+    const auto pick = [&](int a) { return (n >> a & 1) != 0 ? high[a] : low[a]; };
+    moved.expand(pose.toWorld(Vec3d(pick(0), pick(1), pick(2))));
+  }
+  return moved;
+}
+
+// The corners of the cells of [0, size], and on unbounded sides those within what ends somewhere.
+CoordBBox cornersOf(const Coord& cells, const CoordBBox& domain, const CoordBBox& within) {
+  CoordBBox corners(Coord(0), cells);
+  if (isEndless(within)) return corners;
+  for (int a = 0; a < 3; ++a) {
+    if (domain.min()[a] < 0) corners.min()[a] = std::min(0, within.min()[a]);
+    if (domain.max()[a] >= cells[a]) corners.max()[a] = std::max(cells[a], within.max()[a] + 1);
+  }
+  return corners;
+}
 
 }  // namespace
 
@@ -30,7 +57,7 @@ SolidField atRest(const SolidField& solid) {
   return still;
 }
 
-Solids::Solids(const Options& options) : m_options(options) {
+Solids::Solids(const Options& options) : m_options(options), m_domain(domainCells(options)) {
   const double h = m_options.voxelSize();
   for (const Solid& solid : m_options.solids) {
     m_shapes.emplace_back();
@@ -77,40 +104,39 @@ double Solids::nextChange(double t) const {
   return next;
 }
 
+double Solids::deepestCorner(const Placed& solid, double enough) const {
+  const double h = m_options.voxelSize();
+  const CoordBBox corners = cornersOf(cellCount(m_options.size, h), m_domain,
+                                      cellsIn(boundsAt(solid.shape.bounds(), solid.pose), h));
+  double deepest = -kForever;
+  // At the corners of a cube of cells, the upper ones left out.
+  const std::function<void(const Coord&, int)> look = [&](const Coord& low, int size) {
+    if (deepest >= enough || !corners.hasOverlap(CoordBBox::createCube(low, size))) return;
+    const int half = size / 2;
+    const Coord middle = low.offsetBy(half);
+    const double depth = -distanceTo(solid, middle.asVec3d() * h);
+    if (corners.isInside(middle)) deepest = std::max(deepest, depth);
+    if (size == 1 || depth < -0.5 * std::sqrt(3.0) * size * h) return;
+    for (int n = 0; n < 8; ++n)
+      look(low.offsetBy((n & 1) * half, (n >> 1 & 1) * half, (n >> 2) * half), half);
+  };
+  int size = 1;
+  while (size <= corners.extents()[corners.maxExtent()]) size *= 2;
+  look(corners.min(), size);
+  return deepest;
+}
+
 std::vector<std::string> Solids::warnings() const {
   std::vector<std::string> warnings;
-  const double h = m_options.voxelSize();
-  const Coord cells = cellCount(m_options.size, h);
+  const double h = m_options.voxelSize(), enough = 0.99 * h;
   for (std::size_t i = 0; i < m_options.solids.size(); ++i) {
-    // The deepest of the cells' corners, found block by block. A wall of two cells has one a cell deep,
-    // wherever it stands.
-    const Coord n((cells[0] + 8) >> 3, (cells[1] + 8) >> 3, (cells[2] + 8) >> 3);
-    const int count = n[0] * n[1] * n[2];
-    const double radius = std::sqrt(3.0) * kLeafDim * h;
-    const auto deepestAt = [&](double time) {
-      const Placed rest = placed(i, time);
-      std::vector<double> least(count, kForever);
-      tbb::parallel_for(Range(0, count), [&](const Range& range) {
-        for (int b = range.begin(); b < range.end(); ++b) {
-          const Coord origin = Coord(b / (n[1] * n[2]), b / n[2] % n[1], b % n[2]) << 3;
-          const double corner = distanceTo(rest, origin.asVec3d() * h);
-          least[b] = corner;
-          if (std::abs(corner) > radius) continue;
-          for (int c = 0; c < kLeafSize; ++c) {
-            const Coord at = origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
-            if (at[0] > cells[0] || at[1] > cells[1] || at[2] > cells[2]) continue;
-            least[b] = std::min(least[b], distanceTo(rest, at.asVec3d() * h));
-          }
-        }
-      });
-      return -*std::min_element(least.begin(), least.end());
-    };
+    // A wall of two cells has a corner a cell deep, wherever it stands.
     const Solid& solid = m_options.solids[i];
     // One that moves may come in later.
-    double deepest = deepestAt(solid.from);
-    for (std::size_t k = 0; k < solid.keyframes.size() && deepest < 0.99 * h; ++k)
-      deepest = std::max(deepest, deepestAt(solid.keyframes[k].time));
-    if (deepest >= 0.99 * h) continue;
+    double deepest = deepestCorner(placed(i, solid.from), enough);
+    for (std::size_t k = 0; k < solid.keyframes.size() && deepest < enough; ++k)
+      deepest = std::max(deepest, deepestCorner(placed(i, solid.keyframes[k].time), enough));
+    if (deepest >= enough) continue;
     std::ostringstream text;
     const std::string& name = m_options.solids[i].name;
     text << "solid " << (name.empty() ? std::to_string(i) : "\"" + name + "\"");
@@ -154,7 +180,7 @@ double Solids::sideDistance(const Vec3d& x, bool all) const {
   const Coord cells = cellCount(m_options.size, h);
   double distance = kForever, outside = 0.0;
   for (int side = 0; side < 6; ++side) {
-    if (!isClosed(m_options.sides[side]) && !all) continue;
+    if (m_options.sides[side] == Side::unbounded || (!isClosed(m_options.sides[side]) && !all)) continue;
     const int a = side / 2;
     // A side that is no wall lies in the plane of faces.
     const double high = m_options.sides[side] == Side::wall ? m_options.size[a] : cells[a] * h;
@@ -181,9 +207,10 @@ const Wall& Solids::nearestWall(const std::vector<Placed>& solids, const Vec3d& 
       wall = &candidate;
     }
   };
-  for (int a = 0; a < 3; ++a) {
-    offer(x[a], m_walls[2 * a]);
-    offer(m_options.size[a] - x[a], m_walls[2 * a + 1]);
+  for (int side = 0; side < 6; ++side) {
+    if (m_options.sides[side] == Side::unbounded) continue;
+    const double at = x[side / 2];
+    offer(side % 2 == 0 ? at : m_options.size[side / 2] - at, m_walls[side]);
   }
   for (const Placed& solid : solids) offer(distanceTo(solid, x), m_options.solids[solid.index].wall);
   return *wall;
@@ -254,23 +281,42 @@ void Solids::addSpeeds(SolidField& field, const std::vector<Placed>& solids) con
   }
 }
 
-std::shared_ptr<const SolidField> Solids::at(double t, const std::vector<std::size_t>& set) {
+SolidField Solids::fieldOf(const std::vector<Placed>& solids, Chunks chunks) const {
+  const auto distance = [&](const Vec3d& x) { return distanceTo(solids, x, true); };
+  const auto openDistance = [&](const Vec3d& x) { return distanceTo(solids, x, false); };
+  SolidField field =
+      makeSolidField(distance, openDistance, m_domain, std::move(chunks), m_options.voxelSize());
+  field.sides = m_options.sides;
+  if (std::any_of(solids.begin(), solids.end(), [](const Placed& solid) { return solid.pose.moving(); }))
+    addSpeeds(field, solids);
+  const bool grip = std::any_of(m_walls.begin(), m_walls.end(), grips) ||
+                    std::any_of(solids.begin(), solids.end(), [&](const Placed& solid) {
+                      return grips(m_options.solids[solid.index].wall);
+                    });
+  if (grip)
+    setWalls(
+        field, [&](const Vec3d& x) -> const Wall& { return nearestWall(solids, x); }, distance);
+  return field;
+}
+
+std::shared_ptr<const SolidField> Solids::at(double t) {
+  const auto solids = placed(t, active(t));
+  const CoordBBox cells = firstCells(cellCount(m_options.size, m_options.voxelSize()));
+  const Chunks whole = chunksIn(grown(cells, kSolidMargin));
+  if (m_cached == nullptr || solids != m_cachedSet || !covers(m_cached->chunks, whole)) {
+    m_cached = std::make_shared<SolidField>(fieldOf(solids, whole));
+    m_cachedSet = solids;
+  }
+  return m_cached;
+}
+
+std::shared_ptr<const SolidField> Solids::around(const std::vector<const FloatGrid*>& phis, double t,
+                                                 const std::vector<std::size_t>& set) {
   const auto solids = placed(t, set);
-  if (m_cached == nullptr || solids != m_cachedSet) {
-    const double h = m_options.voxelSize();
-    const auto distance = [&](const Vec3d& x) { return distanceTo(solids, x, true); };
-    const auto openDistance = [&](const Vec3d& x) { return distanceTo(solids, x, false); };
-    SolidField field = makeSolidField(distance, openDistance, cellCount(m_options.size, h), h);
-    field.sides = m_options.sides;
-    if (std::any_of(solids.begin(), solids.end(), [](const Placed& solid) { return solid.pose.moving(); }))
-      addSpeeds(field, solids);
-    const bool grip =
-        std::any_of(m_walls.begin(), m_walls.end(), grips) ||
-        std::any_of(set.begin(), set.end(), [&](std::size_t i) { return grips(m_options.solids[i].wall); });
-    if (grip)
-      setWalls(
-          field, [&](const Vec3d& x) -> const Wall& { return nearestWall(solids, x); }, distance);
-    m_cached = std::make_shared<SolidField>(std::move(field));
+  const CoordBBox box = grown(m_domain, kSolidMargin);
+  if (m_cached == nullptr || solids != m_cachedSet ||
+      !covers(m_cached->chunks, chunksAround(phis, kNeeded, box))) {
+    m_cached = std::make_shared<SolidField>(fieldOf(solids, chunksAround(phis, kMade, box)));
     m_cachedSet = solids;
   }
   return m_cached;

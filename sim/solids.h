@@ -2,6 +2,7 @@
 // and how they move.
 #pragma once
 
+#include "sim/chunks.h"
 #include "sim/grids.h"
 #include "sim/moving_mesh.h"
 #include "sim/options.h"
@@ -28,11 +29,12 @@ inline constexpr float kNotGiven = std::numeric_limits<float>::max();
 // how fast it is.
 inline constexpr float kLeastOpen = 0.1f;
 
-// What the solver needs to know about a set of solids. Cell (i,j,k) of the domain has 0 <= i < cells.x() and
-// so on, its centre at ((i+1/2) h, (j+1/2) h, (k+1/2) h). Everything outside the domain is solid.
+// What the solver needs to know about a set of solids, in some chunks of cells; nothing is known of others.
+// The centre of cell (i,j,k) is at ((i+1/2) h, (j+1/2) h, (k+1/2) h). Everything outside the domain is solid.
 struct SolidField {
-  double voxelSize = 0.0;   // h, metres
-  openvdb::Coord cells{0};  // of the domain along each axis; a last layer may be cut by the domain's wall
+  double voxelSize = 0.0;  // h, metres
+  CoordBBox domain;        // its cells, see domainCells; a last layer may be cut by the domain's wall
+  Chunks chunks;
   // The domain's sides. Beyond one that is open or a stream's cut lies solid as behind a wall, but its own
   // faces are open where no solid is in the way.
   std::array<Side, 6> sides{};
@@ -83,11 +85,13 @@ class Solids {
   // Signed distance at world position x to the active solids and the domain's walls, metres, negative inside.
   double distance(const Vec3d& x, double t) const;
 
-  // Distances, open faces and speeds and walls at time t; kept, and made anew only when the set has changed
-  // or a solid has moved since the last call.
-  std::shared_ptr<const SolidField> at(double t) { return at(t, active(t)); }
-  // The same of a given set of solids, at their places of time t.
-  std::shared_ptr<const SolidField> at(double t, const std::vector<std::size_t>& set);
+  // Distances, open faces and speeds and walls at time t, in [0, size]; kept, and made anew only when the set
+  // has changed or a solid has moved since the last call.
+  std::shared_ptr<const SolidField> at(double t);
+  // The same of a given set of solids, at their places of time t, wherever liquid with one of these phis gets
+  // to in a step; kept as long as it does not leave what is known.
+  std::shared_ptr<const SolidField> around(const std::vector<const FloatGrid*>& phis, double t,
+                                           const std::vector<std::size_t>& set);
 
  private:
   // A solid that is there, and where.
@@ -113,8 +117,12 @@ class Solids {
   const Wall& nearestWall(const std::vector<Placed>& solids, const Vec3d& x) const;
   Vec3d velocityOf(const Placed& solid, const SurfaceVelocity* change, const Vec3d& x, double distance) const;
   void addSpeeds(SolidField& field, const std::vector<Placed>& solids) const;
+  // How deep in the solid a corner of the domain's cells lies; looks no further once it is `enough`.
+  double deepestCorner(const Placed& solid, double enough) const;
+  SolidField fieldOf(const std::vector<Placed>& solids, Chunks chunks) const;
 
   Options m_options;
+  CoordBBox m_domain;
   std::array<Wall, 6> m_walls;  // of the domain
   // For each of Options::solids one or the other.
   std::vector<std::optional<ShapeDistance>> m_shapes;

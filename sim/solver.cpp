@@ -204,55 +204,67 @@ Solver::Solver(const Options& options, State state)
 }
 
 void Solver::prepare() {
-  m_solid = m_solids->at(m_state.time);
-  m_active = m_solids->active(m_state.time);
   m_flows = std::make_shared<Flows>(m_options);
+  m_active = m_solids->active(m_state.time);
+  m_solid = solidsAround(m_state.time, *m_state.phi);
   m_warnings = m_solids->warnings();
   for (std::string& warning : m_flows->warnings(m_options.liquid, *m_solids))
     m_warnings.push_back(std::move(warning));
 }
 
+std::shared_ptr<const SolidField> Solver::solidsAround(double time, const FloatGrid& phi,
+                                                       const FloatGrid* more) {
+  std::vector<const FloatGrid*> phis = m_flows->places();
+  phis.push_back(&phi);
+  if (more != nullptr) phis.push_back(more);
+  return m_solids->around(phis, time, m_active);
+}
+
 // Pours what is due and takes over solids that come or go at the present time.
 void Solver::applyEvents() {
   const double now = m_state.time;
-  const auto solid = m_solids->at(now);
+  const double h = m_options.voxelSize();
   bool changed = m_state.frame == 0;
   Liquid liquid = liquidOf(m_state, m_state.phi->deepCopy(), {});
+  std::vector<std::pair<const LiquidBody*, ShapeDistance>> due;
+  FloatGrid dueLiquid(liquid.phi->background());
+  dueLiquid.setTransform(cellTransform(h));
+  for (std::size_t n = 0; n < m_options.liquid.size(); ++n) {
+    const LiquidBody& body = m_options.liquid[n];
+    if (m_state.poured[n] || body.from > now) continue;
+    due.emplace_back(&body, ShapeDistance(body.shape, h, m_options.size));
+    unite(dueLiquid, due.back().second, domainCells(m_options));
+    m_state.poured[n] = true;
+  }
+  const auto before = m_solid;
   const auto active = m_solids->active(now);
   const bool solidsChanged = active != m_active;
+  m_active = active;
+  m_solid = solidsAround(now, *liquid.phi, &dueLiquid);
   if (solidsChanged) {
-    changeSolids(liquid, *m_solid, *solid);
-    m_active = active;
+    changeSolids(liquid, *before, *m_solid);
     changed = true;
   }
-  m_solid = solid;
   // What a source puts in while it runs is taken care of by the steps; where there is nothing yet, none are
   // made.
   const RunningFlows flows = m_flows->at(now);
   changed = changed || (isEmpty(liquid) && !flows.sources.empty());
-  for (std::size_t n = 0; n < m_options.liquid.size(); ++n) {
-    const LiquidBody& body = m_options.liquid[n];
-    if (m_state.poured[n] || body.from > now) continue;
-    const ShapeDistance distance(body.shape, m_options.voxelSize(), m_options.size);
+  for (const auto& [body, shape] : due) {
     // As far ahead of the present as the velocity of what is there.
-    const Vec3d velocity = body.velocity + m_options.gravity * liquid.ahead;
-    pour(
-        liquid, [&](const Vec3d& x) { return distance(x); }, velocity, body.temperature, *solid);
-    m_state.poured[n] = true;
+    pour(liquid, shape, body->velocity + m_options.gravity * liquid.ahead, body->temperature, *m_solid);
     changed = true;
   }
   if (!changed) return;
   // Making distances anew costs thin liquid, much of it in the middle of a splash.
   const FloatGrid::Ptr whole = m_state.frame > 0 ? liquid.phi->deepCopy() : nullptr;
   // Up to the middle of the first step.
-  const double first = longestStep(m_options, fastest(liquid), speedOf(*solid));
+  const double first = longestStep(m_options, fastest(liquid), speedOf(*m_solid));
   double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
   StepReport report;
-  const double h = m_options.voxelSize();
   for (int halving = 0;; ++halving) {
     Liquid settled = liquid;
     settled.phi = liquid.phi->deepCopy();
-    if (settle(settled, *solid, kick, m_options, &report, flows)) {
+    if (settle(settled, *m_solid, kick, m_options, &report, flows)) {
       liquid = std::move(settled);
       break;
     }
@@ -261,7 +273,7 @@ void Solver::applyEvents() {
   }
   if (whole != nullptr) {
     liquid.owed =
-        owedVolume(*whole, *liquid.phi, liquid.owed.get(), makeVelocity(h), *solid, *solid, flows, 0.0);
+        owedVolume(*whole, *liquid.phi, liquid.owed.get(), makeVelocity(h), *m_solid, *m_solid, flows, 0.0);
   }
   store(m_state, std::move(liquid), h);
 }
@@ -270,7 +282,7 @@ void Solver::applyEvents() {
 void Solver::moveTime(double time) {
   if (time == m_state.time) return;
   m_state.time = time;
-  m_solid = m_solids->at(time, m_active);
+  m_solid = solidsAround(time, *m_state.phi);
 }
 
 void Solver::advanceTo(double time, Frame& frame, const std::function<void(double)>& report) {
@@ -278,9 +290,10 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     if (m_state.phi->empty()) {
       m_state.time = time;
       m_state.ahead = 0.0;
-      m_solid = m_solids->at(time, m_active);
+      m_solid = solidsAround(time, *m_state.phi);
       return;
     }
+    m_solid = solidsAround(m_state.time, *m_state.phi);
     LentLiquid lent(m_state);
     Liquid& liquid = *lent;
     const double remaining = time - m_state.time;
@@ -301,7 +314,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     for (int halving = 0;; ++halving) {
       const double then = last ? time : m_state.time + dt;
       // Solids that come or go at that time do so after the step.
-      solid = m_solids->at(then, m_active);
+      solid = solidsAround(then, *m_state.phi);
       const double after = last ? 1.0 / m_options.frameRate : remaining - dt;
       const double nextLongest =
           longestStep(m_options, speed + m_options.gravity.length() * dt, speedOf(*solid));

@@ -59,6 +59,9 @@ class Solver {
 
  private:
   void prepare();
+  // The solids at a time, wherever the liquid, what runs into it and `more` can get to in a step.
+  std::shared_ptr<const SolidField> solidsAround(double time, const FloatGrid& phi,
+                                                 const FloatGrid* more = nullptr);
   void applyEvents();
   void moveTime(double time);
   void advanceTo(double time, Frame& frame, const std::function<void(double)>& report);

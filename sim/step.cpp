@@ -38,7 +38,7 @@ double voxelSize(const Liquid& liquid) {
 // Zero velocity with a topology for this phi: liquid, the band around it, and the first layers of solids
 // there.
 Velocity velocityFor(const FloatGrid& phi, const SolidField& solid) {
-  const auto origins = wetLeaves(phi, solid.cells, kMargin);
+  const auto origins = wetLeaves(phi, grown(solid.domain, kMargin));
   FloatTree topology(0.0f);
   for (const Coord& origin : origins) topology.touchLeaf(origin);
   const auto leaves = leavesOf(topology);
@@ -191,11 +191,12 @@ void dropBeyond(Markers& markers, const SolidField& solid) {
     const int axis = side / 2;
     for (MarkerBlock& block : markers) {
       const int first = block.origin[axis];
-      if (first >= 0 && first + kLeafDim < solid.cells[axis]) continue;
+      const int low = solid.domain.min()[axis], high = solid.domain.max()[axis] + 1;
+      if (first >= low && first + kLeafDim < high) continue;
       // Marker positions are measured from the centre of the block's first cell.
       std::erase_if(block.markers, [&](const Marker& m) {
         const double at = first + 0.5 + std::array{m.x, m.y, m.z}[axis];
-        return side % 2 == 0 ? at < 0.0 : at > solid.cells[axis];
+        return side % 2 == 0 ? at < low : at > high;
       });
     }
   }
@@ -284,14 +285,14 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
   return next;
 }
 
-void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, const Vec3d& velocity,
-          double temperature, const SolidField& solid) {
-  unite(*liquid.phi, distance, solid.cells, kMargin);
+void pour(Liquid& liquid, const ShapeDistance& body, const Vec3d& velocity, double temperature,
+          const SolidField& solid) {
+  unite(*liquid.phi, body, solid.domain);
   const Velocity before = liquid.velocity;
   liquid.velocity = velocityFor(*liquid.phi, solid);
   if (liquid.temperature) {
     liquid.temperature = makeTemperature(*liquid.temperature, liquid.velocity.component[0]->constTree());
-    heatBody(*liquid.temperature, distance, temperature);
+    heatBody(*liquid.temperature, body, temperature);
   }
   const double h = voxelSize(liquid);
   for (int a = 0; a < 3; ++a) {
@@ -303,7 +304,7 @@ void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, c
       const float* was = leafValues(before.component[a]->constTree(), leaf.origin(), scratch);
       for (auto it = leaf.beginValueOn(); it; ++it) {
         // Faces of the body's cells: within half a cell of it.
-        const bool inBody = distance(grid.indexToWorld(it.getCoord())) < 0.5 * h;
+        const bool inBody = body(grid.indexToWorld(it.getCoord())) < 0.5 * h;
         it.setValue(inBody ? static_cast<float>(velocity[a]) : was[it.pos()]);
       }
     });
@@ -313,7 +314,7 @@ void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, c
 void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& after) {
   const float h = static_cast<float>(voxelSize(liquid));
   MaskGrid left;
-  for (const Coord& origin : wetLeaves(*liquid.phi, after.cells, 0)) {
+  for (const Coord& origin : wetLeaves(*liquid.phi, after.domain)) {
     float beforeScratch[kLeafSize], afterScratch[kLeafSize];
     const float* was = leafValues(before.phi->constTree(), origin, beforeScratch);
     const float* is = leafValues(after.phi->constTree(), origin, afterScratch);
@@ -325,7 +326,7 @@ void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& af
 }
 
 void settleSurface(FloatGrid& phi, const SolidField& solid) {
-  for (const Coord& origin : wetLeaves(phi, solid.cells, kMargin)) phi.tree().touchLeaf(origin);
+  for (const Coord& origin : wetLeaves(phi, grown(solid.domain, kMargin))) phi.tree().touchLeaf(origin);
   for (auto leaf = solid.phi->constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
   // A body that ends at a wall has its surface there; extending and reinitialising in turn makes it go on
   // behind.

@@ -9,7 +9,6 @@
 #include "sim/solids.h"
 #include "sim/viscosity.h"
 
-#include <functional>
 #include <optional>
 
 namespace fluidtex::sim {
@@ -64,10 +63,9 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
                            double nextDt, const Options& options, StepReport* report = nullptr,
                            const RunningFlows& flows = {});
 
-// Adds liquid where distance(x) < 0, of that velocity and temperature. The velocity of the whole is projected
-// by settle().
-void pour(Liquid& liquid, const std::function<double(const Vec3d&)>& distance, const Vec3d& velocity,
-          double temperature, const SolidField& solid);
+// Adds a body of liquid of that velocity and temperature. The velocity of the whole is projected by settle().
+void pour(Liquid& liquid, const ShapeDistance& body, const Vec3d& velocity, double temperature,
+          const SolidField& solid);
 
 // Empties the places that solids leave when `before` turns into `after`.
 void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& after);

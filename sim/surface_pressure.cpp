@@ -12,38 +12,33 @@ namespace {
 using Range = tbb::blocked_range<int>;
 
 // Whether the cell's side is the liquid's own surface, and no open side of the domain.
-bool meetsAir(const LiquidCells& liquid, const LiquidSides& cell, const Coord& place, int side) {
-  if (cell.theta[side] <= 0.0f) return false;
-  const Coord beside = neighborOf(place, side);
-  const Coord& extent = liquid.numbering.extent();
-  for (int a = 0; a < 3; ++a)
-    if (beside[a] < 0 || beside[a] >= extent[a]) return false;
-  return true;
+bool meetsAir(const SolidField& solid, const LiquidSides& cell, const Coord& place, int side) {
+  return cell.theta[side] > 0.0f && solid.domain.isInside(neighborOf(place, side));
 }
 
 }  // namespace
 
-SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi, const FloatGrid& solidPhi,
+SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi, const SolidField& solid,
                                  double scale)
     : m_row(liquid.numbering.size(), -1) {
   std::vector<int> cells;
   for (int i = 0; i < static_cast<int>(m_row.size()); ++i) {
     const Coord& place = liquid.numbering.cells()[i];
     bool any = false;
-    for (int s = 0; s < kSides; ++s) any = any || meetsAir(liquid, liquid.sidesOf(i), place, s);
+    for (int s = 0; s < kSides; ++s) any = any || meetsAir(solid, liquid.sidesOf(i), place, s);
     if (!any) continue;
     m_row[i] = static_cast<int>(cells.size());
     cells.push_back(i);
   }
   m_value.resize(cells.size());
-  const FloatGrid::Ptr curvature = surfaceCurvature(phi, solidPhi);
+  const FloatGrid::Ptr curvature = surfaceCurvature(phi, *solid.phi);
   tbb::parallel_for(Range(0, static_cast<int>(cells.size()), 1024), [&](const Range& range) {
     const openvdb::tree::ValueAccessor<const FloatTree> bend(curvature->constTree());
     for (int n = range.begin(); n < range.end(); ++n) {
       const LiquidSides& cell = liquid.sidesOf(cells[n]);
       const Coord& place = liquid.numbering.cells()[cells[n]];
       for (int s = 0; s < kSides; ++s) {
-        if (!meetsAir(liquid, cell, place, s)) continue;
+        if (!meetsAir(solid, cell, place, s)) continue;
         m_value[n][s] = scale * curvatureBetween(bend, place, neighborOf(place, s), cell.theta[s]);
       }
     }

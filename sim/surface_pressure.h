@@ -13,7 +13,7 @@ class SurfacePressure {
  public:
   SurfacePressure() = default;
   // scale: of 1/m of curvature, in units of q.
-  SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi, const FloatGrid& solidPhi, double scale);
+  SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi, const SolidField& solid, double scale);
 
   bool none() const { return m_row.empty(); }
   double at(int cell, int side) const {

@@ -38,7 +38,9 @@ void check(const CommonOptions& options) {
   fmt::print("{}: valid\n", scene.file.string());
   fmt::print("frames    {} to {} of {}, {:g} a second, {:.3g} s in all\n", first, last, scene.frames,
              scene.sim.frameRate, (scene.frames - 1) / scene.sim.frameRate);
-  fmt::print("grid      {} x {} x {} cells of {:.4g} m\n", cells.x(), cells.y(), cells.z(), h);
+  const bool endless = sim::isEndless(sim::domainCells(scene.sim));
+  fmt::print("grid      {} x {} x {} cells of {:.4g} m{}\n", cells.x(), cells.y(), cells.z(), h,
+             endless ? ", and on without bounds where liquid gets to" : "");
   fmt::print("liquid    {} cells at the start, {:.4g} m3", liquid.atStart,
              static_cast<double>(liquid.atStart) * h * h * h);
   if (liquid.cells != liquid.atStart) fmt::print("; {} cells once all is poured", liquid.cells);

@@ -26,24 +26,25 @@ LiquidPlan sum(const LiquidPlan& a, const LiquidPlan& b) {
 
 class Counter {
  public:
-  explicit Counter(const sim::Options& options)
-      : m_options(options), m_h(options.voxelSize()), m_cells(sim::cellCount(options.size, m_h)) {
-    for (const sim::LiquidBody& body : options.liquid) m_liquid.emplace_back(body.shape, m_h, options.size);
+  explicit Counter(const sim::Options& options) : m_options(options), m_h(options.voxelSize()) {
+    for (const sim::LiquidBody& body : options.liquid) {
+      m_liquid.emplace_back(body.shape, m_h, options.size);
+      m_box.expand(sim::cellsIn(m_liquid.back().bounds(), m_h));
+    }
+    m_box.intersect(sim::domainCells(options));
     for (const sim::Solid& solid : options.solids)
       if (solid.from <= 0.0) m_solids.emplace_back(solid.shape, m_h, options.size);
   }
 
-  const Coord& cells() const { return m_cells; }
+  // Of cells, around all liquid.
+  const openvdb::CoordBBox& box() const { return m_box; }
 
   LiquidPlan count(const Coord& low, int size) const {
-    Vec3d center;
-    std::int64_t cells = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      const int inside = std::min(size, m_cells[axis] - low[axis]);
-      if (inside <= 0) return {};
-      cells *= inside;
-      center[axis] = m_h * (low[axis] + 0.5 * size);
-    }
+    openvdb::CoordBBox inside = openvdb::CoordBBox::createCube(low, size);
+    inside.intersect(m_box);
+    if (inside.empty()) return {};
+    const auto cells = static_cast<std::int64_t>(inside.volume());
+    const Vec3d center = m_h * (low.asVec3d() + Vec3d(0.5 * size));
     const double ever = distance(center, false), atStart = distance(center, true);
     if (size == 1) return {ever < 0.0, atStart < 0.0, ever < 0.0 && ever > -m_h};
     // One cell more than to the corners: the surface's own cells reach that far from it.
@@ -66,13 +67,17 @@ class Counter {
     for (std::size_t b = 0; b < m_liquid.size(); ++b)
       if (!atStart || m_options.liquid[b].from <= 0.0) d = std::min(d, m_liquid[b](x));
     for (const sim::ShapeDistance& solid : m_solids) d = std::max(d, -solid(x));
-    for (int axis = 0; axis < 3; ++axis) d = std::max({d, -x[axis], x[axis] - m_options.size[axis]});
+    for (int side = 0; side < 6; ++side) {
+      if (m_options.sides[side] == sim::Side::unbounded) continue;
+      const int axis = side / 2;
+      d = std::max(d, side % 2 == 0 ? -x[axis] : x[axis] - m_options.size[axis]);
+    }
     return d;
   }
 
   const sim::Options& m_options;
   double m_h;
-  Coord m_cells;
+  openvdb::CoordBBox m_box;
   std::vector<sim::ShapeDistance> m_liquid, m_solids;
 };
 
@@ -80,14 +85,16 @@ class Counter {
 
 LiquidPlan planLiquid(const sim::Options& options) {
   const Counter counter(options);
-  const auto blocks = [&](int axis) { return (counter.cells()[axis] + kBlock - 1) / kBlock; };
+  const openvdb::CoordBBox& box = counter.box();
+  if (box.empty()) return {};
+  const auto blocks = [&](int axis) { return (box.dim()[axis] + kBlock - 1) / kBlock; };
   return tbb::parallel_reduce(
       tbb::blocked_range3d<int>(0, blocks(2), 0, blocks(1), 0, blocks(0)), LiquidPlan{},
       [&](const tbb::blocked_range3d<int>& range, LiquidPlan plan) {
         for (int k = range.pages().begin(); k != range.pages().end(); ++k)
           for (int j = range.rows().begin(); j != range.rows().end(); ++j)
             for (int i = range.cols().begin(); i != range.cols().end(); ++i)
-              plan = sum(plan, counter.count(Coord(i * kBlock, j * kBlock, k * kBlock), kBlock));
+              plan = sum(plan, counter.count(box.min().offsetBy(i * kBlock, j * kBlock, k * kBlock), kBlock));
         return plan;
       },
       sum);

@@ -18,7 +18,7 @@ namespace {
 FloatGrid::Ptr phiOf(int cells, const std::function<double(const Vec3d&)>& distance) {
   const double h = 1.0 / cells;
   const auto phi = makePhi(h, 4 * h);
-  unite(*phi, distance, Coord(cells), kLeafDim);
+  unite(*phi, distance, grown(firstCells(Coord(cells)), kLeafDim));
   return phi;
 }
 

@@ -24,7 +24,7 @@ struct Fixture {
 
   Fixture(double voxel, const Coord& box, const Distance& distance)
       : h(voxel), cells(box), phi(makePhi(voxel, 6 * voxel)), noSolid(makePhi(voxel, 3 * voxel)) {
-    unite(*phi, distance, cells, 0);
+    unite(*phi, distance, firstCells(cells));
     trimBand(*phi, *noSolid);
   }
 
@@ -118,7 +118,7 @@ TEST_CASE("level set: unite gives the shape's volume and signed tiles inside") {
   CHECK(std::abs(f.volume() / (4.0 / 3.0 * std::numbers::pi * 0.027) - 1.0) < 2e-3);
   CHECK(f.phi->tree().getValue(Coord(32)) == -f.phi->background());
   CHECK(f.phi->tree().getValue(Coord(2)) == f.phi->background());
-  unite(*f.phi, ball(Vec3d(0.5), 0.1), f.cells, 0);  // inside the first: nothing changes
+  unite(*f.phi, ball(Vec3d(0.5), 0.1), firstCells(f.cells));  // inside the first: nothing changes
   CHECK(std::abs(f.volume() / (4.0 / 3.0 * std::numbers::pi * 0.027) - 1.0) < 2e-3);
 }
 
@@ -224,7 +224,7 @@ constexpr double kFloorCell = 1.0 / 32;
 FloatGrid::Ptr floorBelow() {
   FloatGrid::Ptr solid = makePhi(kFloorCell, 3 * kFloorCell);
   unite(
-      *solid, [](const Vec3d& x) { return x.z() - 0.25; }, Coord(32), 8);
+      *solid, [](const Vec3d& x) { return x.z() - 0.25; }, grown(firstCells(Coord(32)), 8));
   return solid;
 }
 

@@ -24,7 +24,7 @@ double ball(const Vec3d& x) {
 
 FloatGrid::Ptr phiOf(double (*distance)(const Vec3d&)) {
   const auto phi = makePhi(kVoxel, 6 * kVoxel);
-  unite(*phi, distance, Coord(kCells), 0);
+  unite(*phi, distance, firstCells(Coord(kCells)));
   trimBand(*phi, *makePhi(kVoxel, 3 * kVoxel));
   return phi;
 }
@@ -210,7 +210,7 @@ TEST_CASE("markers: none deep in solids, thinned ones are filled up again") {
   const auto phi = phiOf(ball);
   const auto floor = makePhi(kVoxel, 3 * kVoxel);
   unite(
-      *floor, [](const Vec3d& x) { return x.z() - 0.5; }, Coord(kCells), 0);
+      *floor, [](const Vec3d& x) { return x.z() - 0.5; }, firstCells(Coord(kCells)));
   Markers markers = seedMarkers(*phi, *floor, 1);
   for (const MarkerBlock& block : markers)
     for (const Marker& m : block.markers) REQUIRE(worldOf(block, m).z() > 0.5 - kVoxel);
@@ -225,9 +225,9 @@ TEST_CASE("markers: liquid that has run over a wall keeps none of the air betwee
   // The liquid lies nine tenths of a cell deep; the marker of the air is six tenths above the floor.
   const auto phi = makePhi(kVoxel, 6 * kVoxel);
   unite(
-      *phi, [](const Vec3d& x) { return x.z() - 0.5 - 0.9 * kVoxel; }, Coord(kCells), 8);
+      *phi, [](const Vec3d& x) { return x.z() - 0.5 - 0.9 * kVoxel; }, grown(firstCells(Coord(kCells)), 8));
   const auto floor = makePhi(kVoxel, 3 * kVoxel);
-  unite(*floor, floorAt, Coord(kCells), 0);
+  unite(*floor, floorAt, firstCells(Coord(kCells)));
   const auto airBelow = [&](const FloatGrid& solid) {
     // Positions are measured from the centre of the block's first cell, which is half a cell above the floor.
     Markers markers = {{Coord(8, 8, 16), {{3.3f, 4.2f, 0.1f, 0.1f}}}};

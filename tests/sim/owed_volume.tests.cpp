@@ -26,7 +26,7 @@ double ballAndFilm(const Vec3d& x) {
 
 FloatGrid::Ptr phiOf(const std::function<double(const Vec3d&)>& distance) {
   const auto phi = makePhi(kVoxel, 6 * kVoxel);
-  unite(*phi, distance, Coord(kCells), 0);
+  unite(*phi, distance, firstCells(Coord(kCells)));
   trimBand(*phi, *makePhi(kVoxel, 3 * kVoxel));
   return phi;
 }

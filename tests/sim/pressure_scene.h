@@ -37,7 +37,7 @@ struct Scene {
     solid = Solids(options).at(0.0);
     phi = makePhi(h, 3 * h);
     velocity = makeVelocity(h);
-    const Coord cells = solid->cells;
+    const Coord cells = solid->domain.dim();
     for (int i = -2; i < cells[0] + 2; ++i) {
       for (int j = -2; j < cells[1] + 2; ++j) {
         for (int k = -2; k < cells[2] + 2; ++k) {

@@ -54,7 +54,7 @@ TEST_CASE("solids: the domain's faces are walls, all else is open", "[sim]") {
   options.size = Vec3d(1.0, 0.5, 0.75);
   Solids solids(options);
   const auto field = solids.at(0.0);
-  CHECK(field->cells == Coord(20, 10, 15));
+  CHECK(field->domain.dim() == Coord(20, 10, 15));
   for (int i = -2; i <= 22; ++i) {
     for (int j = -2; j <= 12; ++j) {
       for (int k = -2; k <= 17; ++k) {
@@ -77,7 +77,7 @@ TEST_CASE("solids: a domain that ends inside a cell opens the last layer in part
   options.size = Vec3d(1.0, 0.33, 0.5);
   Solids solids(options);
   const auto field = solids.at(0.0);
-  CHECK(field->cells == Coord(10, 4, 5));
+  CHECK(field->domain.dim() == Coord(10, 4, 5));
   CHECK_THAT(field->openU->tree().getValue(Coord(5, 3, 2)), WithinAbs(0.3, 1e-6));
   CHECK(field->openV->tree().getValue(Coord(5, 3, 2)) == 1.0f);
   CHECK(field->openV->tree().getValue(Coord(5, 4, 2)) == 0.0f);

@@ -31,7 +31,8 @@ struct Tank {
 
   Tank(const Options& scene, const Distance& level, const Field& speed)
       : options(scene), h(scene.voxelSize()), solid(*Solids(scene).at(0.0)), phi(makePhi(h, 6.0 * h)) {
-    const Coord blocks((solid.cells[0] + 15) / 8, (solid.cells[1] + 15) / 8, (solid.cells[2] + 15) / 8);
+    const Coord cells = solid.domain.dim();
+    const Coord blocks((cells[0] + 15) / 8, (cells[1] + 15) / 8, (cells[2] + 15) / 8);
     for (int i = -1; i < blocks[0]; ++i) {
       for (int j = -1; j < blocks[1]; ++j) {
         for (int k = -1; k < blocks[2]; ++k) phi->tree().touchLeaf(Coord(8 * i, 8 * j, 8 * k))->setValuesOn();

@@ -41,11 +41,11 @@ AdvectionResult run(const AdvectionTest& test, int resolution, const Progress& p
   options.resolution = static_cast<int>(std::lround(std::max(test.width, test.height) * resolution));
   sim::Solids solids(options);
   const auto solid = solids.at(0.0);
-  const Coord cells = solid->cells;
+  const Coord cells = solid->domain.dim();
   constexpr int kBand = 6, kMargin = sim::kLeafDim;
 
   sim::FloatGrid::Ptr phi = sim::makePhi(h, kBand * h);
-  sim::unite(*phi, test.start, cells, kMargin);
+  sim::unite(*phi, test.start, sim::grown(sim::firstCells(cells), kMargin));
   sim::trimBand(*phi, *solid->phi);
   sim::Markers markers = sim::seedMarkers(*phi, *solid->phi, 0);
 

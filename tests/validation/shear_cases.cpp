@@ -24,9 +24,9 @@ class Basin {
   explicit Basin(const sim::Options& options)
       : m_solid(*sim::Solids(options).at(0.0)),
         m_phi(sim::makePhi(options.voxelSize(), 6 * options.voxelSize())) {
-    for (int i = -8; i < m_solid.cells[0] + 8; i += 8) {
-      for (int j = -8; j < m_solid.cells[1] + 8; j += 8) {
-        for (int k = -8; k < m_solid.cells[2] + 8; k += 8) {
+    for (int i = -8; i < m_solid.domain.max()[0] + 9; i += 8) {
+      for (int j = -8; j < m_solid.domain.max()[1] + 9; j += 8) {
+        for (int k = -8; k < m_solid.domain.max()[2] + 9; k += 8) {
           sim::FloatLeaf* leaf = m_phi->tree().touchLeaf(Coord(i, j, k));
           leaf->fill(-static_cast<float>(options.voxelSize()), true);
         }

@@ -46,8 +46,8 @@ double fluxThrough(const State& state, const SolidField& solid, int i) {
   const auto open = solid.openU->getConstUnsafeAccessor();
   const auto phi = state.phi->getConstUnsafeAccessor();
   double sum = 0.0;
-  for (int j = 0; j < solid.cells[1]; ++j) {
-    for (int k = 0; k < solid.cells[2]; ++k) {
+  for (int j = 0; j <= solid.domain.max()[1]; ++j) {
+    for (int k = 0; k <= solid.domain.max()[2]; ++k) {
       const Coord face(i, j, k);
       const double wet = 0.5 * (std::clamp(0.5 - phi.getValue(face) / h, 0.0, 1.0) +
                                 std::clamp(0.5 - phi.getValue(face.offsetBy(-1, 0, 0)) / h, 0.0, 1.0));

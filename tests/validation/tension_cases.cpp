@@ -84,7 +84,8 @@ Result laplace(int resolution, const Progress&) {
   const auto solid = sim::Solids(options).at(0.0);
   const sim::FloatGrid::Ptr phi = sim::makePhi(h, 4.0 * h);
   sim::unite(
-      *phi, [&](const Vec3d& x) { return (x - middle).length() - kRadius; }, solid->cells, sim::kLeafDim);
+      *phi, [&](const Vec3d& x) { return (x - middle).length() - kRadius; },
+      sim::grown(solid->domain, sim::kLeafDim));
   sim::Velocity velocity = sim::makeVelocity(h, phi->constTree());
   auto& [u, v, w] = velocity.component;
   sim::PressureOptions pressure;

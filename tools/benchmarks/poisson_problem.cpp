@@ -28,7 +28,7 @@ PoissonProblem boxProblem(int n) {
     }
   }
   sim::PoissonSystem& system = problem.system;
-  system.numbering = sim::CellNumbering(blocks, problem.box);
+  system.numbering = sim::CellNumbering(blocks);
   const int size = system.numbering.size();
   system.rows.resize(size);
   system.anchor.assign(size, 0.0);
