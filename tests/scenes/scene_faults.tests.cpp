@@ -164,6 +164,17 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
       {"[[source]]\nsphere = { center = [3, 3, 3], radius = 1 }",
        "s.toml:6:1: error: source.0: lies wholly outside the domain; put at least a part of it between [0, "
        "0, 0] and [2, 1, 1]"},
+      {"[[source]]\nhalf_space = { point = [0, 0, 0.5], normal = [0, 0, 1] }\n[domain.sides]\ny_high = "
+       "'unbounded'",
+       "s.toml:6:1: error: source.0: has no end on a side of the domain that is unbounded; give a shape that "
+       "ends, for example a box, or a side of another kind"},
+      {"[[drain]]\nunion = [ { half_space = { point = [0, 0, 0], normal = [1, 0, 0.1] } } ]\n"
+       "[domain.sides]\nx_low = 'unbounded'",
+       "s.toml:6:1: error: drain.0: has no end on a side of the domain that is unbounded; give a shape that "
+       "ends, for example a box, or a side of another kind"},
+      {"[motion]\nflow = 'rotation'\n[domain.sides]\nz_low = 'unbounded'",
+       "s.toml:8:9: error: domain.sides: a flow in closed form is known inside the domain only; give no side "
+       "that is \"unbounded\", or give motion.flow = \"solver\""},
       {"[[source]]\nsphere = { center = [1, 1, 1], radius = 1 }\nfrom = 2\nuntil = 1",
        "s.toml:9:1: error: source.0.until: until 1 s is not after from 2 s; give an until that is greater "
        "than from"},

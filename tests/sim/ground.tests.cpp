@@ -80,6 +80,10 @@ TEST_CASE("height field: an even slope is a plane, and goes on beyond the domain
   CHECK(distance(Vec3d(-0.1, 0.5, height(0.0, 0.5) + 0.05)) > 0.03);
   CHECK(distance(Vec3d(2.1, 0.5, height(2.0, 0.5) - 0.05)) < -0.03);
   CHECK(distance(Vec3d(0.5, 0.5, -0.2)) < 0.0);
+  // However far.
+  CHECK(distance(Vec3d(-300.0, 0.5, height(0.0, 0.5) + 0.05)) > 0.03);
+  CHECK(distance(Vec3d(300.0, 90.0, height(2.0, 1.0) - 0.05)) < -0.03);
+  CHECK(distance(Vec3d(0.5, 0.5, -300.0)) < 0.0);
 }
 
 TEST_CASE("height field: is drawn closed, within the domain", "[sim]") {

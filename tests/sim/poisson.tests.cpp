@@ -184,6 +184,21 @@ TEST_CASE("cell numbering: red before black, each cell found again", "[sim]") {
   CHECK(numbering.at(Coord(8, 0, 8)) == -1);  // a block without cells
 }
 
+TEST_CASE("cell numbering: blocks far apart, on both sides of 0", "[sim]") {
+  std::vector<CellBlock> blocks(3);
+  blocks[0].origin = Coord(-40000, -8, 16);
+  blocks[1].origin = Coord(-8, -32000, -8);
+  blocks[2].origin = Coord(0, 0, 0);
+  for (CellBlock& block : blocks) block.cells.set(511).set(0);
+  const CellNumbering numbering(blocks);
+  REQUIRE(numbering.size() == 6);
+  for (int i = 0; i < 6; ++i) CHECK(numbering.at(numbering.cells()[i]) == i);
+  CHECK(numbering.at(Coord(-1, -31993, -1)) >= 0);
+  CHECK(numbering.at(Coord(-1, -1, -1)) == -1);
+  CHECK(numbering.at(Coord(-2000000000, 2000000000, 0)) == -1);
+  CHECK(CellNumbering(std::vector<CellBlock>()).at(Coord(0)) == -1);
+}
+
 TEST_CASE("even rows: cover the range once, and only where all links are alike and no anchor is", "[sim]") {
   PoissonRows rows;
   rows.resize(200);
