@@ -10,6 +10,7 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -52,17 +53,22 @@ void removeMeans(const std::vector<std::vector<int>>& parts, std::vector<Scalar>
 }  // namespace
 
 CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks) {
-  if (blocks.empty()) return;
-  const auto lists = std::make_shared<Lists>();
-  openvdb::CoordBBox box;
+  m_lists = std::make_shared<Lists>();
+  Lists& lists = *m_lists;
+  std::vector<Coord> places;
   for (const CellBlock& block : blocks) {
-    lists->origins.push_back(block.origin);
-    box.expand(block.origin);
+    lists.origins.push_back(block.origin);
+    const Coord place = block.origin >> 5;
+    if (places.empty() || places.back() != place) places.push_back(place);
   }
-  m_first = box.min() >> 5;
-  m_tables = (box.max() >> 5) - m_first + Coord(1);
-  lists->tableStart.assign(static_cast<std::size_t>(m_tables[0]) * m_tables[1] * m_tables[2], -1);
-  lists->numbers.assign(blocks.size() * 512, -1);
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  lists.tables.resize(std::bit_ceil(2 * places.size() + 1));
+  lists.blockStart.assign(64 * places.size(), -1);
+  for (std::size_t n = 0; n < places.size(); ++n)
+    lists.tables[slotOf(places[n])] = {places[n], static_cast<int>(64 * n)};
+  lists.numbers.assign(blocks.size() * 512, -1);
+
   std::bitset<512> red;
   for (int c = 0; c < 512; ++c) red[c] = (((c >> 6) ^ (c >> 3) ^ c) & 1) == 0;
 
@@ -70,15 +76,7 @@ CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks) {
   std::vector<int> firstRed(count), firstBlack(count);
   int size = 0;
   for (int b = 0; b < count; ++b) {
-    const Coord table = (blocks[b].origin >> 5) - m_first;
-    int& start =
-        lists->tableStart[(static_cast<std::size_t>(table[0]) * m_tables[1] + table[1]) * m_tables[2] +
-                          table[2]];
-    if (start < 0) {
-      start = static_cast<int>(lists->blockStart.size());
-      lists->blockStart.resize(lists->blockStart.size() + 64, -1);
-    }
-    lists->blockStart[start + placeInTable(blocks[b].origin)] = b * 512;
+    lists.blockStart[tableOf(blocks[b].origin) + placeInTable(blocks[b].origin)] = b * 512;
     firstRed[b] = m_red;
     const int reds = static_cast<int>((blocks[b].cells & red).count());
     m_red += reds;
@@ -89,19 +87,18 @@ CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks) {
   for (int b = 0; b < count; ++b) {
     firstBlack[b] += m_red - static_cast<int>((blocks[b].cells & ~red).count());
   }
-  lists->cells.resize(size);
+  lists.cells.resize(size);
   tbb::parallel_for(Range(0, count), [&](const Range& range) {
     for (int b = range.begin(); b < range.end(); ++b) {
       int nextRed = firstRed[b], nextBlack = firstBlack[b];
       for (int c = 0; c < 512; ++c) {
         if (!blocks[b].cells[c]) continue;
         const int number = red[c] ? nextRed++ : nextBlack++;
-        lists->numbers[b * 512 + c] = number;
-        lists->cells[number] = blocks[b].origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
+        lists.numbers[b * 512 + c] = number;
+        lists.cells[number] = blocks[b].origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
       }
     }
   });
-  m_lists = lists;
 }
 
 BlockNumbers::BlockNumbers(const CellNumbering& numbering, const Coord& origin) {

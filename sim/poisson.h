@@ -28,8 +28,8 @@ struct CellBlock {
 };
 
 // Numbers the cells of a list of blocks: first all with even i+j+k ("red"), then the others ("black"), each
-// in the order of the blocks. Copies share the lists. Memory follows the blocks, wherever they lie: tables of
-// 64 blocks are found through one that takes 4 bytes for each in the box around all.
+// in the order of the blocks. Copies share the lists. Memory follows the blocks, wherever they lie: they are
+// found through tables of 4 x 4 x 4, and those through a hash.
 class CellNumbering {
  public:
   CellNumbering() = default;
@@ -55,30 +55,36 @@ class CellNumbering {
   }
 
  private:
-  // Where the table of the 4 x 4 x 4 blocks around a cell begins in blockStart; -1: none has cells.
-  int tableOf(const Coord& cell) const {
-    std::size_t place = 0;
-    for (int a = 0; a < 3; ++a) {
-      const auto at = static_cast<std::uint32_t>((cell[a] >> 5) - m_first[a]);
-      if (at >= static_cast<std::uint32_t>(m_tables[a])) return -1;
-      place = place * static_cast<std::size_t>(m_tables[a]) + at;
-    }
-    return m_lists->tableStart[place];
+  // A table's place in blockStart; -1: none.
+  struct Table {
+    Coord place{0};  // in cells / 32
+    int start = -1;
+  };
+
+  // The table that holds a place, or the free slot where it would be.
+  std::size_t slotOf(const Coord& place) const {
+    const std::size_t mask = m_lists->tables.size() - 1;
+    const std::uint64_t mixed = static_cast<std::uint32_t>(place[0]) * 0x9e3779b97f4a7c15u ^
+                                static_cast<std::uint32_t>(place[1]) * 0xc2b2ae3d27d4eb4fu ^
+                                static_cast<std::uint32_t>(place[2]) * 0x165667b19e3779f9u;
+    std::size_t slot = (mixed >> 32) & mask;
+    while (m_lists->tables[slot].start >= 0 && m_lists->tables[slot].place != place) slot = (slot + 1) & mask;
+    return slot;
   }
+  int tableOf(const Coord& cell) const { return m_lists->tables[slotOf(cell >> 5)].start; }
   static int placeInTable(const Coord& cell) {
     return (((cell[0] >> 3) & 3) << 4) | (((cell[1] >> 3) & 3) << 2) | ((cell[2] >> 3) & 3);
   }
 
   struct Lists {
     std::vector<Coord> cells, origins;
-    std::vector<int> tableStart;  // into blockStart; -1: none of its blocks has cells
-    std::vector<int> blockStart;  // into numbers; -1: no cells
+    std::vector<Table> tables{Table{}};  // a power of two, never full
+    std::vector<int> blockStart;         // into numbers; -1: no cells
     std::vector<int> numbers;
   };
 
-  Coord m_first{0}, m_tables{0};  // the lowest of the tables, in cells / 32, and how many along each axis
   int m_red = 0;
-  std::shared_ptr<const Lists> m_lists = std::make_shared<Lists>();
+  std::shared_ptr<Lists> m_lists = std::make_shared<Lists>();
 };
 
 // The numbers in a block and in those beside it.
