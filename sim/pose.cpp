@@ -68,4 +68,17 @@ Pose poseAt(const Solid& solid, double t) {
   return pose;
 }
 
+openvdb::math::BBox<Vec3d> boundsAt(const openvdb::math::BBox<Vec3d>& bounds, const Pose& pose) {
+  const Vec3d &low = bounds.min(), &high = bounds.max();
+  for (int a = 0; a < 3; ++a) {
+    if (!std::isfinite(low[a]) || !std::isfinite(high[a])) return {Vec3d(-kForever), Vec3d(kForever)};
+  }
+  openvdb::math::BBox<Vec3d> moved;
+  for (int n = 0; n < 8; ++n) {
+    const auto pick = [&](int a) { return (n >> a & 1) != 0 ? high[a] : low[a]; };
+    moved.expand(pose.toWorld(Vec3d(pick(0), pick(1), pick(2))));
+  }
+  return moved;
+}
+
 }  // namespace fluidtex::sim

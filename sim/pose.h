@@ -3,6 +3,8 @@
 
 #include "sim/options.h"
 
+#include <openvdb/math/BBox.h>
+
 namespace fluidtex::sim {
 
 // Turned by `angle` (radians) about the axis through `pivot`, then moved by `move` (metres); goes on at
@@ -29,6 +31,9 @@ struct Pose {
   // m/s, of the solid's matter at world position x, but for the change of its shape.
   Vec3d velocityAt(const Vec3d& x) const;
 };
+
+// Of what is within these bounds before it is moved. Infinite if they are anywhere.
+openvdb::math::BBox<Vec3d> boundsAt(const openvdb::math::BBox<Vec3d>& bounds, const Pose& pose);
 
 // The pose at time t; at a keyframe, and at the time of a sequence's file, it goes on as after it.
 Pose poseAt(const Solid& solid, double t);

@@ -37,10 +37,11 @@ class ShapeDistance {
   std::shared_ptr<const Node> m_root;
 };
 
-// The shape clipped to the domain, as triangles for drawing. A mesh sequence is as in its first file.
-TriangleMesh triangulate(const Shape& shape, const Vec3d& domainSize, double voxelSize);
-// The solid where it is at time t and in the shape that it has then, clipped to the domain there. Planes,
+// The shape clipped to a box, as triangles for drawing. Height fields go on where they reach its high sides,
+// or 0. A mesh sequence is as in its first file.
+TriangleMesh triangulate(const Shape& shape, const openvdb::BBoxd& within, double voxelSize);
+// The solid where it is at time t and in the shape that it has then, clipped to the box there. Planes,
 // height fields, unions and differences that move are clipped before.
-TriangleMesh triangulate(const Solid& solid, double t, const Vec3d& domainSize, double voxelSize);
+TriangleMesh triangulate(const Solid& solid, double t, const openvdb::BBoxd& within, double voxelSize);
 
 }  // namespace fluidtex::sim

@@ -19,20 +19,6 @@ namespace {
 // steps.
 constexpr int kNeeded = 1, kMade = 2;
 
-// Of what is within these bounds before it is moved.
-openvdb::BBoxd boundsAt(const openvdb::BBoxd& bounds, const Pose& pose) {
-  const Vec3d &low = bounds.min(), &high = bounds.max();
-  for (int a = 0; a < 3; ++a) {
-    if (!std::isfinite(low[a]) || !std::isfinite(high[a])) return {Vec3d(-kForever), Vec3d(kForever)};
-  }
-  openvdb::BBoxd moved;
-  for (int n = 0; n < 8; ++n) {
-    const auto pick = [&](int a) { return (n >> a & 1) != 0 ? high[a] : low[a]; };
-    moved.expand(pose.toWorld(Vec3d(pick(0), pick(1), pick(2))));
-  }
-  return moved;
-}
-
 // The corners of the cells of [0, size], and on unbounded sides those within what ends somewhere.
 CoordBBox cornersOf(const Coord& cells, const CoordBBox& domain, const CoordBBox& within) {
   CoordBBox corners(Coord(0), cells);

@@ -19,9 +19,10 @@ namespace fluidtex::sim {
 
 namespace {
 
+using openvdb::BBoxd;
 using Polygon = std::vector<Vec3d>;
 
-// A half-space reaches at most this much of the domain's diagonal too little before it counts as missing it.
+// A half-space reaches at most this much of the box's diagonal too little before it counts as missing it.
 constexpr double kFlat = 1e-9;
 
 std::vector<Polygon> boxPolygons(const Vec3d& low, const Vec3d& high) {
@@ -142,19 +143,20 @@ TriangleMesh icosphere(const Sphere& sphere, double voxelSize) {
   return mesh;
 }
 
-// The surface of a shape within the domain, from its distance at the corners of voxels.
-TriangleMesh meshDistance(const ShapeDistance& distance, const Vec3d& size, double h) {
-  const ShapeDistance domain(Shape{Box{Vec3d(0.0), size}}, h);
+// The surface of a shape within the box, from its distance at the corners of voxels.
+TriangleMesh meshDistance(const ShapeDistance& distance, const BBoxd& within, double h) {
+  const ShapeDistance box(Shape{Box{within.min(), within.max()}}, h);
   const float band = static_cast<float>(3.0 * h);
   auto grid = openvdb::FloatGrid::create(band);
   grid->setTransform(openvdb::math::Transform::createLinearTransform(h));
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
-  const Coord cells = cellCount(size, h);
+  const Coord first = cellsIn(within, h).min(), cells = cellCount(within.extents(), h);
   const Coord n((cells[0] >> 3) + 3, (cells[1] >> 3) + 3, (cells[2] >> 3) + 3);
   const int count = n[0] * n[1] * n[2];
   const double radius = (0.5 * std::sqrt(3.0) * kLeafDim + 3.0) * h;
   const auto originOf = [&](int b) {
-    return (Coord(b / (n[1] * n[2]), b / n[2] % n[1], b % n[2]) << 3).offsetBy(-kLeafDim);
+    const Coord block(b / (n[1] * n[2]), b / n[2] % n[1], b % n[2]);
+    return ((block + (first >> 3)) << 3).offsetBy(-kLeafDim);
   };
   std::vector<std::unique_ptr<FloatLeaf>> leaves(count);
   std::vector<char> inside(count, 0);
@@ -162,7 +164,7 @@ TriangleMesh meshDistance(const ShapeDistance& distance, const Vec3d& size, doub
     for (int b = range.begin(); b < range.end(); ++b) {
       const auto value = [&](const Coord& c) {
         const Vec3d x(c[0] * h, c[1] * h, c[2] * h);
-        return std::max(distance(x), domain(x));
+        return std::max(distance(x), box(x));
       };
       const double middle = value(originOf(b).offsetBy(kLeafDim / 2));
       if (std::abs(middle) > radius) {
@@ -196,12 +198,12 @@ TriangleMesh meshDistance(const ShapeDistance& distance, const Vec3d& size, doub
   return mesh;
 }
 
-// The ground in the domain only, its rim closed down to the floor.
-TriangleMesh drawnGround(const HeightField& ground, const Vec3d& size, double h) {
+// The ground in the box only, its rim closed down to the floor.
+TriangleMesh drawnGround(const HeightField& ground, const BBoxd& within, double h) {
   // As fine as the picture, but no more than the cells can tell.
   const double spacing = std::clamp(ground.pixel, 0.25 * h, h);
-  TriangleMesh mesh = groundMesh(ground, size, spacing, 0.0, 0.0);
-  for (openvdb::Vec3f& x : mesh.positions) x.z() = std::clamp(x.z(), 0.0f, float(size.z()));
+  TriangleMesh mesh = groundMesh(ground, within.max(), spacing, 0.0, 0.0);
+  for (openvdb::Vec3f& x : mesh.positions) x.z() = std::clamp(x.z(), 0.0f, float(within.max().z()));
   return mesh;
 }
 
@@ -228,25 +230,18 @@ TriangleMesh tube(const Cylinder& cylinder, double h) {
   return mesh;
 }
 
-bool contains(const Vec3d& size, const Vec3d& low, const Vec3d& high) {
-  for (int a = 0; a < 3; ++a) {
-    if (low[a] < 0.0 || high[a] > size[a]) return false;
-  }
-  return true;
-}
-
-// As it is where it lies within the domain.
-TriangleMesh clipped(TriangleMesh mesh, const Vec3d& size, double h) {
-  const auto inside = [&](const openvdb::Vec3f& x) { return contains(size, Vec3d(x), Vec3d(x)); };
+// As it is where it lies within the box.
+TriangleMesh clipped(TriangleMesh mesh, const BBoxd& within, double h) {
+  const auto inside = [&](const openvdb::Vec3f& x) { return within.isInside(Vec3d(x)); };
   if (std::all_of(mesh.positions.begin(), mesh.positions.end(), inside)) return mesh;
-  return meshDistance(ShapeDistance(mesh, h), size, h);
+  return meshDistance(ShapeDistance(mesh, h), within, h);
 }
 
 TriangleMesh meshAt(const MeshSequence& sequence, int file, double part) {
   return MovingMesh(sequence, file, std::min(file + 1, sequence.count() - 1)).at(file, part);
 }
 
-// All of a curved shape that has an end, also beyond the domain; nothing for others.
+// All of a curved shape that has an end, also beyond the box; nothing for others.
 TriangleMesh wholeMesh(const Shape& shape, double voxelSize) {
   if (const auto* sphere = std::get_if<Sphere>(&shape.kind)) return icosphere(*sphere, voxelSize);
   if (const auto* cylinder = std::get_if<Cylinder>(&shape.kind)) return tube(*cylinder, voxelSize);
@@ -254,15 +249,15 @@ TriangleMesh wholeMesh(const Shape& shape, double voxelSize) {
   return {};
 }
 
-TriangleMesh movedBox(const Box& box, const Pose& pose, const Vec3d& domainSize) {
-  const double eps = kFlat * domainSize.length();
+TriangleMesh movedBox(const Box& box, const Pose& pose, const BBoxd& within) {
+  const double eps = kFlat * within.extents().length();
   std::vector<Polygon> faces = boxPolygons(box.min, box.max);
   for (Polygon& face : faces)
     for (Vec3d& x : face) x = pose.toWorld(x);
   for (int axis = 0; axis < 3; ++axis) {
     Vec3d up(0.0);
     up[axis] = 1.0;
-    faces = clip(clip(faces, Vec3d(0.0), -up, eps), domainSize, up, eps);
+    faces = clip(clip(faces, within.min(), -up, eps), within.max(), up, eps);
   }
   return meshOf(faces, eps);
 }
@@ -273,56 +268,57 @@ void move(TriangleMesh& mesh, const Pose& pose) {
 
 }  // namespace
 
-TriangleMesh triangulate(const Shape& shape, const Vec3d& domainSize, double voxelSize) {
-  const double eps = kFlat * domainSize.length();
+TriangleMesh triangulate(const Shape& shape, const BBoxd& within, double voxelSize) {
+  const double eps = kFlat * within.extents().length();
   if (const auto* box = std::get_if<Box>(&shape.kind)) {
     Vec3d low = box->min, high = box->max;
     for (int a = 0; a < 3; ++a) {
-      low[a] = std::max(low[a], 0.0);
-      high[a] = std::min(high[a], domainSize[a]);
+      low[a] = std::max(low[a], within.min()[a]);
+      high[a] = std::min(high[a], within.max()[a]);
       if (low[a] >= high[a]) return {};
     }
     return meshOf(boxPolygons(low, high), eps);
   }
   if (const auto* plane = std::get_if<HalfSpace>(&shape.kind)) {
-    return meshOf(clip(boxPolygons(Vec3d(0.0), domainSize), plane->point, plane->normal.unit(), eps), eps);
+    return meshOf(clip(boxPolygons(within.min(), within.max()), plane->point, plane->normal.unit(), eps),
+                  eps);
   }
   if (const auto* sphere = std::get_if<Sphere>(&shape.kind)) {
     const Vec3d reach(sphere->radius);
-    if (contains(domainSize, sphere->center - reach, sphere->center + reach))
+    if (within.isInside(BBoxd(sphere->center - reach, sphere->center + reach)))
       return icosphere(*sphere, voxelSize);
   }
   if (const auto* ground = std::get_if<HeightField>(&shape.kind))
-    return drawnGround(*ground, domainSize, voxelSize);
+    return drawnGround(*ground, within, voxelSize);
   if (const auto* cylinder = std::get_if<Cylinder>(&shape.kind)) {
     const Vec3d reach(cylinder->radius);
-    if (contains(domainSize, cylinder->from - reach, cylinder->from + reach) &&
-        contains(domainSize, cylinder->to - reach, cylinder->to + reach))
+    if (within.isInside(BBoxd(cylinder->from - reach, cylinder->from + reach)) &&
+        within.isInside(BBoxd(cylinder->to - reach, cylinder->to + reach)))
       return tube(*cylinder, voxelSize);
   }
   if (const auto* file = std::get_if<MeshShape>(&shape.kind))
-    return clipped(readMesh(*file), domainSize, voxelSize);
+    return clipped(readMesh(*file), within, voxelSize);
   if (const auto* sequence = std::get_if<MeshSequence>(&shape.kind))
-    return clipped(meshAt(*sequence, 0, 0.0), domainSize, voxelSize);
-  return meshDistance(ShapeDistance(shape, voxelSize, domainSize), domainSize, voxelSize);
+    return clipped(meshAt(*sequence, 0, 0.0), within, voxelSize);
+  return meshDistance(ShapeDistance(shape, voxelSize, within.max()), within, voxelSize);
 }
 
-TriangleMesh triangulate(const Solid& solid, double t, const Vec3d& domainSize, double voxelSize) {
+TriangleMesh triangulate(const Solid& solid, double t, const BBoxd& within, double voxelSize) {
   const Pose pose = poseAt(solid, t);
   const bool moves = !solid.keyframes.empty();
   if (const auto* box = std::get_if<Box>(&solid.shape.kind); box != nullptr && moves)
-    return movedBox(*box, pose, domainSize);
+    return movedBox(*box, pose, within);
   const auto* sequence = std::get_if<MeshSequence>(&solid.shape.kind);
   TriangleMesh mesh = sequence != nullptr ? meshAt(*sequence, pose.file, pose.part)
                       : moves             ? wholeMesh(solid.shape, voxelSize)
                                           : TriangleMesh();
   if (mesh.positions.empty()) {
-    mesh = triangulate(solid.shape, domainSize, voxelSize);
+    mesh = triangulate(solid.shape, within, voxelSize);
     if (moves) move(mesh, pose);
     return mesh;
   }
   if (moves) move(mesh, pose);
-  return clipped(std::move(mesh), domainSize, voxelSize);
+  return clipped(std::move(mesh), within, voxelSize);
 }
 
 }  // namespace fluidtex::sim

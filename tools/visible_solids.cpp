@@ -2,7 +2,32 @@
 
 #include "sim/shapes.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace fluidtex::tools {
+namespace {
+
+// Where the solid is drawn: in [0, size], and on sides without an end all of it, if it has one.
+openvdb::BBoxd drawnBox(const sim::Options& options, const sim::Solid& solid, const sim::Pose& pose) {
+  openvdb::BBoxd box(sim::Vec3d(0.0), options.size);
+  if (std::find(options.sides.begin(), options.sides.end(), sim::Side::unbounded) == options.sides.end())
+    return box;
+  const sim::ShapeDistance shape(solid.shape, options.voxelSize(), options.size);
+  openvdb::BBoxd whole = sim::boundsAt(shape.bounds(), pose);
+  whole.expand(options.voxelSize());
+  for (int a = 0; a < 3; ++a) {
+    if (!std::isfinite(whole.min()[a]) || !std::isfinite(whole.max()[a])) return box;
+  }
+  for (int a = 0; a < 3; ++a) {
+    if (options.sides[2 * a] == sim::Side::unbounded) box.min()[a] = std::min(0.0, whole.min()[a]);
+    if (options.sides[2 * a + 1] == sim::Side::unbounded)
+      box.max()[a] = std::max(options.size[a], whole.max()[a]);
+  }
+  return box;
+}
+
+}  // namespace
 
 const std::vector<render::Solid>& VisibleSolids::at(double time) {
   std::vector<std::pair<std::size_t, sim::Pose>> visible;
@@ -15,7 +40,8 @@ const std::vector<render::Solid>& VisibleSolids::at(double time) {
   m_solids.clear();
   for (const auto& [i, pose] : visible) {
     const sim::Solid& solid = m_options.solids[i];
-    sim::TriangleMesh mesh = sim::triangulate(solid, time, m_options.size, m_options.voxelSize());
+    sim::TriangleMesh mesh =
+        sim::triangulate(solid, time, drawnBox(m_options, solid, pose), m_options.voxelSize());
     m_solids.push_back({std::move(mesh.positions), std::move(mesh.triangles), solid.color});
   }
   m_visible = std::move(visible);

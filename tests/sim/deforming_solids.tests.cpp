@@ -209,13 +209,15 @@ TEST_CASE("triangulate: a deforming solid is drawn as it is at the time") {
                boxObj(Vec3d(0.2), Vec3d(0.8, 0.8, 1.6))});
   files.sequence.frameRate = 2.0;
   Solid solid = solidOf(files.sequence);
-  const auto volumeAt = [&](double t) { return volumeOf(triangulate(solid, t, Vec3d(1.0), 0.02)); };
+  const auto volumeAt = [&](double t) {
+    return volumeOf(triangulate(solid, t, openvdb::BBoxd(Vec3d(0.0), Vec3d(1.0)), 0.02));
+  };
   CHECK(volumeAt(0.0) == Approx(0.008));
   CHECK(volumeAt(0.25) == Approx(0.064));
   CHECK(volumeAt(0.5) == Approx(0.216));
   CHECK(volumeAt(7.0) == Approx(0.36 * 0.8).epsilon(0.01));  // cut off at the domain's top
   solid.keyframes = {{0.0, Vec3d(0.1, 0.0, 0.0), 0.0}};
-  const TriangleMesh moved = triangulate(solid, 0.25, Vec3d(1.0), 0.02);
+  const TriangleMesh moved = triangulate(solid, 0.25, openvdb::BBoxd(Vec3d(0.0), Vec3d(1.0)), 0.02);
   float right = 0.0f;
   for (const Vec3f& x : moved.positions) right = std::max(right, x.x());
   CHECK(right == Approx(0.7));

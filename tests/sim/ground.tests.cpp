@@ -89,7 +89,8 @@ TEST_CASE("height field: an even slope is a plane, and goes on beyond the domain
 TEST_CASE("height field: is drawn closed, within the domain", "[sim]") {
   const TemporaryFile file(ramp());
   const HeightField ground{file.path, 1.0 / 32.0, 0.0, 1.0, Vec3d(0.0, 0.0, 0.1)};
-  const TriangleMesh mesh = triangulate(Shape{ground}, Vec3d(2.0, 1.0, 1.0), 1.0 / 16.0);
+  const TriangleMesh mesh =
+      triangulate(Shape{ground}, openvdb::BBoxd(Vec3d(0.0), Vec3d(2.0, 1.0, 1.0)), 1.0 / 16.0);
   const double rise = 512.0 / 65535.0 * 32.0;
   // The mean height over the domain's floor.
   CHECK(volumeOf(mesh) ==
@@ -122,7 +123,7 @@ TEST_CASE("cylinder: its distance and its mesh", "[sim]") {
   const ShapeDistance askew(Shape{Cylinder{from, from + 0.6 * along, 0.1}}, 0.1);
   CHECK(askew(from + 0.3 * along + 0.25 * side) == Approx(0.15));
   CHECK(askew(from - 0.4 * along + 0.4 * side) == Approx(0.5));
-  const TriangleMesh mesh = triangulate(Shape{upright}, Vec3d(1.0), 0.005);
+  const TriangleMesh mesh = triangulate(Shape{upright}, openvdb::BBoxd(Vec3d(0.0), Vec3d(1.0)), 0.005);
   CHECK(volumeOf(mesh) == Approx(std::numbers::pi * 0.01 * 0.6).epsilon(1e-3));
 }
 

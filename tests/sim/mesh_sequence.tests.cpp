@@ -142,7 +142,8 @@ TEST_CASE("surface velocity: that of the closest point") {
   }
   // A sphere that swells: whatever the triangle, the velocity points outward and is as large as the radius
   // grows.
-  const TriangleMesh ball = triangulate(Shape{Sphere{Vec3d(0.5), 0.25}}, Vec3d(1.0), 0.02);
+  const TriangleMesh ball =
+      triangulate(Shape{Sphere{Vec3d(0.5), 0.25}}, openvdb::BBoxd(Vec3d(0.0), Vec3d(1.0)), 0.02);
   std::vector<Vec3f> outward;
   for (const Vec3f& x : ball.positions) outward.push_back((x - Vec3f(0.5f)) * 4.0f);
   const SurfaceVelocity swells(ball, outward);

@@ -15,7 +15,7 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-const Vec3d kDomain(2.0, 1.5, 1.0);
+const openvdb::BBoxd kDomain(Vec3d(0.0), Vec3d(2.0, 1.5, 1.0));
 constexpr double kVoxel = 0.05;
 
 double volumeOf(const TriangleMesh& mesh) {
@@ -282,14 +282,14 @@ TEST_CASE("triangulate: what moves is cut at the domain where it is, not where i
 }
 
 TEST_CASE("triangulate: half-spaces are cut at the domain exactly", "[sim]") {
-  const double whole = kDomain.x() * kDomain.y() * kDomain.z();
+  const double whole = kDomain.volume();
   const auto mesh = [](const Vec3d& point, const Vec3d& normal) {
     return triangulate(Shape{HalfSpace{point, normal}}, kDomain, kVoxel);
   };
   // Through the middle: half of it, however tilted.
   for (const Vec3d& normal :
        {Vec3d(0, 0, 1), Vec3d(1, 2, 3), Vec3d(-1, 0.1, 0.2), Vec3d(0, -1, 1), Vec3d(1, 1, 1)}) {
-    const TriangleMesh part = mesh(0.5 * kDomain, normal);
+    const TriangleMesh part = mesh(kDomain.getCenter(), normal);
     CAPTURE(normal.x(), normal.y(), normal.z());
     CHECK(isClosed(part));
     CHECK_THAT(volumeOf(part), WithinAbs(0.5 * whole, 1e-6));
@@ -322,6 +322,11 @@ TEST_CASE("triangulate: curved and combined shapes are closed, outward and of th
   CHECK_THAT(volumeOf(cut), WithinAbs(0.5 * ballVolume, 0.05 * ballVolume));
 
   const Shape box{Box{Vec3d(0.5, 0.25, 0.0), Vec3d(1.5, 1.25, 0.5)}};
+  // The same out of a box elsewhere.
+  const Vec3d away(-6.0, 3.0, -2.0);
+  const TriangleMesh there = triangulate(Shape{Sphere{Vec3d(0.0, 0.75, 0.5) + away, 0.3}},
+                                         openvdb::BBoxd(kDomain.min() + away, kDomain.max() + away), kVoxel);
+  CHECK_THAT(volumeOf(there), Catch::Matchers::WithinRel(volumeOf(cut), 1e-4));
   const TriangleMesh bowl = triangulate(Shape{Difference{{box, Shape{ball}}}}, kDomain, 0.025);
   CHECK(isClosed(bowl));
   CHECK_THAT(volumeOf(bowl), WithinAbs(0.5 - 0.5 * ballVolume, 0.01));
