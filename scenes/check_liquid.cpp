@@ -3,6 +3,7 @@
 #include "scenes/schema.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace fluidtex::scenes {
@@ -64,13 +65,21 @@ void checkHeat(const sim::ViscosityLaw& law, Reader& reader) {
   }
 }
 
+bool isBounded(const sim::Box& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(box.min[axis]) || !std::isfinite(box.max[axis])) return false;
+  }
+  return true;
+}
+
 void checkPlace(const sim::Shape& shape, const std::string& path, const Scene& scene, Reader& reader) {
   checkShape(shape, path, reader);
   if (!reader.clean(path) || !reader.clean("domain")) return;
   const sim::Box domain = domainOf(scene.sim);
   if (!reachesDomain(shape, domain)) {
     reader.fault(path, "lies wholly outside the domain",
-                 "put at least a part of it between [0, 0, 0] and " + written(scene.sim.size));
+                 "put at least a part of it between [0, 0, 0] and " + written(scene.sim.size) +
+                     (isBounded(domain) ? "" : ", or beyond a side that is unbounded"));
   } else if (!endsInDomain(shape, domain)) {
     reader.fault(path, "has no end on a side of the domain that is unbounded",
                  "give a shape that ends, for example a box, or a side of another kind");
@@ -114,8 +123,7 @@ void checkKnownFlow(const Scene& scene, Reader& reader) {
   ofUse("rate", {MotionKind::rotation, MotionKind::vortex, MotionKind::stretch, MotionKind::sourceSink},
         "\"rotation\", \"vortex\", \"stretch\" or \"source_sink\"");
   if (flow == MotionKind::solver || !reader.clean("motion.flow")) return;
-  if (reader.clean("domain.sides") && std::find(scene.sim.sides.begin(), scene.sim.sides.end(),
-                                                sim::Side::unbounded) != scene.sim.sides.end())
+  if (reader.clean("domain") && !isBounded(domainOf(scene.sim)))
     reader.fault("domain.sides", "a flow in closed form is known inside the domain only",
                  "give no side that is \"unbounded\", or give motion.flow = \"solver\"");
   for (const char* key : {"solid", "source", "drain"})

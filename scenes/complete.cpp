@@ -53,6 +53,14 @@ void complete(Scene& scene, const Reader& reader) {
   if (!reader.given("texture.later_iterations"))
     synthesis.laterIterations = fitted(synthesis.laterIterations, synthesis.windows.size());
 
+  // A floor would hide what falls through it, and a rim would bound what has no bounds.
+  const auto& sides = scene.sim.sides;
+  render::Surroundings& around = scene.render.surroundings;
+  if (sides[4] == sim::Side::unbounded && !reader.given("render.ground")) around.ground = false;
+  if (std::find(sides.begin(), sides.end(), sim::Side::unbounded) != sides.end() &&
+      !reader.given("render.tank"))
+    around.tank = false;
+
   // The default view frames a domain of one metre; it grows with the domain.
   const render::Camera view;
   render::Camera& camera = scene.render.camera;

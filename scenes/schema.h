@@ -28,8 +28,8 @@ sim::Box domainOf(const sim::Options& options);
 // Whether any of the shape can lie inside the domain. Meshes are taken to: their triangles are read later.
 bool reachesDomain(const sim::Shape& shape, const sim::Box& domain);
 
-// Whether there is an end to what of the shape lies inside the domain. Half-spaces that are askew, and
-// ground, are taken to have none of their own.
+// Whether there is an end to what of the shape lies inside the domain. What a difference takes away makes
+// none.
 bool endsInDomain(const sim::Shape& shape, const sim::Box& domain);
 
 }  // namespace fluidtex::scenes

@@ -79,24 +79,6 @@ bool overlaps(const sim::Difference& shape, const sim::Box& domain) {
   return !shape.parts.empty() && reachesDomain(shape.parts.front(), domain);
 }
 
-// The part of the domain in which the shape lies, as far as that is known without reading its files.
-sim::Box roomOf(const sim::Shape& shape, sim::Box domain) {
-  if (const auto* space = std::get_if<sim::HalfSpace>(&shape.kind)) {
-    int axis = 0, askew = -1;
-    for (int a = 0; a < 3; ++a) {
-      if (space->normal[a] != 0.0) {
-        ++askew;
-        axis = a;
-      }
-    }
-    if (askew == 0 && space->normal[axis] > 0.0) domain.max[axis] = space->point[axis];
-    if (askew == 0 && space->normal[axis] < 0.0) domain.min[axis] = space->point[axis];
-    return domain;
-  }
-  if (std::holds_alternative<sim::HeightField>(shape.kind)) return domain;
-  return {};
-}
-
 }  // namespace
 
 void describeShape(Visitor& visitor, sim::Shape& shape) {
@@ -176,14 +158,23 @@ bool reachesDomain(const sim::Shape& shape, const sim::Box& domain) {
 }
 
 bool endsInDomain(const sim::Shape& shape, const sim::Box& domain) {
+  const auto endless = [&](int side) {
+    return !std::isfinite(side % 2 == 0 ? domain.min[side / 2] : domain.max[side / 2]);
+  };
   if (const auto* both = std::get_if<sim::Union>(&shape.kind))
     return std::all_of(both->parts.begin(), both->parts.end(),
                        [&](const sim::Shape& part) { return endsInDomain(part, domain); });
   if (const auto* rest = std::get_if<sim::Difference>(&shape.kind))
     return rest->parts.empty() || endsInDomain(rest->parts.front(), domain);
-  const sim::Box room = roomOf(shape, domain);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!std::isfinite(room.min[axis]) || !std::isfinite(room.max[axis])) return false;
+  if (const auto* space = std::get_if<sim::HalfSpace>(&shape.kind)) {
+    for (int side = 0; side < 6; ++side) {
+      const double outward = space->normal[side / 2] * (side % 2 == 0 ? -1.0 : 1.0);
+      if (endless(side) && outward <= 0.0) return false;
+    }
+  }
+  if (std::holds_alternative<sim::HeightField>(shape.kind)) {
+    for (int side = 0; side < 5; ++side)  // all but upwards
+      if (endless(side)) return false;
   }
   return true;
 }

@@ -90,7 +90,7 @@ FloatGrid::Ptr AnalyticFlow::start(double angle) const {
   const Vec3d middle = 0.5 * m_options.size;
   FloatGrid::Ptr phi = makePhi(h, bandWidth(m_options.cfl) * h);
   for (const LiquidBody& body : m_options.liquid) {
-    const ShapeDistance distance(body.shape, h, m_options.size);
+    const ShapeDistance distance(body.shape, h, domainBox(m_options));
     unite(
         *phi, [&](const Vec3d& x) { return distance(turnedBack(x, middle, angle)); },
         grown(m_solid->domain, kMargin));

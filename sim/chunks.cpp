@@ -50,6 +50,12 @@ Chunks chunksAround(const std::vector<const FloatGrid*>& phis, int reach, const 
   return around;
 }
 
+Chunks united(Chunks a, const Chunks& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  sortOnce(a);
+  return a;
+}
+
 bool covers(const Chunks& all, const Chunks& some) {
   return std::includes(all.begin(), all.end(), some.begin(), some.end());
 }

@@ -23,6 +23,9 @@ Chunks chunksIn(const CoordBBox& box);
 // or its band.
 Chunks chunksAround(const std::vector<const FloatGrid*>& phis, int reach, const CoordBBox& box);
 
+// Those of both lists.
+Chunks united(Chunks a, const Chunks& b);
+
 // Whether all of `some` are among `all`.
 bool covers(const Chunks& all, const Chunks& some);
 

@@ -64,11 +64,9 @@ std::array<FloatGrid::Ptr, 3> facesOf(const FloatGrid& phi, const Vec3d& velocit
   return faces;
 }
 
-// Leaves of phi wherever the shape has a leaf or is inside.
-std::vector<FloatLeaf*> leavesAt(FloatGrid& phi, const FloatGrid& shape) {
+std::vector<FloatLeaf*> touchLeaves(FloatGrid& phi, const std::vector<Coord>& origins) {
   std::vector<FloatLeaf*> leaves;
-  for (const Coord& origin : wetLeaves(shape, CoordBBox::inf()))
-    leaves.push_back(phi.tree().touchLeaf(origin));
+  for (const Coord& origin : origins) leaves.push_back(phi.tree().touchLeaf(origin));
   return leaves;
 }
 
@@ -92,7 +90,7 @@ bool bareSide(const FloatGrid& phi, const FloatGrid& shape, const Coord& place, 
 // phi = min(phi, source). Where the sides of a source that flows lie bare they are the surface: liquid that
 // has crept over them is taken away, or what little rises there would draw the next after it.
 void fill(FloatGrid& phi, const SourceGrids& source) {
-  const std::vector<FloatLeaf*> leaves = leavesAt(phi, *source.phi);
+  const std::vector<FloatLeaf*> leaves = touchLeaves(phi, wetLeaves(*source.phi, CoordBBox::inf()));
   const float background = phi.background(), band = 2.0f * static_cast<float>(phi.voxelSize()[0]);
   std::vector<std::array<float, kLeafSize>> filled(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
@@ -113,7 +111,7 @@ void fill(FloatGrid& phi, const SourceGrids& source) {
 
 // phi = max(phi, -drain).
 void empty(FloatGrid& phi, const FloatGrid& drain) {
-  const std::vector<FloatLeaf*> leaves = leavesAt(phi, drain);
+  const std::vector<FloatLeaf*> leaves = touchLeaves(phi, wetLeaves(phi, drain.evalActiveVoxelBoundingBox()));
   const float background = phi.background();
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     float scratch[kLeafSize];
@@ -146,15 +144,15 @@ struct GivenFaces {
   void set(int axis, const Coord& face, float speed) { grid[axis]->tree().setValueOn(face, speed); }
 };
 
-// The cells of the domain between which all liquid lies.
-CoordBBox boxAround(const FloatGrid& phi, const CoordBBox& domain) {
+// The cells among these between which all their liquid lies.
+CoordBBox boxAround(const FloatGrid& phi, const CoordBBox& cells) {
   CoordBBox box;
-  for (const Coord& origin : wetLeaves(phi, domain)) box.expand(CoordBBox::createCube(origin, kLeafDim));
-  box.intersect(domain);
+  for (const Coord& origin : wetLeaves(phi, cells)) box.expand(CoordBBox::createCube(origin, kLeafDim));
+  box.intersect(cells);
   return box;
 }
 
-// Depth of the liquid in the column of cells through `cell` along `down`, metres. box: of all liquid.
+// Depth of the liquid in the column of cells through `cell` along `down`, metres. box: around it.
 double depthOf(const FloatGrid& phi, const SolidField& solid, const CoordBBox& box, Coord cell, int down) {
   const auto liquid = phi.getConstUnsafeAccessor();
   const auto wall = solid.phi->getConstUnsafeAccessor();
@@ -179,7 +177,13 @@ void giveStream(GivenFaces& given, int side, const SolidField& solid, const Floa
     if (std::abs(gravity[a]) > std::abs(gravity[down])) down = a;
   const int across = 3 - axis - down;
   const double h = solid.voxelSize;
-  const CoordBBox box = boxAround(phi, solid.domain);
+  CoordBBox layer = solid.domain;  // of cells beside the side
+  if (out > 0) {
+    layer.min()[axis] = layer.max()[axis];
+  } else {
+    layer.max()[axis] = layer.min()[axis];
+  }
+  const CoordBBox box = boxAround(phi, layer);
   // Waves on shallow water run along the surface only: not where the side is the floor or the ceiling.
   const bool waves = axis != down;
   const int beside = waves ? across : (axis + 1) % 3, along = waves ? down : (axis + 2) % 3;
@@ -187,7 +191,7 @@ void giveStream(GivenFaces& given, int side, const SolidField& solid, const Floa
     double wave = -1.0;
     for (int j = box.min()[along]; j <= box.max()[along]; ++j) {
       Coord cell;
-      cell[axis] = (out > 0 ? solid.domain.max() : solid.domain.min())[axis];
+      cell[axis] = layer.min()[axis];
       cell[beside] = i;
       cell[along] = j;
       Coord face = cell;
@@ -221,7 +225,7 @@ Flows::Flows(const Options& options)
       m_drains(options.drains),
       m_h(options.voxelSize()),
       m_domain(domainCells(options)),
-      m_size(options.size),
+      m_box(domainBox(options)),
       m_band(bandWidth(options.cfl) * m_h) {
   for (const Source& source : m_sources) {
     SourceGrids grids{gridOf(source.shape), source.velocity, source.temperature, {}};
@@ -233,7 +237,7 @@ Flows::Flows(const Options& options)
 
 FloatGrid::Ptr Flows::gridOf(const Shape& shape) const {
   FloatGrid::Ptr phi = makePhi(m_h, m_band);
-  unite(*phi, ShapeDistance(shape, m_h, m_size), m_domain);
+  unite(*phi, ShapeDistance(shape, m_h, m_box), m_domain);
   return phi;
 }
 

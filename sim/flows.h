@@ -54,7 +54,7 @@ class Flows {
   std::vector<Drain> m_drains;
   double m_h;
   CoordBBox m_domain;
-  Vec3d m_size;
+  openvdb::BBoxd m_box;
   double m_band;
   std::vector<SourceGrids> m_sourceGrids;
   std::vector<FloatGrid::Ptr> m_drainGrids;

@@ -42,7 +42,8 @@ struct Frame {
   // The surface that is textured: narrow-band level set in metres, negative inside,
   // the liquid with solids taken out, max(phi, -solidPhi).
   openvdb::FloatGrid::ConstPtr surfacePhi;
-  // Negative inside solids, walls of the domain included; narrow band, metres. May be null.
+  // Negative inside solids, walls of the domain included, wherever they are near the liquid; narrow band,
+  // metres. May be null.
   FloatGrid::ConstPtr solidPhi;
   std::vector<Substep> substeps;  // from frame index-1 to index, in order; none in the first
   std::map<std::string, FloatGrid::ConstPtr> fields;  // further scalars by name, e.g. "temperature"

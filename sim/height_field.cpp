@@ -34,8 +34,8 @@ double sample(const HeightImage& image, double column, double row) {
 
 }  // namespace
 
-TriangleMesh groundMesh(const HeightField& ground, const Vec3d& domainSize, double spacing, double beyond,
-                        double base) {
+TriangleMesh groundMesh(const HeightField& ground, const openvdb::BBoxd& domain, double spacing,
+                        double beyond, double base) {
   const HeightImage image = readHeights(ground.file);
   const double sides[2] = {ground.pixel * image.width, ground.pixel * image.height};
   double low[2], high[2];
@@ -43,8 +43,17 @@ TriangleMesh groundMesh(const HeightField& ground, const Vec3d& domainSize, doub
   for (int a = 0; a < 2; ++a) {
     low[a] = ground.translate[a];
     high[a] = low[a] + sides[a];
-    if (low[a] <= spacing) low[a] = -beyond;
-    if (high[a] >= domainSize[a] - spacing) high[a] = domainSize[a] + beyond;
+    const double first = domain.min()[a], last = domain.max()[a];
+    if (!std::isfinite(first)) {
+      low[a] -= beyond;
+    } else if (low[a] <= first + spacing) {
+      low[a] = first - beyond;
+    }
+    if (!std::isfinite(last)) {
+      high[a] += beyond;
+    } else if (high[a] >= last - spacing) {
+      high[a] = last + beyond;
+    }
     count[a] = std::max(2, static_cast<int>(std::ceil((high[a] - low[a]) / spacing)) + 1);
   }
   TriangleMesh mesh;

@@ -6,9 +6,10 @@
 namespace fluidtex::sim {
 
 // The ground as a closed mesh, sampled every `spacing` metres or a little less. It ends `beyond` metres
-// outside the domain where the picture reaches the domain's side, else at the picture's rim, and below at
-// `base` metres or, where that lies higher, `beyond` below its lowest point. Throws HeightError.
-TriangleMesh groundMesh(const HeightField& ground, const Vec3d& domainSize, double spacing, double beyond,
-                        double base);
+// outside the domain where the picture reaches the domain's side, `beyond` outside the picture where the
+// domain is infinite, else at the picture's rim, and below at `base` metres or, where that lies higher,
+// `beyond` below its lowest point. Throws HeightError.
+TriangleMesh groundMesh(const HeightField& ground, const openvdb::BBoxd& domain, double spacing,
+                        double beyond, double base);
 
 }  // namespace fluidtex::sim

@@ -210,8 +210,16 @@ void unite(FloatGrid& phi, const std::function<double(const Vec3d&)>& distance, 
 
 void unite(FloatGrid& phi, const ShapeDistance& shape, const CoordBBox& domain) {
   const double h = phi.voxelSize()[0];
-  CoordBBox within = grown(cellsIn(shape.bounds(), h), static_cast<int>(std::ceil(phi.background() / h)) + 1);
-  within.intersect(grown(domain, kLeafDim));
+  const CoordBBox reach = grown(domain, kLeafDim);
+  openvdb::BBoxd room(reach.min().asVec3d() * h, reach.max().offsetBy(1).asVec3d() * h);
+  for (int a = 0; a < 3; ++a) {
+    if (domain.min()[a] <= -kEndless) room.min()[a] = -kForever;
+    if (domain.max()[a] >= kEndless - 1) room.max()[a] = kForever;
+  }
+  room = shape.boundsIn(room);
+  if (room.empty()) return;
+  CoordBBox within = grown(cellsIn(room, h), static_cast<int>(std::ceil(phi.background() / h)) + 1);
+  within.intersect(reach);
   if (!within.empty() && isEndless(within))
     throw std::invalid_argument("a shape has no end on a side on which the domain has none");
   unite(

@@ -50,13 +50,23 @@ CoordBBox domainCells(const Options& options) {
   return box;
 }
 
-CoordBBox cellsIn(const openvdb::BBoxd& box, double h) {
-  CoordBBox cells;
+openvdb::BBoxd domainBox(const Options& options) {
+  openvdb::BBoxd box(Vec3d(0.0), options.size);
   for (int a = 0; a < 3; ++a) {
-    cells.min()[a] = static_cast<int>(std::max(std::floor(box.min()[a] / h), double(-kEndless)));
-    cells.max()[a] = static_cast<int>(std::min(std::floor(box.max()[a] / h), kEndless - 1.0));
+    if (options.sides[2 * a] == Side::unbounded) box.min()[a] = -kForever;
+    if (options.sides[2 * a + 1] == Side::unbounded) box.max()[a] = kForever;
   }
-  return cells;
+  return box;
+}
+
+CoordBBox cellsIn(const openvdb::BBoxd& box, double h) {
+  const auto cell = [&](double x) {
+    return static_cast<int>(std::clamp(std::floor(x / h), double(-kEndless), kEndless - 1.0));
+  };
+  if (box.empty()) return {};
+  const Vec3d &low = box.min(), &high = box.max();
+  return {Coord(cell(low[0]), cell(low[1]), cell(low[2])),
+          Coord(cell(high[0]), cell(high[1]), cell(high[2]))};
 }
 
 bool isEndless(const CoordBBox& box) {

@@ -44,6 +44,9 @@ inline constexpr int kEndless = 1 << 22;
 // The cells of the domain: from 0 to cellCount() - 1, and kEndless from 0 where a side is unbounded.
 CoordBBox domainCells(const Options& options);
 
+// The domain in metres: [0, size], infinite where a side is unbounded.
+openvdb::BBoxd domainBox(const Options& options);
+
 // The cells that touch a box in metres, as far as kEndless.
 CoordBBox cellsIn(const openvdb::BBoxd& box, double h);
 

@@ -72,7 +72,7 @@ struct MeshSequence {
 // Ground from a grey image of 8 or 16 bits: black lies at height `low`, white at `high`; one pixel is `pixel`
 // metres wide, the picture's top is at high y. translate: of its lower left corner, and of all heights.
 // Between pixel centres the heights are bicubic. All below is inside; where the picture ends at a side of
-// [0, size] or beyond, its rim goes on.
+// [0, size] or beyond, its rim goes on; on unbounded sides it does so wherever it ends.
 struct HeightField {
   std::filesystem::path file;
   double pixel = 1.0;

@@ -70,6 +70,8 @@ Pose poseAt(const Solid& solid, double t) {
 
 openvdb::math::BBox<Vec3d> boundsAt(const openvdb::math::BBox<Vec3d>& bounds, const Pose& pose) {
   const Vec3d &low = bounds.min(), &high = bounds.max();
+  if (bounds.empty()) return bounds;
+  if (pose.angle == 0.0) return {low + pose.move, high + pose.move};
   for (int a = 0; a < 3; ++a) {
     if (!std::isfinite(low[a]) || !std::isfinite(high[a])) return {Vec3d(-kForever), Vec3d(kForever)};
   }

@@ -32,7 +32,7 @@ struct Pose {
   Vec3d velocityAt(const Vec3d& x) const;
 };
 
-// Of what is within these bounds before it is moved. Infinite if they are anywhere.
+// Of what is within these bounds before it is moved. Turned, it is infinite if they are anywhere.
 openvdb::math::BBox<Vec3d> boundsAt(const openvdb::math::BBox<Vec3d>& bounds, const Pose& pose);
 
 // The pose at time t; at a keyframe, and at the time of a sequence's file, it goes on as after it.

@@ -65,17 +65,18 @@ struct ShapeDistance::Node {
   };
   std::variant<Box, Sphere, Cylinder, Plane, openvdb::FloatGrid::ConstPtr, Ground, Any, Less> kind;
 
-  static Node of(const Shape& shape, double voxelSize, const Vec3d& domainSize);
+  static Node of(const Shape& shape, double voxelSize, const openvdb::BBoxd& domain);
   static Node of(const TriangleMesh& mesh, double voxelSize);
-  static Node of(const HeightField& ground, double voxelSize, const Vec3d& domainSize);
+  static Node of(const HeightField& ground, double voxelSize, const openvdb::BBoxd& domain);
   double distance(const Vec3d& x) const;
-  openvdb::BBoxd bounds() const;
+  openvdb::BBoxd boundsIn(const openvdb::BBoxd& within) const;
 };
 
-ShapeDistance::Node ShapeDistance::Node::of(const Shape& shape, double voxelSize, const Vec3d& domainSize) {
+ShapeDistance::Node ShapeDistance::Node::of(const Shape& shape, double voxelSize,
+                                            const openvdb::BBoxd& domain) {
   const auto nodesOf = [&](const std::vector<Shape>& parts) {
     std::vector<Node> nodes;
-    for (const Shape& part : parts) nodes.push_back(of(part, voxelSize, domainSize));
+    for (const Shape& part : parts) nodes.push_back(of(part, voxelSize, domain));
     return nodes;
   };
   if (const auto* box = std::get_if<Box>(&shape.kind)) return {*box};
@@ -88,19 +89,21 @@ ShapeDistance::Node ShapeDistance::Node::of(const Shape& shape, double voxelSize
   if (const auto* sequence = std::get_if<MeshSequence>(&shape.kind))
     return of(MovingMesh(*sequence, 0, 0).at(0, 0.0), voxelSize);
   if (const auto* mesh = std::get_if<MeshShape>(&shape.kind)) return of(readMesh(*mesh), voxelSize);
-  return of(std::get<HeightField>(shape.kind), voxelSize, domainSize);
+  return of(std::get<HeightField>(shape.kind), voxelSize, domain);
 }
 
 ShapeDistance::Node ShapeDistance::Node::of(const HeightField& ground, double voxelSize,
-                                            const Vec3d& domainSize) {
+                                            const openvdb::BBoxd& domain) {
   const double band = kMeshBand * voxelSize, beyond = 2.0 * band;
-  const TriangleMesh mesh = groundMesh(ground, domainSize, voxelSize, beyond, -beyond);
+  const TriangleMesh mesh = groundMesh(ground, domain, voxelSize, beyond, -beyond);
   openvdb::BBoxd box;
   for (const openvdb::Vec3f& x : mesh.positions) box.expand(Vec3d(x));
   Vec3d low(-kForever), high(kForever);
   for (int a = 0; a < 2; ++a) {
-    if (box.min()[a] < -band) low[a] = -band;
-    if (box.max()[a] > domainSize[a] + band) high[a] = domainSize[a] + band;
+    if (!std::isfinite(domain.min()[a]) || box.min()[a] < domain.min()[a] - band)
+      low[a] = box.min()[a] + band;
+    if (!std::isfinite(domain.max()[a]) || box.max()[a] > domain.max()[a] + band)
+      high[a] = box.max()[a] - band;
   }
   low[2] = box.min()[2] + band;
   return {Ground{std::get<openvdb::FloatGrid::ConstPtr>(of(mesh, voxelSize).kind), low, high}};
@@ -143,9 +146,11 @@ double ShapeDistance::Node::distance(const Vec3d& x) const {
   return std::visit(Visitor{x}, kind);
 }
 
-openvdb::BBoxd ShapeDistance::Node::bounds() const {
+openvdb::BBoxd ShapeDistance::Node::boundsIn(const openvdb::BBoxd& within) const {
+  using Bounds = openvdb::BBoxd;
   struct Visitor {
-    using Bounds = openvdb::BBoxd;
+    const Bounds& within;
+
     Bounds operator()(const Box& box) const { return {box.min, box.max}; }
     Bounds operator()(const Sphere& sphere) const {
       return {sphere.center - Vec3d(sphere.radius), sphere.center + Vec3d(sphere.radius)};
@@ -158,17 +163,23 @@ openvdb::BBoxd ShapeDistance::Node::bounds() const {
       }
       return box;
     }
-    // One that is askew has no end along any axis.
+    // normal . x <= normal . point: along one axis as far as the least of the others' parts lets it.
     Bounds operator()(const Plane& plane) const {
-      Bounds box(Vec3d(-kForever), Vec3d(kForever));
+      const Vec3d& n = plane.normal;
+      const auto least = [&](int a) {
+        return n[a] == 0.0 ? 0.0 : n[a] * (n[a] > 0.0 ? within.min() : within.max())[a];
+      };
+      Bounds box = within;
       for (int a = 0; a < 3; ++a) {
-        if (plane.normal[a] == 1.0) box.max()[a] = plane.point[a];
-        if (plane.normal[a] == -1.0) box.min()[a] = plane.point[a];
+        const double end = (n.dot(plane.point) - least((a + 1) % 3) - least((a + 2) % 3)) / n[a];
+        if (n[a] > 0.0) box.max()[a] = std::min(box.max()[a], end);
+        if (n[a] < 0.0) box.min()[a] = std::max(box.min()[a], end);
       }
       return box;
     }
     Bounds operator()(const openvdb::FloatGrid::ConstPtr& grid) const {
-      return grid->transform().indexToWorld(grid->evalActiveVoxelBoundingBox());
+      const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
+      return box.empty() ? Bounds() : grid->transform().indexToWorld(box);
     }
     Bounds operator()(const Ground& ground) const {
       Bounds box = (*this)(ground.grid);
@@ -180,22 +191,29 @@ openvdb::BBoxd ShapeDistance::Node::bounds() const {
     }
     Bounds operator()(const Any& any) const {
       Bounds box;
-      for (const Node& part : any.parts) box.expand(part.bounds());
+      for (const Node& part : any.parts) {
+        const Bounds bounds = part.boundsIn(within);
+        if (!bounds.empty()) box.expand(bounds);
+      }
       return box;
     }
     Bounds operator()(const Less& less) const {
-      return less.parts.empty() ? Bounds() : less.parts.front().bounds();
+      return less.parts.empty() ? Bounds() : less.parts.front().boundsIn(within);
     }
   };
-  return std::visit(Visitor{}, kind);
+  Bounds bounds = std::visit(Visitor{within}, kind);
+  if (bounds.empty() || !bounds.hasOverlap(within)) return {};
+  bounds.min() = openvdb::math::maxComponent(bounds.min(), within.min());
+  bounds.max() = openvdb::math::minComponent(bounds.max(), within.max());
+  return bounds;
 }
 
-openvdb::BBoxd ShapeDistance::bounds() const {
-  return m_root->bounds();
+openvdb::BBoxd ShapeDistance::boundsIn(const openvdb::BBoxd& box) const {
+  return m_root->boundsIn(box);
 }
 
-ShapeDistance::ShapeDistance(const Shape& shape, double voxelSize, const Vec3d& domainSize)
-    : m_root(std::make_shared<Node>(Node::of(shape, voxelSize, domainSize))) {}
+ShapeDistance::ShapeDistance(const Shape& shape, double voxelSize, const openvdb::BBoxd& domain)
+    : m_root(std::make_shared<Node>(Node::of(shape, voxelSize, domain))) {}
 
 ShapeDistance::ShapeDistance(const TriangleMesh& mesh, double voxelSize)
     : m_root(std::make_shared<Node>(Node::of(mesh, voxelSize))) {}

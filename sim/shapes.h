@@ -18,19 +18,22 @@ struct TriangleMesh {
 // what is wrong (missing, unreadable, no faces, not closed).
 TriangleMesh readMesh(const MeshShape& shape);
 
+inline const openvdb::BBoxd kEverywhere{Vec3d(-kForever), Vec3d(kForever)};
+
 // Signed distance to the shape in metres, negative inside, exact for single shapes and a lower bound in
 // magnitude for unions and differences near their creases. Evaluated at world positions; meshes are turned
 // into a level set once.
 class ShapeDistance {
  public:
-  // domainSize: height fields go on for ever where they reach the sides of a domain of this size. A mesh
+  // domain: height fields go on for ever where they reach its sides, and where it is infinite. A mesh
   // sequence is as in its first file.
-  ShapeDistance(const Shape& shape, double voxelSize, const Vec3d& domainSize = Vec3d(0.0));
+  ShapeDistance(const Shape& shape, double voxelSize, const openvdb::BBoxd& domain = kEverywhere);
   ShapeDistance(const TriangleMesh& mesh, double voxelSize);
   double operator()(const Vec3d& x) const;
 
-  // Of the shape, metres; infinite where it has no end, as a half-space, and ground whose rim goes on.
-  openvdb::BBoxd bounds() const;
+  // Of what of the shape lies in a box, metres, not always the smallest; infinite where the box is and it has
+  // no end, as half-spaces, and ground whose rim goes on.
+  openvdb::BBoxd boundsIn(const openvdb::BBoxd& box) const;
 
  private:
   struct Node;

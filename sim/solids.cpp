@@ -14,18 +14,23 @@ namespace fluidtex::sim {
 
 namespace {
 
-// What is done to liquid in a step stays within a chunk of it: it moves by kMaxTrace cells at most, its band
-// is little wider, and stencils reach a leaf further. Some more is made at once, so that it lasts for many
-// steps.
+// What is done to liquid, and to what is owed, in a step stays within a chunk of it: it moves by kMaxTrace
+// cells at most, its band is little wider, and stencils reach a leaf further. Some more is made at once, so
+// that it lasts for many steps.
 constexpr int kNeeded = 1, kMade = 2;
 
-// The corners of the cells of [0, size], and on unbounded sides those within what ends somewhere.
+// The corners of the domain's cells that a solid within these cells can hold; of one without an end, some.
 CoordBBox cornersOf(const Coord& cells, const CoordBBox& domain, const CoordBBox& within) {
-  CoordBBox corners(Coord(0), cells);
-  if (isEndless(within)) return corners;
+  constexpr int kSome = 16;
+  if (within.empty()) return {};
+  CoordBBox corners;
   for (int a = 0; a < 3; ++a) {
-    if (domain.min()[a] < 0) corners.min()[a] = std::min(0, within.min()[a]);
-    if (domain.max()[a] >= cells[a]) corners.max()[a] = std::max(cells[a], within.max()[a] + 1);
+    const int first = within.min()[a], last = within.max()[a];
+    const bool begins = first > -kEndless, ends = last < kEndless - 1;
+    const int low = begins ? first - 1 : std::min(0, ends ? last - kSome : 0);
+    const int high = ends ? last + 2 : std::max(cells[a], begins ? first + kSome : 0);
+    corners.min()[a] = std::max(low, domain.min()[a]);
+    corners.max()[a] = std::min(high, domain.max()[a] + 1);
   }
   return corners;
 }
@@ -53,7 +58,7 @@ Solids::Solids(const Options& options) : m_options(options), m_domain(domainCell
       const ShapeDistance first(mesh.at(0, 0.0), h);
       m_sequences.back() = {std::move(mesh), 0, 0.0, first};
     } else {
-      m_shapes.back().emplace(solid.shape, h, m_options.size);
+      m_shapes.back().emplace(solid.shape, h, domainBox(m_options));
     }
   }
   for (int side = 0; side < 6; ++side) {
@@ -93,7 +98,8 @@ double Solids::nextChange(double t) const {
 double Solids::deepestCorner(const Placed& solid, double enough) const {
   const double h = m_options.voxelSize();
   const CoordBBox corners = cornersOf(cellCount(m_options.size, h), m_domain,
-                                      cellsIn(boundsAt(solid.shape.bounds(), solid.pose), h));
+                                      cellsIn(boundsAt(solid.shape.boundsIn(kEverywhere), solid.pose), h));
+  if (corners.empty()) return -kForever;
   double deepest = -kForever;
   // At the corners of a cube of cells, the upper ones left out.
   const std::function<void(const Coord&, int)> look = [&](const Coord& low, int size) {
@@ -296,13 +302,27 @@ std::shared_ptr<const SolidField> Solids::at(double t) {
   return m_cached;
 }
 
+// Around all that moves: how fast it does limits a step, wherever the liquid is.
+Chunks Solids::movingChunks(const std::vector<Placed>& solids, const CoordBBox& box) const {
+  Chunks chunks;
+  for (const Placed& solid : solids) {
+    if (!solid.pose.moving()) continue;
+    const openvdb::BBoxd bounds = boundsAt(solid.shape.boundsIn(kEverywhere), solid.pose);
+    CoordBBox near = grown(cellsIn(bounds, m_options.voxelSize()), 2 * kLeafDim);
+    near.intersect(box);
+    if (!near.empty() && !isEndless(near)) chunks = united(std::move(chunks), chunksIn(near));
+  }
+  return chunks;
+}
+
 std::shared_ptr<const SolidField> Solids::around(const std::vector<const FloatGrid*>& phis, double t,
                                                  const std::vector<std::size_t>& set) {
   const auto solids = placed(t, set);
   const CoordBBox box = grown(m_domain, kSolidMargin);
+  const Chunks moving = movingChunks(solids, box);
   if (m_cached == nullptr || solids != m_cachedSet ||
-      !covers(m_cached->chunks, chunksAround(phis, kNeeded, box))) {
-    m_cached = std::make_shared<SolidField>(fieldOf(solids, chunksAround(phis, kMade, box)));
+      !covers(m_cached->chunks, united(chunksAround(phis, kNeeded, box), moving))) {
+    m_cached = std::make_shared<SolidField>(fieldOf(solids, united(chunksAround(phis, kMade, box), moving)));
     m_cachedSet = solids;
   }
   return m_cached;

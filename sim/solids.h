@@ -89,7 +89,7 @@ class Solids {
   // has changed or a solid has moved since the last call.
   std::shared_ptr<const SolidField> at(double t);
   // The same of a given set of solids, at their places of time t, wherever liquid with one of these phis gets
-  // to in a step; kept as long as it does not leave what is known.
+  // to in a step, and around solids that move; kept as long as that does not leave what is known.
   std::shared_ptr<const SolidField> around(const std::vector<const FloatGrid*>& phis, double t,
                                            const std::vector<std::size_t>& set);
 
@@ -119,6 +119,7 @@ class Solids {
   void addSpeeds(SolidField& field, const std::vector<Placed>& solids) const;
   // How deep in the solid a corner of the domain's cells lies; looks no further once it is `enough`.
   double deepestCorner(const Placed& solid, double enough) const;
+  Chunks movingChunks(const std::vector<Placed>& solids, const CoordBBox& box) const;
   SolidField fieldOf(const std::vector<Placed>& solids, Chunks chunks) const;
 
   Options m_options;

@@ -216,6 +216,7 @@ std::shared_ptr<const SolidField> Solver::solidsAround(double time, const FloatG
                                                        const FloatGrid* more) {
   std::vector<const FloatGrid*> phis = m_flows->places();
   phis.push_back(&phi);
+  if (m_state.owed != nullptr) phis.push_back(m_state.owed.get());
   if (more != nullptr) phis.push_back(more);
   return m_solids->around(phis, time, m_active);
 }
@@ -232,7 +233,7 @@ void Solver::applyEvents() {
   for (std::size_t n = 0; n < m_options.liquid.size(); ++n) {
     const LiquidBody& body = m_options.liquid[n];
     if (m_state.poured[n] || body.from > now) continue;
-    due.emplace_back(&body, ShapeDistance(body.shape, h, m_options.size));
+    due.emplace_back(&body, ShapeDistance(body.shape, h, domainBox(m_options)));
     unite(dueLiquid, due.back().second, domainCells(m_options));
     m_state.poured[n] = true;
   }

@@ -150,7 +150,9 @@ TriangleMesh meshDistance(const ShapeDistance& distance, const BBoxd& within, do
   auto grid = openvdb::FloatGrid::create(band);
   grid->setTransform(openvdb::math::Transform::createLinearTransform(h));
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
-  const Coord first = cellsIn(within, h).min(), cells = cellCount(within.extents(), h);
+  const BBoxd room = distance.boundsIn(within);
+  if (room.empty()) return {};
+  const Coord first = cellsIn(room, h).min(), cells = cellCount(room.extents(), h);
   const Coord n((cells[0] >> 3) + 3, (cells[1] >> 3) + 3, (cells[2] >> 3) + 3);
   const int count = n[0] * n[1] * n[2];
   const double radius = (0.5 * std::sqrt(3.0) * kLeafDim + 3.0) * h;
@@ -202,7 +204,7 @@ TriangleMesh meshDistance(const ShapeDistance& distance, const BBoxd& within, do
 TriangleMesh drawnGround(const HeightField& ground, const BBoxd& within, double h) {
   // As fine as the picture, but no more than the cells can tell.
   const double spacing = std::clamp(ground.pixel, 0.25 * h, h);
-  TriangleMesh mesh = groundMesh(ground, within.max(), spacing, 0.0, 0.0);
+  TriangleMesh mesh = groundMesh(ground, within, spacing, 0.0, 0.0);
   for (openvdb::Vec3f& x : mesh.positions) x.z() = std::clamp(x.z(), 0.0f, float(within.max().z()));
   return mesh;
 }
@@ -300,7 +302,7 @@ TriangleMesh triangulate(const Shape& shape, const BBoxd& within, double voxelSi
     return clipped(readMesh(*file), within, voxelSize);
   if (const auto* sequence = std::get_if<MeshSequence>(&shape.kind))
     return clipped(meshAt(*sequence, 0, 0.0), within, voxelSize);
-  return meshDistance(ShapeDistance(shape, voxelSize, within.max()), within, voxelSize);
+  return meshDistance(ShapeDistance(shape, voxelSize, within), within, voxelSize);
 }
 
 TriangleMesh triangulate(const Solid& solid, double t, const BBoxd& within, double voxelSize) {

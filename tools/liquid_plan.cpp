@@ -5,7 +5,7 @@
 #include "sim/mac_grid.h"
 #include "sim/shapes.h"
 
-#include <tbb/blocked_range3d.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
@@ -26,22 +26,35 @@ LiquidPlan sum(const LiquidPlan& a, const LiquidPlan& b) {
 
 class Counter {
  public:
-  explicit Counter(const sim::Options& options) : m_options(options), m_h(options.voxelSize()) {
+  explicit Counter(const sim::Options& options)
+      : m_options(options), m_h(options.voxelSize()), m_domain(sim::domainCells(options)) {
     for (const sim::LiquidBody& body : options.liquid) {
-      m_liquid.emplace_back(body.shape, m_h, options.size);
-      m_box.expand(sim::cellsIn(m_liquid.back().bounds(), m_h));
+      m_liquid.emplace_back(body.shape, m_h, sim::domainBox(options));
     }
-    m_box.intersect(sim::domainCells(options));
     for (const sim::Solid& solid : options.solids)
-      if (solid.from <= 0.0) m_solids.emplace_back(solid.shape, m_h, options.size);
+      if (solid.from <= 0.0) m_solids.emplace_back(solid.shape, m_h, sim::domainBox(options));
   }
 
-  // Of cells, around all liquid.
-  const openvdb::CoordBBox& box() const { return m_box; }
+  // The lowest cells of the largest blocks that may hold liquid.
+  std::vector<Coord> blocks() const {
+    std::vector<Coord> blocks;
+    for (const sim::ShapeDistance& liquid : m_liquid) {
+      openvdb::CoordBBox box = sim::cellsIn(liquid.boundsIn(sim::domainBox(m_options)), m_h);
+      box.intersect(m_domain);
+      if (box.empty()) continue;
+      const Coord first(box.min()[0] & -kBlock, box.min()[1] & -kBlock, box.min()[2] & -kBlock);
+      for (int i = first[0]; i <= box.max()[0]; i += kBlock)
+        for (int j = first[1]; j <= box.max()[1]; j += kBlock)
+          for (int k = first[2]; k <= box.max()[2]; k += kBlock) blocks.emplace_back(i, j, k);
+    }
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    return blocks;
+  }
 
   LiquidPlan count(const Coord& low, int size) const {
     openvdb::CoordBBox inside = openvdb::CoordBBox::createCube(low, size);
-    inside.intersect(m_box);
+    inside.intersect(m_domain);
     if (inside.empty()) return {};
     const auto cells = static_cast<std::int64_t>(inside.volume());
     const Vec3d center = m_h * (low.asVec3d() + Vec3d(0.5 * size));
@@ -77,7 +90,7 @@ class Counter {
 
   const sim::Options& m_options;
   double m_h;
-  openvdb::CoordBBox m_box;
+  openvdb::CoordBBox m_domain;
   std::vector<sim::ShapeDistance> m_liquid, m_solids;
 };
 
@@ -85,16 +98,12 @@ class Counter {
 
 LiquidPlan planLiquid(const sim::Options& options) {
   const Counter counter(options);
-  const openvdb::CoordBBox& box = counter.box();
-  if (box.empty()) return {};
-  const auto blocks = [&](int axis) { return (box.dim()[axis] + kBlock - 1) / kBlock; };
+  const std::vector<Coord> blocks = counter.blocks();
   return tbb::parallel_reduce(
-      tbb::blocked_range3d<int>(0, blocks(2), 0, blocks(1), 0, blocks(0)), LiquidPlan{},
-      [&](const tbb::blocked_range3d<int>& range, LiquidPlan plan) {
-        for (int k = range.pages().begin(); k != range.pages().end(); ++k)
-          for (int j = range.rows().begin(); j != range.rows().end(); ++j)
-            for (int i = range.cols().begin(); i != range.cols().end(); ++i)
-              plan = sum(plan, counter.count(box.min().offsetBy(i * kBlock, j * kBlock, k * kBlock), kBlock));
+      tbb::blocked_range<std::size_t>(0, blocks.size()), LiquidPlan{},
+      [&](const tbb::blocked_range<std::size_t>& range, LiquidPlan plan) {
+        for (std::size_t b = range.begin(); b != range.end(); ++b)
+          plan = sum(plan, counter.count(blocks[b], kBlock));
         return plan;
       },
       sum);

@@ -1,5 +1,6 @@
 #include "tools/orientation_guide.h"
 
+#include "sim/mac_grid.h"
 #include "texture/directions.h"
 #include "texture/parallel.h"
 #include "texture/read_grid.h"
@@ -61,7 +62,7 @@ OrientationGuide orientationGuide(const scenes::Scene& scene) {
   if (guide.options.align == Align::field)
     guide.field = texture::readGrid<openvdb::Vec3SGrid>(guide.options.field);
   for (const sim::Shape& shape : scene.keepClear)
-    guide.keepClear.emplace_back(shape, scene.sim.voxelSize(), scene.sim.size);
+    guide.keepClear.emplace_back(shape, scene.sim.voxelSize(), sim::domainBox(scene.sim));
   return guide;
 }
 

@@ -1,5 +1,6 @@
 #include "tools/texture_scale.h"
 
+#include "sim/mac_grid.h"
 #include "texture/read_grid.h"
 #include "tools/scalars.h"
 
@@ -26,7 +27,7 @@ TextureScale textureScale(const scenes::Scene& scene) {
     scale.field = texture::readGrid<openvdb::FloatGrid>(scale.options.field);
   if (scale.options.by == ScaleBy::distance) {
     for (const sim::Shape& shape : scene.scaleFrom)
-      scale.from.emplace_back(shape, scene.sim.voxelSize(), scene.sim.size);
+      scale.from.emplace_back(shape, scene.sim.voxelSize(), sim::domainBox(scene.sim));
   }
   return scale;
 }

@@ -1,5 +1,6 @@
 #include "tools/visible_solids.h"
 
+#include "sim/mac_grid.h"
 #include "sim/shapes.h"
 
 #include <algorithm>
@@ -9,12 +10,8 @@ namespace fluidtex::tools {
 namespace {
 
 // Where the solid is drawn: in [0, size], and on sides without an end all of it, if it has one.
-openvdb::BBoxd drawnBox(const sim::Options& options, const sim::Solid& solid, const sim::Pose& pose) {
-  openvdb::BBoxd box(sim::Vec3d(0.0), options.size);
-  if (std::find(options.sides.begin(), options.sides.end(), sim::Side::unbounded) == options.sides.end())
-    return box;
-  const sim::ShapeDistance shape(solid.shape, options.voxelSize(), options.size);
-  openvdb::BBoxd whole = sim::boundsAt(shape.bounds(), pose);
+openvdb::BBoxd drawnBox(const sim::Options& options, const openvdb::BBoxd& bounds, const sim::Pose& pose) {
+  openvdb::BBoxd box(sim::Vec3d(0.0), options.size), whole = sim::boundsAt(bounds, pose);
   whole.expand(options.voxelSize());
   for (int a = 0; a < 3; ++a) {
     if (!std::isfinite(whole.min()[a]) || !std::isfinite(whole.max()[a])) return box;
@@ -37,11 +34,16 @@ const std::vector<render::Solid>& VisibleSolids::at(double time) {
       visible.emplace_back(i, sim::poseAt(solid, time));
   }
   if (visible == m_visible) return m_solids;
+  if (m_bounds.empty()) {
+    for (const sim::Solid& solid : m_options.solids)
+      m_bounds.push_back(sim::ShapeDistance(solid.shape, m_options.voxelSize(), sim::domainBox(m_options))
+                             .boundsIn(sim::kEverywhere));
+  }
   m_solids.clear();
   for (const auto& [i, pose] : visible) {
     const sim::Solid& solid = m_options.solids[i];
     sim::TriangleMesh mesh =
-        sim::triangulate(solid, time, drawnBox(m_options, solid, pose), m_options.voxelSize());
+        sim::triangulate(solid, time, drawnBox(m_options, m_bounds[i], pose), m_options.voxelSize());
     m_solids.push_back({std::move(mesh.positions), std::move(mesh.triangles), solid.color});
   }
   m_visible = std::move(visible);

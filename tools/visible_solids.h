@@ -21,6 +21,7 @@ class VisibleSolids {
   const sim::Options& m_options;
   std::vector<std::pair<std::size_t, sim::Pose>> m_visible;  // numbers and places of the solids in m_solids
   std::vector<render::Solid> m_solids;
+  std::vector<openvdb::BBoxd> m_bounds;  // of all solids, before they are moved; made when first asked for
 };
 
 }  // namespace fluidtex::tools

@@ -62,7 +62,7 @@ TEST_CASE("height field: an even slope is a plane, and goes on beyond the domain
   // 2 x 1 m, rising from 0.1 m.
   const HeightField ground{file.path, 1.0 / 32.0, 0.0, 1.0, Vec3d(0.0, 0.0, 0.1)};
   const Vec3d size(2.0, 1.0, 1.0);
-  const ShapeDistance distance(Shape{ground}, 1.0 / 32.0, size);
+  const ShapeDistance distance(Shape{ground}, 1.0 / 32.0, openvdb::BBoxd(Vec3d(0.0), size));
   const double rise = 512.0 / 65535.0 * 32.0, across = 0.5 * rise;
   const auto height = [&](double x, double y) {
     return 0.1 + rise * (x - 1.0 / 64.0) + across * (y - 1.0 / 64.0);
@@ -84,6 +84,28 @@ TEST_CASE("height field: an even slope is a plane, and goes on beyond the domain
   CHECK(distance(Vec3d(-300.0, 0.5, height(0.0, 0.5) + 0.05)) > 0.03);
   CHECK(distance(Vec3d(300.0, 90.0, height(2.0, 1.0) - 0.05)) < -0.03);
   CHECK(distance(Vec3d(0.5, 0.5, -300.0)) < 0.0);
+}
+
+TEST_CASE("height field: a domain without sides has all of it, and its rim goes on", "[sim]") {
+  const TemporaryFile file(ramp());
+  // 2 x 1 m, from x = 0.5; the domain would end at x = 1.
+  const HeightField ground{file.path, 1.0 / 32.0, 0.0, 1.0, Vec3d(0.5, 0.0, 0.1)};
+  openvdb::BBoxd domain(Vec3d(0.0), Vec3d(1.0));
+  domain.min()[0] = -kForever;
+  domain.max()[0] = kForever;
+  const ShapeDistance distance(Shape{ground}, 1.0 / 32.0, domain);
+  const double rise = 512.0 / 65535.0 * 32.0;
+  const auto height = [&](double x, double y) {
+    return 0.1 + rise * (x - 0.5 - 1.0 / 64.0) + 0.5 * rise * (y - 1.0 / 64.0);
+  };
+  for (const double x : {0.8, 1.2, 1.9}) {
+    CHECK(distance(Vec3d(x, 0.5, height(x, 0.5) + 0.05)) > 0.03);
+    CHECK(distance(Vec3d(x, 0.5, height(x, 0.5) - 0.05)) < -0.03);
+  }
+  CHECK(distance(Vec3d(40.0, 0.5, height(2.48, 0.5) + 0.05)) > 0.03);
+  CHECK(distance(Vec3d(40.0, 0.5, height(2.48, 0.5) - 0.05)) < -0.03);
+  CHECK(distance(Vec3d(-40.0, 0.5, height(0.52, 0.5) + 0.05)) > 0.03);
+  CHECK(distance(Vec3d(-40.0, 0.5, height(0.52, 0.5) - 0.05)) < -0.03);
 }
 
 TEST_CASE("height field: is drawn closed, within the domain", "[sim]") {

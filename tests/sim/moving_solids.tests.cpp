@@ -103,3 +103,16 @@ TEST_CASE("solids: one too thin for the cells is told of, others are not") {
   CHECK_THAT(warnings[0], Catch::StartsWith("solid \"sheet\" is nowhere thicker than about"));
   CHECK_THAT(warnings[1], Catch::StartsWith("solid 2 is nowhere in the domain"));
 }
+
+TEST_CASE("moving solids: limit the steps also far from the liquid", "[sim]") {
+  Options options;
+  options.size = Vec3d(10.0, 1.0, 1.0);
+  options.resolution = 160;
+  options.liquid = {{Shape{Box{Vec3d(-1.0), Vec3d(0.5, 2.0, 0.3)}}, Vec3d(0.0), 0.0}};
+  options.solids = std::vector<Solid>(1);
+  options.solids[0].shape = {Sphere{Vec3d(9.0, 0.5, 0.5), 0.3}};
+  options.solids[0].keyframes = {{.time = 0.0}, {.time = 1.0, .move = Vec3d(-15.0, 0.0, 0.0)}};
+  Solver solver(options);
+  solver.next();
+  CHECK(solver.next().stats.dtMin <= 1.0 / 16.0 / 15.0 * (1.0 + 1e-6));
+}

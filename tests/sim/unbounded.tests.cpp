@@ -129,6 +129,42 @@ TEST_CASE("unbounded: what is known of solids follows the liquid and no more", "
   CHECK(second->openU->constTree().getValue(inPost) == 0.0f);
 }
 
+TEST_CASE("unbounded: floors are found where the domain goes on to them", "[sim]") {
+  Options options;
+  options.resolution = 16;
+  options.sides.fill(Side::unbounded);
+  options.solids = std::vector<Solid>(2);
+  options.solids[0].shape = {HalfSpace{Vec3d(0.0, 0.0, -3.0), Vec3d(0.0, 0.0, 1.0)}};
+  options.solids[1].shape = {Box{Vec3d(200.0, -9.0, -2.0), Vec3d(202.0, 9.0, 2.0)}};
+  CHECK(Solids(options).warnings().empty());
+  options.solids[1].shape = {Box{Vec3d(200.0, -9.0, -2.0), Vec3d(200.01, 9.0, 2.0)}};
+  CHECK(Solids(options).warnings().size() == 1);
+  options.sides[4] = Side::wall;
+  CHECK(Solids(options).warnings().size() == 2);
+}
+
+TEST_CASE("unbounded: goes on from a state as if it had not stopped", "[sim]") {
+  // Thick liquid that sticks to the floor on its way, with a rotor in it.
+  Options options = ballAt(Vec3d(0.5, 0.5, 0.25), Vec3d(-8.0, 0.0, 0.0), Side::unbounded);
+  options.sides[4] = Side::wall;
+  options.gravity = Vec3d(0.0, 0.0, -9.81);
+  options.viscosity = 4.0;
+  options.walls = {{DomainFace::zLow, {.kind = WallKind::friction, .slipLength = 0.1}}};
+  options.solids = std::vector<Solid>(1);
+  options.solids[0].shape = {Box{Vec3d(-9.0, 0.4, 0.1), Vec3d(1.0, 0.6, 0.2)}};
+  options.solids[0].pivot = Vec3d(-1.0, 0.5, 0.0);
+  options.solids[0].keyframes = {{.time = 0.0}, {.time = 1.0, .turn = 90.0}};
+  Solver whole(options);
+  for (int n = 0; n < 4; ++n) whole.next();
+  Solver restored(options, whole.state());
+  for (int n = 0; n < 3; ++n) {
+    const Frame a = whole.next(), b = restored.next();
+    CHECK(a.substeps.size() == b.substeps.size());
+  }
+  CHECK(holdsAll(*whole.state().phi, *restored.state().phi));
+  CHECK(holdsAll(*whole.state().u, *restored.state().u));
+}
+
 TEST_CASE("unbounded: liquid without an end is refused", "[sim]") {
   Options options;
   options.sides[1] = Side::unbounded;

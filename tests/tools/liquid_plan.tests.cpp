@@ -67,3 +67,15 @@ TEST_CASE("liquid plan: the finest grid is counted without visiting every cell",
   options.size = {1.0, 0.05, 0.5};
   CHECK(tools::planLiquid(options).cells == 2048LL * 102 * 512);
 }
+
+TEST_CASE("liquid plan: far apart in a domain without bounds", "[tools]") {
+  sim::Options options;
+  options.resolution = 32;
+  options.liquid.push_back({{sim::Box{{-0.5, 0.0, 0.0}, {0.5, 0.5, 0.5}}}});
+  options.liquid.push_back({{sim::Sphere{{-20000.0, 20000.0, 30000.0}, 0.25}}});
+  const std::int64_t bounded = tools::planLiquid(options).cells;
+  CHECK(bounded == 16 * 16 * 16);
+  options.sides.fill(sim::Side::unbounded);
+  const std::int64_t cells = tools::planLiquid(options).cells;
+  CHECK(std::abs(static_cast<double>(cells) - (2 * 16 * 16 * 16 + 2145)) < 40.0);
+}
