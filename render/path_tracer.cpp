@@ -261,7 +261,8 @@ void buildWorld(World& world, const texture::TexturedSurface& surface, const std
 
   Stage& stage = world.stage;
   stage.liquid = &surface;
-  if (options.bump.any() && hasMap(surface, options.bump)) stage.bumped = bumpedNormals(surface, options.bump);
+  if (options.bump.any() && hasMap(surface, options.bump))
+    stage.bumped = bumpedNormals(surface, options.bump);
   stage.colorBetween = view.colorBetween;
   stage.meshes = surroundingMeshes(options.surroundings, view.domainSize);
   for (const Solid& solid : solids)

@@ -55,8 +55,8 @@ void trimBand(FloatGrid& phi, const FloatGrid& solidPhi);
 // reinitialize and trimBand afterwards. All leaves that phi then has are active as a whole. distance: at
 // world positions; at least its sign and a lower bound of its magnitude are right.
 void unite(FloatGrid& phi, const std::function<double(const Vec3d&)>& distance, const CoordBBox& within);
-// The same wherever the shape is in the domain (see domainCells) and a leaf beyond. Throws std::invalid_argument where it has
-// no end.
+// The same wherever the shape is in the domain (see domainCells) and a leaf beyond. Throws
+// std::invalid_argument where it has no end.
 void unite(FloatGrid& phi, const ShapeDistance& shape, const CoordBBox& domain);
 
 // The textured surface: liquid with solids taken out, max(phi, -solidPhi), a distance `halfWidth` voxels
