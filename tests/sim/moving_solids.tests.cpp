@@ -105,12 +105,14 @@ TEST_CASE("solids: one too thin for the cells is told of, others are not") {
 }
 
 TEST_CASE("moving solids: limit the steps also far from the liquid", "[sim]") {
+  // In free space, where phi has no leaves but the liquid's.
   Options options;
-  options.size = Vec3d(10.0, 1.0, 1.0);
-  options.resolution = 160;
-  options.liquid = {{Shape{Box{Vec3d(-1.0), Vec3d(0.5, 2.0, 0.3)}}, Vec3d(0.0), 0.0}};
+  options.resolution = 16;
+  options.sides.fill(Side::unbounded);
+  options.gravity = Vec3d(0.0);
+  options.liquid = {{Shape{Sphere{Vec3d(0.5), 0.3}}, Vec3d(0.0), 0.0}};
   options.solids = std::vector<Solid>(1);
-  options.solids[0].shape = {Sphere{Vec3d(9.0, 0.5, 0.5), 0.3}};
+  options.solids[0].shape = {Sphere{Vec3d(20.0, 0.5, 0.5), 0.3}};
   options.solids[0].keyframes = {{.time = 0.0}, {.time = 1.0, .move = Vec3d(-15.0, 0.0, 0.0)}};
   Solver solver(options);
   solver.next();
