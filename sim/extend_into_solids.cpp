@@ -106,16 +106,18 @@ struct Extension {
       const Guess guess = ask(cell, nearest[axis], normal);
       const float weight = std::abs(way[axis]);
       weights += weight;
-      sum += weight * guess.value + way[axis] * h * guess.gradient[axis];
+      sum += weight * (guess.value - value[all[0]]) + way[axis] * h * guess.gradient[axis];
       carried += weight * guess.carried;
     }
     for (int n = 0; length == 0.0f && n < count; ++n) {
       const Guess guess = ask(cell, all[n], normal);
       weights += 1.0f;
-      sum += guess.value;
+      sum += guess.value - value[all[0]];
       carried += guess.carried;
     }
-    value[cell] = sum / weights;
+    // The mean of equal values is exactly theirs: what differs from the background by rounding would make
+    // leaves that hold nothing else, and those further ones along the edges between walls.
+    value[cell] = value[all[0]] + sum / weights;
     gradient[cell] = carried / weights;
     return true;
   }

@@ -143,6 +143,20 @@ TEST_CASE("unbounded: floors are found where the domain goes on to them", "[sim]
   CHECK(Solids(options).warnings().size() == 2);
 }
 
+TEST_CASE("unbounded: along the edge between two walls phi follows the liquid and no more", "[sim]") {
+  // A quarter of a ball that lies in the edge.
+  Options options = ballAt(Vec3d(0.5, 0.0, 0.0), Vec3d(0.0), Side::unbounded);
+  options.sides[2] = options.sides[4] = Side::wall;
+  Solver solver(options);
+  for (int n = 0; n < 12; ++n) solver.next();
+  openvdb::CoordBBox leaves;
+  REQUIRE(solver.state().phi->constTree().evalLeafBoundingBox(leaves));
+  CHECK(leaves.min().x() >= -8);
+  CHECK(leaves.max().x() < 24);
+  CHECK(leaves.max().y() < 16);
+  CHECK(leaves.max().z() < 16);
+}
+
 TEST_CASE("unbounded: goes on from a state as if it had not stopped", "[sim]") {
   // Thick liquid that sticks to the floor on its way, with a rotor in it.
   Options options = ballAt(Vec3d(0.5, 0.5, 0.25), Vec3d(-8.0, 0.0, 0.0), Side::unbounded);
