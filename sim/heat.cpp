@@ -161,7 +161,7 @@ bool conductHeat(FloatGrid& temperature, const FloatGrid& phi, const SolidField&
     const Accessor open[3] = {Accessor(solid.openU->constTree()), Accessor(solid.openV->constTree()),
                               Accessor(solid.openW->constTree())};
     for (int i = range.begin(); i < range.end(); ++i) {
-      const Coord& cell = system.numbering.cells()[i];
+      const Coord cell = system.numbering.cell(i);
       const double t = before.getValue(cell);
       x[i] = t;
       double normal[3], length = 0.0;
@@ -201,7 +201,7 @@ bool conductHeat(FloatGrid& temperature, const FloatGrid& phi, const SolidField&
   constexpr int kMaxIterations = 200;
   if (!solvePoisson(system, {}, std::move(b), x, kTolerance, kMaxIterations).converged) return false;
   FloatGrid::Accessor write = temperature.getAccessor();
-  for (int i = 0; i < n; ++i) write.setValueOnly(system.numbering.cells()[i], static_cast<float>(x[i]));
+  for (int i = 0; i < n; ++i) write.setValueOnly(system.numbering.cell(i), static_cast<float>(x[i]));
   return true;
 }
 

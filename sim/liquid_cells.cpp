@@ -172,7 +172,7 @@ LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
   gatherSides(sidesIn, liquid);
   if (std::find(solid.sides.begin(), solid.sides.end(), Side::open) != solid.sides.end()) {
     for (int i = 0; i < liquid.numbering.size(); ++i) {
-      const Coord& place = liquid.numbering.cells()[i];
+      const Coord place = liquid.numbering.cell(i);
       for (int s = 0; s < kSides; ++s) {
         if (liquid.sidesOf(i).open[s] <= 0.0f || !endsAt(Side::open, solid, place, s)) continue;
         const double along = velocity[s >> 1]->getValue(s & 1 ? neighborOf(place, s) : place);

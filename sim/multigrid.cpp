@@ -183,35 +183,36 @@ std::unique_ptr<Multigrid::Level> Multigrid::coarsen(const Level& fine, int dept
 
 void Multigrid::connect(Level& fine, const Level& coarse, int depth) {
   const int none = coarse.numbering->size();
-  const auto& cells = fine.numbering->cells();
   const float weak = kWeakLink * std::ldexp(1.0f, depth);
   fine.interpolation.resize(fine.numbering->redCount());
   forEach(0, fine.numbering->redCount(), [&](int f) {
-    const Coord cell = cells[f];
+    const Coord cell = fine.numbering->cell(f);
     Interpolation& to = fine.interpolation[f];
-    to.coarse = {coarse.numbering->at(cell >> 1), none, none, none};
-    to.own = 0.25f;
+    const int parent = coarse.numbering->at(cell >> 1);
+    int quarters = 1;
+    to.others.fill(none);
     for (int axis = 0; axis < 3; ++axis) {
       const int s = outwardSide(cell, axis);
       if (fine.rows->link[f][s] > weak) {
-        to.coarse[axis + 1] = coarse.ownRows.neighbor[to.coarse[0]][s];
+        to.others[axis] = coarse.ownRows.neighbor[parent][s];
       } else if (((*fine.anchoredSides)[f] >> s & 1) == 0) {
-        to.own += 0.25f;  // a wall, or nearly: no change across it
-      }                   // else the surface, where the value is 0
+        ++quarters;  // a wall, or nearly: no change across it
+      }              // else the surface, where the value is 0
     }
+    to.own = Share(parent, quarters);
   });
 
   // The same weights, listed for each coarse cell: from its red children, and from red cells beside it.
   const auto forEntries = [&](int c, const auto& body) {
-    const Coord first = coarse.numbering->cells()[c] << 1;
+    const Coord first = coarse.numbering->cell(c) << 1;
     for (const auto& [i, j, k, axis] : kRedGivers) {
       const int f = fine.numbering->at(first.offsetBy(i, j, k));
       if (f < 0) continue;
       const Interpolation& from = fine.interpolation[f];
       if (axis < 0) {
-        body(f, from.own);
-      } else if (from.coarse[axis + 1] == c) {
-        body(f, 0.25f);
+        body(f, from.own.quarters());
+      } else if (from.others[axis] == c) {
+        body(f, 1);
       }
     }
   };
@@ -219,10 +220,10 @@ void Multigrid::connect(Level& fine, const Level& coarse, int depth) {
   fine.entries.resize(groups);
   fine.entryEnd.resize(none);
   tbb::parallel_for(0, groups, [&](int group) {
-    thread_local std::vector<Entry> entries;
+    thread_local std::vector<Share> entries;
     entries.clear();
     for (int c = group * kGroup; c < std::min(none, (group + 1) * kGroup); ++c) {
-      forEntries(c, [&](int f, float weight) { entries.push_back({f, weight}); });
+      forEntries(c, [&](int f, int quarters) { entries.emplace_back(f, quarters); });
       fine.entryEnd[c] = static_cast<int>(entries.size());
     }
     fine.entries[group] = entries;
@@ -284,17 +285,17 @@ void Multigrid::cycle(std::size_t depth, const std::vector<float>& b, std::vecto
   forSums(0, red, [&](int i, float sum) { level.residual[i] = sum; });
   forEach(0, coarse.numbering->size(), [&](int c) {
     float value = 0.0f;
-    const Entry* entries = level.entries[c / kGroup].data();
-    for (int e = c % kGroup == 0 ? 0 : level.entryEnd[c - 1]; e < level.entryEnd[c]; ++e) {
-      value += entries[e].weight * level.residual[entries[e].fine];
-    }
+    const Share* entries = level.entries[c / kGroup].data();
+    for (int e = c % kGroup == 0 ? 0 : level.entryEnd[c - 1]; e < level.entryEnd[c]; ++e)
+      value += entries[e].weight() * level.residual[entries[e].cell()];
     coarse.b[c] = value;
   });
   cycle(depth + 1, coarse.b, coarse.x);
   // The sweep back starts with the black cells, from red values alone: only those need the correction.
   forEach(0, red, [&](int i) {
-    const auto& [from, own] = level.interpolation[i];
-    x[i] += own * coarse.x[from[0]] + 0.25f * (coarse.x[from[1]] + coarse.x[from[2]] + coarse.x[from[3]]);
+    const auto& [own, others] = level.interpolation[i];
+    x[i] += own.weight() * coarse.x[own.cell()] +
+            0.25f * (coarse.x[others[0]] + coarse.x[others[1]] + coarse.x[others[2]]);
   });
   relax(red, n);
   relax(0, red);

@@ -3,6 +3,8 @@
 
 #include "sim/poisson.h"
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -18,15 +20,23 @@ class Multigrid {
   void apply(const std::vector<float>& b, std::vector<float>& x);
 
  private:
-  // From this level's red cells to the next coarser level: weight `own` for the cell's own parent and 1/4 for
+  // A cell, one of the first 2^30, and how many quarters of its value count, 1 to 4.
+  class Share {
+   public:
+    Share() = default;
+    Share(int cell, int quarters) : m_packed(static_cast<std::uint32_t>(cell) << 2 | (quarters - 1)) {}
+    int cell() const { return static_cast<int>(m_packed >> 2); }
+    int quarters() const { return static_cast<int>(m_packed & 3) + 1; }
+    float weight() const { return 0.25f * static_cast<float>(quarters()); }
+
+   private:
+    std::uint32_t m_packed = 0;
+  };
+  // From this level's red cells to the next coarser level: what the cell's own parent counts, and 1/4 for
   // each of three neighbours of the parent (the coarse level's size where there is none).
   struct Interpolation {
-    std::array<int, 4> coarse;
-    float own;
-  };
-  struct Entry {
-    int fine;
-    float weight;
+    Share own;
+    std::array<int, 3> others;
   };
   struct Level {
     CellNumbering ownNumbering;
@@ -43,7 +53,7 @@ class Multigrid {
     std::vector<Interpolation> interpolation;  // of red cells
     // The transpose, for the cells of the next coarser level: in groups of successive cells, and where those
     // of a cell end in its group.
-    std::vector<std::vector<Entry>> entries;
+    std::vector<std::vector<Share>> entries;
     std::vector<int> entryEnd;
     std::vector<float> b, x, residual;  // b, x unused on the finest level
   };

@@ -87,7 +87,7 @@ CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks) {
   for (int b = 0; b < count; ++b) {
     firstBlack[b] += m_red - static_cast<int>((blocks[b].cells & ~red).count());
   }
-  lists.cells.resize(size);
+  lists.places.resize(size);
   tbb::parallel_for(Range(0, count), [&](const Range& range) {
     for (int b = range.begin(); b < range.end(); ++b) {
       int nextRed = firstRed[b], nextBlack = firstBlack[b];
@@ -95,7 +95,7 @@ CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks) {
         if (!blocks[b].cells[c]) continue;
         const int number = red[c] ? nextRed++ : nextBlack++;
         lists.numbers[b * 512 + c] = number;
-        lists.cells[number] = blocks[b].origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
+        lists.places[number] = b * 512 + c;
       }
     }
   });

@@ -35,9 +35,12 @@ class CellNumbering {
   CellNumbering() = default;
   explicit CellNumbering(const std::vector<CellBlock>& blocks);
 
-  int size() const { return static_cast<int>(m_lists->cells.size()); }
+  int size() const { return static_cast<int>(m_lists->places.size()); }
   int redCount() const { return m_red; }
-  const std::vector<Coord>& cells() const { return m_lists->cells; }
+  Coord cell(int number) const {
+    const int place = m_lists->places[number], c = place & 511;
+    return m_lists->origins[place >> 9].offsetBy(c >> 6, (c >> 3) & 7, c & 7);
+  }
   const std::vector<Coord>& origins() const { return m_lists->origins; }  // of the blocks, as they were given
 
   // The numbers of a block's 512 cells (-1: not one of them), or null where the block has none.
@@ -77,7 +80,8 @@ class CellNumbering {
   }
 
   struct Lists {
-    std::vector<Coord> cells, origins;
+    std::vector<Coord> origins;
+    std::vector<int> places;             // of the cells: 512 times the block's, and which of its 512
     std::vector<Table> tables{Table{}};  // a power of two, never full
     std::vector<int> blockStart;         // into numbers; -1: no cells
     std::vector<int> numbers;

@@ -82,7 +82,7 @@ void takeOut(const LiquidCells& liquid, const SurfacePressure& surface, const st
 double projectedOutflow(const LiquidCells& liquid, const SurfacePressure& surface,
                         const std::vector<double>& q, int number) {
   const LiquidSides& cell = liquid.sidesOf(number);
-  const Coord& place = liquid.numbering.cells()[number];
+  const Coord place = liquid.numbering.cell(number);
   double outflow = liquid.outflow[number];
   for (int s = 0; s < kSides; ++s) {
     if (cell.open[s] <= 0.0f) continue;
@@ -186,7 +186,7 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
           // A nozzle: all that enters a cell whose surface is there would leave by it, as fast as it has to.
           // The liquid beside it knows better how fast it flows; over an edge, only the pressure does.
           if (cell.theta[side] > 0.0f && cell.open[side] < kLeastOpen &&
-              !endsAt(Side::open, solid, liquid.numbering.cells()[upper >= 0 ? upper : lower], side))
+              !endsAt(Side::open, solid, liquid.numbering.cell(upper >= 0 ? upper : lower), side))
             continue;
           const double step = (upper < 0 ? surface.at(lower, side) : q[upper]) -
                               (lower < 0 ? surface.at(upper, side) : q[lower]);
@@ -203,7 +203,7 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
         const double push = solidSpeed == nullptr ? 0.0 : solidSpeed->constTree().getValue(place);
         double away = 0.0;
         const int wall = 2 * axis + (solidBelow ? 0 : 1);
-        if (detached[wet] && !endsAt(Side::symmetry, solid, liquid.numbering.cells()[wet], wall)) {
+        if (detached[wet] && !endsAt(Side::symmetry, solid, liquid.numbering.cell(wet), wall)) {
           // What the cell loses through its open faces comes off its walls, so that there is no divergence
           // there either; from each in proportion to the speed at which the liquid was about to leave it.
           const auto& [open, theta, closed, leaving] = liquid.sidesOf(wet);
@@ -321,14 +321,14 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   result.separating = MaskGrid::create();
   result.separating->setTransform(cellTransform(solid.voxelSize));
   for (int i = 0; i < n; ++i) {
-    if (detached[i]) result.separating->tree().setValueOn(liquid.numbering.cells()[i]);
+    if (detached[i]) result.separating->tree().setValueOn(liquid.numbering.cell(i));
   }
   if (options.keepPressure) {
     result.pressure = openvdb::DoubleGrid::create(0.0);
     result.pressure->setTransform(cellTransform(solid.voxelSize));
     result.pressure->setName("pressure");
     openvdb::DoubleGrid::Accessor pressure = result.pressure->getAccessor();
-    for (int i = 0; i < n; ++i) pressure.setValue(liquid.numbering.cells()[i], q[i] * pascal);
+    for (int i = 0; i < n; ++i) pressure.setValue(liquid.numbering.cell(i), q[i] * pascal);
   }
   return result;
 }

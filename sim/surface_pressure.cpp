@@ -23,7 +23,7 @@ SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi
     : m_row(liquid.numbering.size(), -1) {
   std::vector<int> cells;
   for (int i = 0; i < static_cast<int>(m_row.size()); ++i) {
-    const Coord& place = liquid.numbering.cells()[i];
+    const Coord place = liquid.numbering.cell(i);
     bool any = false;
     for (int s = 0; s < kSides; ++s) any = any || meetsAir(solid, liquid.sidesOf(i), place, s);
     if (!any) continue;
@@ -36,7 +36,7 @@ SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi
     const openvdb::tree::ValueAccessor<const FloatTree> bend(curvature->constTree());
     for (int n = range.begin(); n < range.end(); ++n) {
       const LiquidSides& cell = liquid.sidesOf(cells[n]);
-      const Coord& place = liquid.numbering.cells()[cells[n]];
+      const Coord place = liquid.numbering.cell(cells[n]);
       for (int s = 0; s < kSides; ++s) {
         if (!meetsAir(solid, cell, place, s)) continue;
         m_value[n][s] = scale * curvatureBetween(bend, place, neighborOf(place, s), cell.theta[s]);

@@ -11,8 +11,8 @@ Solved solveOpenvdb(const PoissonProblem& problem) {
   openvdb::initialize();
   openvdb::DoubleTree source(0.0);
   openvdb::tree::ValueAccessor<openvdb::DoubleTree> accessor(source);
-  const auto& cells = problem.system.numbering.cells();
-  for (std::size_t i = 0; i < cells.size(); ++i) accessor.setValue(cells[i], -problem.b[i]);
+  const sim::CellNumbering& numbering = problem.system.numbering;
+  for (int i = 0; i < numbering.size(); ++i) accessor.setValue(numbering.cell(i), -problem.b[i]);
   // The diagonal starts from 0: 1 for pressure 0 above, nothing at walls.
   const int top = problem.box[2];
   const auto boundary = [top](const openvdb::Coord&, const openvdb::Coord& beyond, double&,
@@ -34,8 +34,8 @@ Solved solveOpenvdb(const PoissonProblem& problem) {
   solved.solve = processorSeconds() - start;  // with the set-up
   solved.iterations = state.iterations;
   if (!state.success) solved.failed = "OpenVDB's solver did not converge";
-  solved.x.resize(cells.size());
-  for (std::size_t i = 0; i < cells.size(); ++i) solved.x[i] = x->getValue(cells[i]);
+  solved.x.resize(problem.b.size());
+  for (int i = 0; i < numbering.size(); ++i) solved.x[i] = x->getValue(numbering.cell(i));
   return solved;
 }
 

@@ -34,7 +34,7 @@ PoissonProblem boxProblem(int n) {
   system.anchor.assign(size, 0.0);
   system.anchoredSides.assign(size, 0);
   for (int i = 0; i < size; ++i) {
-    const Coord& cell = system.numbering.cells()[i];
+    const Coord cell = system.numbering.cell(i);
     for (int s = 0; s < sim::kSides; ++s) {
       const int neighbor = system.numbering.at(sim::neighborOf(cell, s));
       system.rows.neighbor[i][s] = neighbor < 0 ? size : neighbor;
@@ -75,8 +75,8 @@ PoissonProblem damBreakProblem(int resolution, int frames) {
 std::vector<int> naturalOrder(const sim::PoissonSystem& system) {
   std::vector<int> order(std::size_t(system.numbering.size()));
   std::iota(order.begin(), order.end(), 0);
-  const auto& cells = system.numbering.cells();
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return cells[a] < cells[b]; });
+  const sim::CellNumbering& numbering = system.numbering;
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return numbering.cell(a) < numbering.cell(b); });
   return order;
 }
 
