@@ -36,20 +36,27 @@ Liquid liquidOf(const State& state, FloatGrid::Ptr phi, Markers markers) {
           {{state.su, state.sv, state.sw}}};
 }
 
-// A state's liquid, lent: the state has no markers meanwhile, which are too many to keep twice. They go back
-// in the end unless it gets others.
+// A state's liquid, lent: the state has no markers and no acceleration meanwhile, which are too much to keep
+// twice. What a step leaves of them goes back in the end unless it gets others.
 class LentLiquid {
  public:
   explicit LentLiquid(State& state)
-      : m_state(state), m_liquid(liquidOf(state, state.phi, std::move(state.markers))) {}
+      : m_state(state), m_liquid(liquidOf(state, state.phi, std::move(state.markers))) {
+    state.au = state.av = state.aw = nullptr;
+  }
   ~LentLiquid() {
-    if (m_lent) m_state.markers = std::move(m_liquid.markers);
+    if (!m_lent) return;
+    m_state.markers = std::move(m_liquid.markers);
+    const auto& [au, av, aw] = m_liquid.acceleration.component;
+    m_state.au = au;
+    m_state.av = av;
+    m_state.aw = aw;
   }
   LentLiquid(const LentLiquid&) = delete;
   LentLiquid& operator=(const LentLiquid&) = delete;
 
   Liquid& operator*() { return m_liquid; }
-  // Lets go of the markers.
+  // Nothing goes back.
   void drop() {
     m_liquid.markers = {};
     m_lent = false;

@@ -254,6 +254,7 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
   }
   next.velocity = velocityFor(*next.phi, solid);
   carryVelocity(liquid, next, dt);
+  liquid.acceleration = {};
   addGravity(next.velocity, options.gravity * kick);
   const SolidField around = withFlows(solid, flows, *next.phi, liquid.velocity, options.gravity, dt);
   StepReport solves;

@@ -53,12 +53,12 @@ struct StepReport {
   bool heatConverged = true;
 };
 
-// The liquid dt seconds later; the markers of `liquid` are used up, also where nothing comes of it (there are
-// too many to keep them twice): give it others before another try. `solid` and `flows` are those of that
-// time, `before` is the solid until then. The velocity moves phi, so it should be that of the middle of the
-// step (leapfrog, second order in time): gravity takes the new one to the middle of the step after, of nextDt
-// seconds. Nothing when a solve does not converge or a velocity is not finite: try a smaller dt. `report`,
-// where given, is filled either way.
+// The liquid dt seconds later; the markers and the acceleration of `liquid` are used up, also where nothing
+// comes of it (they are too much to keep twice): give it other markers before another try, which is of first
+// order in time. `solid` and `flows` are those of that time, `before` is the solid until then. The velocity
+// moves phi, so it should be that of the middle of the step (leapfrog, second order in time): gravity takes
+// the new one to the middle of the step after, of nextDt seconds. Nothing when a solve does not converge or a
+// velocity is not finite: try a smaller dt. `report`, where given, is filled either way.
 std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const SolidField& solid, double dt,
                            double nextDt, const Options& options, StepReport* report = nullptr,
                            const RunningFlows& flows = {});
