@@ -45,6 +45,11 @@ using LetGo = std::function<bool(const Coord&)>;
 // is there is kept, and none begins.
 void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo = {});
 
+// The same for solids and sides of the domain: beyond sides of symmetry phi is its own mirror image.
+void extendBeyond(FloatGrid& phi, const SolidField& solid, const LetGo& letGo = {});
+// reinitialize, for which sides of symmetry are no solids; the liquid goes on beyond them.
+void redistance(FloatGrid& phi, const SolidField& solid, int iterations);
+
 // Takes solids out of the liquid, phi = max(phi, -solidPhi), in the cells active in `where`.
 void cutSolids(FloatGrid& phi, const FloatGrid& solidPhi, const MaskGrid& where);
 

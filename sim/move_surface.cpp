@@ -12,18 +12,18 @@ constexpr int kReinitIterations = 8;
 
 }  // namespace
 
-void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const FloatGrid& solidPhi,
+void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const SolidField& solid,
                  double dt, std::uint64_t seed, const RunningFlows& flows) {
   markers = advectMarkers(std::move(markers), velocity, dt);
-  advectPhi(phi, velocity, solidPhi, dt);
+  advectPhi(phi, velocity, *solid.phi, dt);
   correctPhi(phi, markers);
   applyFlows(phi, markers, flows);
-  extendIntoSolids(phi, solidPhi);
-  reinitialize(phi, solidPhi, kReinitIterations);
+  extendBeyond(phi, solid);
+  redistance(phi, solid, kReinitIterations);
   correctPhi(phi, markers);
   applyFlows(phi, markers, flows);
-  maintainMarkers(markers, phi, solidPhi, seed);
-  trimBand(phi, solidPhi);
+  maintainMarkers(markers, phi, *solid.phi, seed);
+  trimBand(phi, *solid.phi);
 }
 
 }  // namespace fluidtex::sim

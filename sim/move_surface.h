@@ -4,6 +4,7 @@
 #include "sim/flows.h"
 #include "sim/mac_grid.h"
 #include "sim/markers.h"
+#include "sim/solids.h"
 
 #include <cstdint>
 
@@ -14,7 +15,7 @@ namespace fluidtex::sim {
 // reinitialisation, and upkeep of the markers. dt max|u| / h must be below kMaxTrace; the velocity must reach
 // that far beyond the band, into solids too. `seed` must differ from call to call. The sequence is that of
 // Enright et al. 2002, section 3.
-void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const FloatGrid& solidPhi,
+void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const SolidField& solid,
                  double dt, std::uint64_t seed, const RunningFlows& flows = {});
 
 }  // namespace fluidtex::sim

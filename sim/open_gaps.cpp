@@ -61,7 +61,7 @@ void openGaps(FloatGrid& phi, const Velocity& velocity, const SolidField& solid,
     openvdb::tools::dilateActiveValues(around.tree(), 3, openvdb::tools::NN_FACE);
     for (auto leaf = around.constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
   }
-  extendIntoSolids(phi, *solid.phi, [&](const Coord& ijk) {
+  extendBeyond(phi, solid, [&](const Coord& ijk) {
     return phi.constTree().getValue(ijk) < 0.0f ? separating.constTree().isValueOn(ijk)
                                                 : leavesSolid(phi, velocity, solid, ijk, kick);
   });

@@ -210,11 +210,12 @@ std::array<FloatGrid::Ptr, 3> openFaces(const SolidDistance& distance, const Coo
 }  // namespace
 
 SolidField makeSolidField(const SolidDistance& distance, const SolidDistance& openDistance,
-                          const CoordBBox& domain, Chunks chunks, double h) {
+                          const SolidDistance& mirrored, const CoordBBox& domain, Chunks chunks, double h) {
   SolidField field;
   field.voxelSize = h;
   field.domain = domain;
   field.phi = cellDistances(distance, domain, chunks, h);
+  field.phiMirrored = mirrored ? cellDistances(mirrored, domain, chunks, h) : field.phi;
   const auto& [u, v, w] = openFaces(openDistance, domain, chunks, h);
   field.openU = u;
   field.openV = v;

@@ -18,8 +18,9 @@ using SolidDistance = std::function<double(const Vec3d&)>;
 inline constexpr int kSolidMargin = 8;
 
 // Distances at cells and open shares of faces, in these chunks. `distance`: to solids and all sides of the
-// domain; `openDistance`: to solids and those sides only that are walls.
+// domain; `openDistance`: to solids and those sides only that are closed; `mirrored`: for
+// SolidField::phiMirrored, empty where no side is one of symmetry.
 SolidField makeSolidField(const SolidDistance& distance, const SolidDistance& openDistance,
-                          const CoordBBox& domain, Chunks chunks, double h);
+                          const SolidDistance& mirrored, const CoordBBox& domain, Chunks chunks, double h);
 
 }  // namespace fluidtex::sim

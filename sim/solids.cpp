@@ -35,6 +35,14 @@ CoordBBox cornersOf(const Coord& cells, const CoordBBox& domain, const CoordBBox
   return corners;
 }
 
+bool everySide(Side) {
+  return true;
+}
+
+bool isNoMirror(Side side) {
+  return side != Side::symmetry;
+}
+
 }  // namespace
 
 SolidField atRest(const SolidField& solid) {
@@ -167,15 +175,26 @@ double Solids::distanceTo(const Placed& solid, const Vec3d& x) const {
   return solid.shape(solid.pose.toBody(x));
 }
 
-double Solids::sideDistance(const Vec3d& x, bool all) const {
+double Solids::lastFace(int axis) const {
   const double h = m_options.voxelSize();
-  const Coord cells = cellCount(m_options.size, h);
+  return cellCount(m_options.size, h)[axis] * h;
+}
+
+Vec3d Solids::mirrored(Vec3d x) const {
+  for (int a = 0; a < 3; ++a) {
+    if (m_options.sides[2 * a] == Side::symmetry) x[a] = std::abs(x[a]);
+    if (m_options.sides[2 * a + 1] == Side::symmetry) x[a] = std::min(x[a], 2.0 * lastFace(a) - x[a]);
+  }
+  return x;
+}
+
+double Solids::sideDistance(const Vec3d& x, SideSet counts) const {
   double distance = kForever, outside = 0.0;
   for (int side = 0; side < 6; ++side) {
-    if (m_options.sides[side] == Side::unbounded || (!isClosed(m_options.sides[side]) && !all)) continue;
+    if (m_options.sides[side] == Side::unbounded || !counts(m_options.sides[side])) continue;
     const int a = side / 2;
     // A side that is no wall lies in the plane of faces.
-    const double high = m_options.sides[side] == Side::wall ? m_options.size[a] : cells[a] * h;
+    const double high = m_options.sides[side] == Side::wall ? m_options.size[a] : lastFace(a);
     const double d = side % 2 == 0 ? x[a] : high - x[a];
     distance = std::min(distance, d);
     if (d < 0.0) outside += d * d;
@@ -184,8 +203,8 @@ double Solids::sideDistance(const Vec3d& x, bool all) const {
   return outside > 0.0 ? -std::sqrt(outside) : distance;
 }
 
-double Solids::distanceTo(const std::vector<Placed>& solids, const Vec3d& x, bool all) const {
-  double distance = sideDistance(x, all);
+double Solids::distanceTo(const std::vector<Placed>& solids, const Vec3d& x, SideSet counts) const {
+  double distance = sideDistance(x, counts);
   for (const Placed& solid : solids) distance = std::min(distance, distanceTo(solid, x));
   return distance;
 }
@@ -209,7 +228,7 @@ const Wall& Solids::nearestWall(const std::vector<Placed>& solids, const Vec3d& 
 }
 
 double Solids::distance(const Vec3d& x, double t) const {
-  return distanceTo(placed(t, active(t)), x, true);
+  return distanceTo(placed(t, active(t)), x, everySide);
 }
 
 // At a place so far from the solid. change: how its shape changes, null where it does not.
@@ -254,7 +273,7 @@ void Solids::addSpeeds(SolidField& field, const std::vector<Placed>& solids) con
     tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
       for (int c = 0; c < kLeafSize; ++c) {
         const Vec3d x = grid->indexToWorld(leaves[n]->offsetToGlobalCoord(c));
-        double nearest = sideDistance(x, true);
+        double nearest = sideDistance(x, everySide);
         std::size_t by = solids.size();
         for (std::size_t i = 0; i < solids.size(); ++i) {
           const double d = distanceTo(solids[i], x);
@@ -274,10 +293,14 @@ void Solids::addSpeeds(SolidField& field, const std::vector<Placed>& solids) con
 }
 
 SolidField Solids::fieldOf(const std::vector<Placed>& solids, Chunks chunks) const {
-  const auto distance = [&](const Vec3d& x) { return distanceTo(solids, x, true); };
-  const auto openDistance = [&](const Vec3d& x) { return distanceTo(solids, x, false); };
+  const auto distance = [&](const Vec3d& x) { return distanceTo(solids, x, everySide); };
+  const auto openDistance = [&](const Vec3d& x) { return distanceTo(solids, x, isClosed); };
+  const auto mirroredDistance = [&](const Vec3d& x) { return distanceTo(solids, mirrored(x), isNoMirror); };
+  const bool mirrors =
+      std::find(m_options.sides.begin(), m_options.sides.end(), Side::symmetry) != m_options.sides.end();
   SolidField field =
-      makeSolidField(distance, openDistance, m_domain, std::move(chunks), m_options.voxelSize());
+      makeSolidField(distance, openDistance, mirrors ? SolidDistance(mirroredDistance) : SolidDistance(),
+                     m_domain, std::move(chunks), m_options.voxelSize());
   field.sides = m_options.sides;
   if (std::any_of(solids.begin(), solids.end(), [](const Placed& solid) { return solid.pose.moving(); }))
     addSpeeds(field, solids);

@@ -42,6 +42,9 @@ struct SolidField {
   // voxels of a boundary, elsewhere the inactive values +-3 h. Right up to 8 cells outside the domain;
   // beyond, background.
   FloatGrid::Ptr phi;
+  // The same of all but the sides of symmetry, beyond which it is its own mirror image; phi itself where
+  // there are none.
+  FloatGrid::Ptr phiMirrored;
   // Open share of each face's area, 0 (closed) to 1; the index of a face as in Substep: (i,j,k) of openU is
   // the lower x face of cell (i,j,k). Background 0; tiles of 1 where all is open; every face that is not
   // closed is active.
@@ -111,9 +114,14 @@ class Solids {
   Placed placed(std::size_t index, double t) const;
   std::vector<Placed> placed(double t, const std::vector<std::size_t>& set) const;
   double distanceTo(const Placed& solid, const Vec3d& x) const;
-  // To the sides of the domain; `all`: those that are no walls too.
-  double sideDistance(const Vec3d& x, bool all) const;
-  double distanceTo(const std::vector<Placed>& solids, const Vec3d& x, bool all) const;
+  // Which sides of the domain count; unbounded ones never do.
+  using SideSet = bool (*)(Side);
+  double sideDistance(const Vec3d& x, SideSet counts) const;
+  double distanceTo(const std::vector<Placed>& solids, const Vec3d& x, SideSet counts) const;
+  // Where the last face of the domain lies along an axis, seen from a side that is no wall.
+  double lastFace(int axis) const;
+  // Its mirror image where x lies beyond a side of symmetry.
+  Vec3d mirrored(Vec3d x) const;
   const Wall& nearestWall(const std::vector<Placed>& solids, const Vec3d& x) const;
   Vec3d velocityOf(const Placed& solid, const SurfaceVelocity* change, const Vec3d& x, double distance) const;
   void addSpeeds(SolidField& field, const std::vector<Placed>& solids) const;

@@ -247,8 +247,7 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
   liquid.markers = {};
   {
     const Velocity moving = movingVelocity(liquid);
-    moveSurface(*next.phi, next.markers, moving, *solid.phi, dt, static_cast<std::uint64_t>(next.steps),
-                flows);
+    moveSurface(*next.phi, next.markers, moving, solid, dt, static_cast<std::uint64_t>(next.steps), flows);
     dropBeyond(next.markers, solid);
     next.owed = owedVolume(*liquid.phi, *next.phi, liquid.owed.get(), moving, before, solid, flows, dt);
   }
@@ -336,10 +335,10 @@ void settleSurface(FloatGrid& phi, const SolidField& solid) {
       static_cast<int>(phi.background() / (phi.voxelSize()[0] * kReinitReach * kIterations)) + 2;
   const LetGo never = [](const Coord&) { return false; };
   for (int n = 0; n < rounds; ++n) {
-    extendIntoSolids(phi, *solid.phi, never);
-    reinitialize(phi, *solid.phi, kIterations);
+    extendBeyond(phi, solid, never);
+    redistance(phi, solid, kIterations);
   }
-  extendIntoSolids(phi, *solid.phi, never);
+  extendBeyond(phi, solid, never);
   trimBand(phi, *solid.phi);
 }
 

@@ -185,7 +185,9 @@ TEST_CASE("markers: keep a thin sheet through a vortex and back, where the grid 
         return c * Vec3d(-sx * sx * std::sin(2 * kPi * x.y()), sy * sy * std::sin(2 * kPi * x.x()), 0.0);
       });
       if (withMarkers) {
-        moveSurface(*phi, markers, velocity, *noWalls, dt, std::uint64_t(n));
+        SolidField solid;
+        solid.phi = solid.phiMirrored = noWalls;
+        moveSurface(*phi, markers, velocity, solid, dt, std::uint64_t(n));
         continue;
       }
       advectPhi(*phi, velocity, *noWalls, dt);

@@ -1,62 +1,74 @@
-#include "sim/solver.h"
+#include "sim/level_set.h"
+#include "sim/solids.h"
 
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 using namespace fluidtex::sim;
 
 namespace {
 
-// A block of water in the middle of a tank of 1 x 0.5 x 0.5 m, or the half of both that lies at low x.
-Options collapse(bool lowHalf) {
-  Options options;
-  options.size = Vec3d(lowHalf ? 0.5 : 1.0, 0.5, 0.5);
-  options.resolution = lowHalf ? 16 : 32;
-  if (lowHalf) options.sides[1] = Side::symmetry;
-  options.liquid = {{Shape{Box{Vec3d(0.3, -1.0, -1.0), Vec3d(0.7, 2.0, 0.4)}}, Vec3d(0.0), 0.0}};
-  return options;
-}
+// A slab of 12 layers between two sides of symmetry.
+constexpr int kCells = 24, kLayers = 12;
+constexpr double kVoxel = 1.0 / kCells;
 
-// Depth of the liquid in a column of cells, in metres.
-double depthAt(const State& state, int i, int j) {
-  const double h = state.phi->voxelSize()[0];
-  double depth = 0.0;
-  for (int k = 0; k < 16; ++k)
-    depth += h * std::clamp(0.5 - state.phi->tree().getValue(Coord(i, j, k)) / h, 0.0, 1.0);
-  return depth;
+Options slab() {
+  Options options;
+  options.size = Vec3d(1.0, 1.0, kLayers * kVoxel);
+  options.resolution = kCells;
+  options.sides[4] = options.sides[5] = Side::symmetry;
+  return options;
 }
 
 }  // namespace
 
-TEST_CASE("symmetry: half of a collapsing block behaves as in the whole") {
-  Solver part(collapse(true)), whole(collapse(false));
-  const double h = collapse(true).voxelSize();
-  const double start = part.next().stats.volume;
-  CHECK(std::abs(2.0 * start / whole.next().stats.volume - 1.0) < 1e-5);
-  // Until the water meets the walls.
-  for (int n = 2; n <= 6; ++n) {
-    part.next();
-    whole.next();
-    for (int i = 0; i < 16; ++i) {
-      INFO("frame " << n << ", column " << i);
-      CHECK(std::abs(depthAt(part.state(), i, 8) - depthAt(whole.state(), i, 8)) < 0.25 * h);
+TEST_CASE("symmetry: solids end at other sides only, and go on as their mirror image", "[sim]") {
+  Options options = slab();
+  options.solids = std::vector<Solid>(1);
+  options.solids[0].shape = {Sphere{Vec3d(0.5, 0.5, 0.1), 0.2}};
+  const auto solid = Solids(options).at(0.0);
+  const auto at = [](const FloatGrid& grid, int i, int k) {
+    return grid.tree().getValue(Coord(i, kCells / 2, k));
+  };
+  CHECK(at(*solid->phi, 2, -1) < 0.0f);
+  CHECK(at(*solid->phiMirrored, 3, -1) > 0.0f);
+  CHECK(at(*solid->phiMirrored, -1, -1) < 0.0f);  // a wall
+  CHECK(at(*solid->phiMirrored, 12, 0) < 0.0f);
+  for (int i = -2; i < kCells; ++i) {
+    for (int k = 0; k < 4; ++k) {
+      CHECK(at(*solid->phiMirrored, i, -1 - k) == Approx(at(*solid->phiMirrored, i, k)).margin(1e-6));
+      CHECK(at(*solid->phiMirrored, i, kLayers + k) ==
+            Approx(at(*solid->phiMirrored, i, kLayers - 1 - k)).margin(1e-6));
     }
   }
+  options.sides[4] = options.sides[5] = Side::wall;
+  const auto walls = Solids(options).at(0.0);
+  CHECK(walls->phiMirrored == walls->phi);
 }
 
-TEST_CASE("symmetry: liquid lets go of a wall, and not of a side of symmetry") {
-  const auto depthAfter = [](Side side) {
-    Options options;
-    options.resolution = 16;
-    options.sides[0] = side;
-    options.gravity = Vec3d(9.81, 0.0, 0.0);
-    options.liquid = {{Shape{Box{Vec3d(-1.0), Vec3d(0.3, 2.0, 2.0)}}, Vec3d(0.0), 0.0}};
-    Solver solver(options);
-    for (int n = 0; n < 4; ++n) solver.next();
-    return depthAt(solver.state(), 0, 8);
-  };
-  CHECK(depthAfter(Side::wall) < 0.1);
-  CHECK(depthAfter(Side::symmetry) > 0.5);
+TEST_CASE("symmetry: a surface square to the side stays where it is, alike in all layers", "[sim]") {
+  const Options options = slab();
+  const auto solid = Solids(options).at(0.0);
+  const FloatGrid::Ptr phi = makePhi(kVoxel, 6.0 * kVoxel);
+  const auto disc = [](const Vec3d& x) { return std::hypot(x.x() - 0.47, x.y() - 0.52) - 0.3; };
+  unite(*phi, disc, CoordBBox(Coord(0, 0, -8), Coord(kCells - 1, kCells - 1, kLayers + 7)));
+  for (int n = 0; n < 40; ++n) {
+    extendBeyond(*phi, *solid);
+    redistance(*phi, *solid, 8);
+    trimBand(*phi, *solid->phi);
+  }
+  double farthest = 0.0, unlike = 0.0;
+  for (int i = 0; i < kCells; ++i) {
+    for (int j = 0; j < kCells; ++j) {
+      const double exact = disc(phi->indexToWorld(Coord(i, j, 0)));
+      if (std::abs(exact) > kVoxel) continue;
+      const double middle = phi->tree().getValue(Coord(i, j, kLayers / 2));
+      farthest = std::max(farthest, std::abs(middle - exact));
+      for (int k = 0; k < kLayers; ++k)
+        unlike = std::max(unlike, std::abs(phi->tree().getValue(Coord(i, j, k)) - middle));
+    }
+  }
+  CHECK(farthest < 0.01 * kVoxel);
+  CHECK(unlike < 1e-4 * kVoxel);
 }
