@@ -23,7 +23,7 @@ constexpr float kAlongWall = 0.55f;
 struct Extension {
   const LeafTable& table;
   const LetGo& letGo;
-  float h;
+  float deepest, h;                  // metres: cells deeper in solids than `deepest` get values
   std::vector<float> value;          // #voxels: phi
   std::vector<float> depth;          // #voxels: -solidPhi
   VoxelMask known;                   // all that is not deep in solids, and what has been found there
@@ -37,7 +37,7 @@ struct Extension {
       int steps = 0;
       for (int up = 0; up < 2; ++up) {
         const std::int64_t n = table.neighbor(cell, 2 * axis + up);
-        if (n < 0 || depth[n] > kDeepInSolid * h) continue;
+        if (n < 0 || depth[n] > deepest) continue;
         (up != 0 ? high : low) = value[n];
         ++steps;
       }
@@ -55,7 +55,7 @@ struct Extension {
   };
 
   Guess ask(std::int64_t cell, std::int64_t from, const Vec3& normal) const {
-    if (depth[from] > kDeepInSolid * h) return {value[from], gradient[from], gradient[from]};
+    if (depth[from] > deepest) return {value[from], gradient[from], gradient[from]};
     const bool liquid = value[from] < 0.0f;
     const Vec3 slope = openGradient(from);
     const float inward = slope.dot(normal);
@@ -125,16 +125,17 @@ struct Extension {
 
 }  // namespace
 
-void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo) {
+void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo, float deep) {
   const LeafTable table = makeLeafTable(phi.constTree());
   const float h = static_cast<float>(phi.voxelSize()[0]), background = phi.background();
   Extension extension{
-      table, letGo, h, sampleOn(table, phi.constTree()), sampleOn(table, solidPhi.constTree()), {}, nullptr};
+      table, letGo,  deep * h, h, sampleOn(table, phi.constTree()), sampleOn(table, solidPhi.constTree()),
+      {},    nullptr};
   forLeaves(table, [&](std::size_t n) {
     for (std::size_t i = n * kLeafSize; i < (n + 1) * kLeafSize; ++i)
       extension.depth[i] = -extension.depth[i];
   });
-  extension.known = maskOf(table, extension.depth, [&](float d) { return !(d > kDeepInSolid * h); });
+  extension.known = maskOf(table, extension.depth, [&](float d) { return !(d > extension.deepest); });
   std::vector<std::size_t> open;  // leaves that are not known wholly
   for (std::size_t n = 0; n < table.size(); ++n)
     if (!allSet(extension.known[n])) open.push_back(n);

@@ -114,6 +114,14 @@ Velocity copyOf(const Velocity& velocity) {
   return copy;
 }
 
+void uniteTopology(Velocity& velocity) {
+  const auto& [u, v, w] = velocity.component;
+  u->topologyUnion(*v);
+  u->topologyUnion(*w);
+  v->topologyUnion(*u);
+  w->topologyUnion(*u);
+}
+
 std::vector<FloatLeaf*> leavesOf(FloatTree& tree) {
   std::vector<FloatLeaf*> leaves;
   leaves.reserve(tree.leafCount());

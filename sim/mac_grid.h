@@ -67,6 +67,9 @@ Velocity makeVelocity(double h);
 
 Velocity copyOf(const Velocity& velocity);
 
+// Makes every face active that is so in any of the three components, so that they have one topology again.
+void uniteTopology(Velocity& velocity);
+
 // Empty trees get the topology of `like` (leaves, active voxels), and value 0 there.
 Velocity makeVelocity(double h, const FloatTree& like);
 

@@ -34,8 +34,8 @@ void mirrorAtSides(FloatGrid& phi, const SolidField& solid) {
 
 }  // namespace
 
-void extendBeyond(FloatGrid& phi, const SolidField& solid, const LetGo& letGo) {
-  extendIntoSolids(phi, *solid.phi, letGo);
+void extendBeyond(FloatGrid& phi, const SolidField& solid, const LetGo& letGo, float deep) {
+  extendIntoSolids(phi, *solid.phi, letGo, deep);
   mirrorAtSides(phi, solid);
 }
 

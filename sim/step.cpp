@@ -4,6 +4,7 @@
 #include "sim/advect_velocity.h"
 #include "sim/air_layers.h"
 #include "sim/extrapolate.h"
+#include "sim/friction.h"
 #include "sim/heat.h"
 #include "sim/keep_substep.h"
 #include "sim/leaf_table.h"
@@ -147,31 +148,47 @@ void extrapolateAll(Liquid& liquid, Projection& projection, const SolidField& so
   liquid.swelling = nearSurface(projection.swelling, *liquid.phi, {});
 }
 
+// Of a projection over dt seconds in which forces act for `kick` seconds.
+PressureOptions pressureOf(const Options& options, double h, double dt, double kick) {
+  PressureOptions pressure;
+  pressure.suction = 0.1 * options.density * options.gravity.length() * h;
+  if (options.surfaceTension > 0.0) {
+    // Air must open a bubble of a cell's size to get behind the liquid.
+    pressure.suction += 2.0 * options.surfaceTension / h;
+    pressure.surfaceTension = options.surfaceTension * kick / dt;
+  }
+  return pressure;
+}
+
+// Friction acts for `kick` seconds, as forces do. False where a solve does not converge.
+bool rub(Liquid& liquid, const SolidField& solid, double kick, const Options& options,
+         const FloatGrid* viscosity, StepReport& report) {
+  const FrictionReport friction = applyFriction(liquid.velocity, *liquid.phi, solid, kick, options.density,
+                                                {.constant = options.viscosity, .variable = viscosity},
+                                                pressureOf(options, voxelSize(liquid), kick, kick));
+  report.viscosity = friction.viscosity;
+  if (!friction.viscosity.skipped) report.pressure = friction.pressure;
+  return friction.converged();
+}
+
 // kick: how long forces act, in seconds. viscous: whether friction is felt, so that liquid can stick to
 // walls. driven: whether the acceleration is wanted; arrived: the velocity before friction, null grids where
 // there was none.
 bool project(Liquid& liquid, const SolidField& solid, double dt, double kick, const Options& options,
              bool viscous, bool driven, Velocity arrived, StepReport* report) {
-  PressureOptions pressure;
+  PressureOptions pressure = pressureOf(options, voxelSize(liquid), dt, kick);
   pressure.keepBefore = driven && arrived.component[0] == nullptr;
   // Within about a frame; in less than two steps it would overshoot.
   if (liquid.owed != nullptr && !liquid.owed->empty())
     pressure.growth = growthOf(*liquid.owed, std::max(1.0 / options.frameRate, 2.0 * dt));
-  pressure.suction = 0.1 * options.density * options.gravity.length() * voxelSize(liquid);
-  if (options.surfaceTension > 0.0) {
-    // Air must open a bubble of a cell's size to get behind the liquid.
-    pressure.suction += 2.0 * options.surfaceTension / voxelSize(liquid);
-    pressure.surfaceTension = options.surfaceTension * kick / dt;
-  }
   auto& [u, v, w] = liquid.velocity.component;
   Projection projection = project(*u, *v, *w, *liquid.phi, solid, dt, options.density, pressure);
-  if (report != nullptr) report->pressure = projection.report;
+  if (report != nullptr) {
+    projection.report.iterations += report->pressure.iterations;
+    report->pressure = projection.report;
+  }
   if (!projection.report.converged) return false;
-  // The projection may have added faces to one component: all three have one topology again.
-  u->topologyUnion(*v);
-  u->topologyUnion(*w);
-  v->topologyUnion(*u);
-  w->topologyUnion(*u);
+  uniteTopology(liquid.velocity);  // the projection may have added faces to one component
   for (const FloatGrid::Ptr& grid : projection.swelling.component) {
     if (grid != nullptr) grid->topologyUnion(*u);
   }
@@ -267,12 +284,9 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
       viscosity == nullptr && isNegligible(options.viscosity, kick, options.density, voxelSize(next));
   Velocity arrived;
   if (!frictionless) arrived = copyOf(next.velocity);
-  if (solves.heatConverged) {
-    solves.viscosity = applyViscosity(next.velocity, *next.phi, around, kick, options.density,
-                                      {.constant = options.viscosity, .variable = viscosity.get()});
-  }
+  const bool rubbed = solves.heatConverged && rub(next, around, kick, options, viscosity.get(), solves);
   if (report != nullptr) *report = solves;
-  if (!solves.heatConverged || !solves.viscosity.converged) return std::nullopt;
+  if (!rubbed) return std::nullopt;
   if (!project(next, around, dt, kick, options, !solves.viscosity.skipped, true, std::move(arrived), report))
     return std::nullopt;
   if (!anyInside(*next.phi)) {
@@ -329,16 +343,18 @@ void settleSurface(FloatGrid& phi, const SolidField& solid) {
   for (const Coord& origin : wetLeaves(phi, grown(solid.domain, kMargin))) phi.tree().touchLeaf(origin);
   for (auto leaf = solid.phi->constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
   // A body that ends at a wall has its surface there; extending and reinitialising in turn makes it go on
-  // behind.
+  // behind. Of cells that the wall cuts, too, when their centres lie in it: else they would be air, and the
+  // body would start by falling into their open part.
+  constexpr float kInSolid = 0.0f;
   constexpr int kIterations = 4;
   const int rounds =
       static_cast<int>(phi.background() / (phi.voxelSize()[0] * kReinitReach * kIterations)) + 2;
   const LetGo never = [](const Coord&) { return false; };
   for (int n = 0; n < rounds; ++n) {
-    extendBeyond(phi, solid, never);
+    extendBeyond(phi, solid, never, kInSolid);
     redistance(phi, solid, kIterations);
   }
-  extendBeyond(phi, solid, never);
+  extendBeyond(phi, solid, never, kInSolid);
   trimBand(phi, *solid.phi);
 }
 
@@ -371,11 +387,10 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   // Friction acts as long as gravity does.
   const FloatGrid::Ptr viscosity =
       liquid.temperature ? viscosityOf(*liquid.temperature, options.heat.law, options.viscosity) : nullptr;
-  const ViscosityReport friction =
-      applyViscosity(liquid.velocity, phi, around, kick, options.density,
-                     {.constant = options.viscosity, .variable = viscosity.get()});
-  if (report != nullptr) report->viscosity = friction;
-  if (!friction.converged) return false;
+  StepReport solves;
+  const bool rubbed = rub(liquid, around, kick, options, viscosity.get(), solves);
+  if (report != nullptr) *report = solves;
+  if (!rubbed) return false;
   const double dt = 1.0 / options.frameRate;
   const bool viscous = liquid.temperature != nullptr ||
                        !isNegligible(options.viscosity, dt, options.density, voxelSize(liquid));

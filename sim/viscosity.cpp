@@ -70,6 +70,11 @@ bool isNegligible(double viscosity, double dt, double density, double h, const V
   return viscosity * dt < options.negligible * density * h * h;
 }
 
+bool isNegligible(const ViscosityField& viscosity, double dt, double density, double h,
+                  const ViscosityOptions& options) {
+  return isNegligible(largestViscosity(viscosity), dt, density, h, options);
+}
+
 ViscosityReport solveViscous(const ViscousSystem& system, std::vector<double>& x,
                              const ViscosityOptions& options) {
   const std::int32_t n = system.unknowns;
@@ -137,7 +142,7 @@ ViscosityReport applyViscosity(Velocity& velocity, const FloatGrid& phi, const S
                                const ViscosityOptions& options) {
   const double h = solid.voxelSize;
   ViscosityReport report;
-  report.skipped = isNegligible(largestViscosity(viscosity), dt, density, h, options);
+  report.skipped = isNegligible(viscosity, dt, density, h, options);
   if (report.skipped) return report;
   std::vector<double> x;
   const ViscousSystem system = viscousSystem(velocity, phi, solid, dt, density, viscosity, x);

@@ -36,6 +36,10 @@ struct ViscosityField {
   const FloatGrid* variable = nullptr;  // in place of the constant where given
 };
 
+// Whether applyViscosity() would leave everything as it is: no part is above ViscosityOptions::negligible.
+bool isNegligible(const ViscosityField& viscosity, double dt, double density, double h,
+                  const ViscosityOptions& options = {});
+
 // Replaces u, v, w (m/s) in the liquid by the solution of  density (u - u_before) / dt = div(viscosity (grad
 // u + grad u^T)), implicit in time, so that any dt is stable; the whole stress, which couples the three
 // components. No stress at the surface. At solids the component along the solid's normal is the solid's, and

@@ -1,0 +1,27 @@
+#include "sim/friction.h"
+
+#include "sim/acceleration.h"
+
+#include <utility>
+
+namespace fluidtex::sim {
+
+FrictionReport applyFriction(Velocity& velocity, const FloatGrid& phi, const SolidField& solid, double dt,
+                             double density, const ViscosityField& viscosity,
+                             const PressureOptions& pressure) {
+  FrictionReport report;
+  report.viscosity.skipped = isNegligible(viscosity, dt, density, solid.voxelSize);
+  if (report.viscosity.skipped) return report;
+  Velocity balanced = copyOf(velocity);
+  auto& [u, v, w] = balanced.component;
+  report.pressure = project(*u, *v, *w, phi, solid, dt, density, pressure).report;
+  if (!report.pressure.converged) return report;
+  uniteTopology(balanced);
+  const Velocity before = copyOf(balanced);
+  report.viscosity = applyViscosity(balanced, phi, solid, dt, density, viscosity);
+  if (!report.viscosity.converged) return report;
+  velocity = plus(plus(balanced, before, -1.0), velocity, 1.0);
+  return report;
+}
+
+}  // namespace fluidtex::sim
