@@ -29,8 +29,39 @@ bool isFlat(const Window& window) {
   return std::all_of(first, last, [value = *first](float v) { return v == value; });
 }
 
+// The cell that a place lies in; the place in cells from the leaf's lower corner.
+Coord cellAt(const Coord& origin, const Vec3f& x) {
+  return origin.offsetBy(static_cast<int>(std::floor(x[0])), static_cast<int>(std::floor(x[1])),
+                         static_cast<int>(std::floor(x[2])));
+}
+
+// phi at a place whose cell does not see all around it.
+float oneSided(const Window& window, const Vec3f& x, const VisibleCells& visible, float far) {
+  Stencil values;
+  const Vec3f local = window.around(x, values);
+  goOnBehind(values, visible);
+  constexpr const int* kStride = VisibleCells::kStride;
+  const float* low = values.data() + VisibleCells::kMiddle;
+  float t[3];
+  for (int a = 0; a < 3; ++a) {
+    if (local[a] < 0.0f) low -= kStride[a];
+    t[a] = local[a] < 0.0f ? local[a] + 1.0f : local[a];
+  }
+  const float linear = trilinear(low, kStride[0], kStride[1], t[0], t[1], t[2]);
+  if (std::abs(linear) > far) return linear;
+  float least = *low, most = *low;
+  for (int n = 1; n < 8; ++n) {
+    const float v = low[(n >> 2) * kStride[0] + (n >> 1 & 1) * kStride[1] + (n & 1)];
+    least = std::min(least, v);
+    most = std::max(most, v);
+  }
+  const float cubic = tricubic(low, kStride[0], kStride[1], t[0], t[1], t[2]);
+  return cubic > least && cubic < most ? cubic : linear;
+}
+
 // By at most kMaxTrace cells.
-void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPhi, double dt, int reach) {
+void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPhi, double dt, int reach,
+              const Visibility* visibility) {
   openvdb::tools::dilateActiveValues(phi.tree(), reach, openvdb::tools::NN_FACE,
                                      openvdb::tools::EXPAND_TILES);
   const float h = static_cast<float>(phi.voxelSize()[0]), step = static_cast<float>(-dt) / h;
@@ -54,8 +85,15 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
       const float* solid = leafValues(solidPhi.constTree(), origin, scratch);
       moved[n] = std::make_unique<LeafBuffer>();
       std::copy_n(leaves[n]->buffer().data(), kLeafSize, moved[n]->data());
+      const bool thinWalls =
+          visibility != nullptr &&
+          visibility->touches(grown(openvdb::CoordBBox::createCube(origin, kLeafDim), near));
       const auto look = [&](int i, const Vec3f& from) {
         float& out = (*moved[n])[i];
+        if (const VisibleCells* visible = thinWalls ? visibility->around(cellAt(origin, from)) : nullptr) {
+          out = oneSided(before, from, *visible, far);
+          return;
+        }
         out = before.at(from);
         if (std::abs(out) > far) return;
         // At edges, and where phi has been made to go on behind walls, the cubic overshoots.
@@ -78,12 +116,13 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
 
 }  // namespace
 
-void advectPhi(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPhi, double dt) {
+void advectPhi(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPhi, double dt,
+               const Visibility* visibility) {
   const double way = dt * maxAbs(velocity) / phi.voxelSize()[0];
   if (way == 0.0) return;
   const int substeps = static_cast<int>(std::ceil(way / kMaxTrace));
   const int reach = static_cast<int>(std::ceil(way / substeps)) + 1;
-  for (int n = 0; n < substeps; ++n) moveOnce(phi, velocity, solidPhi, dt / substeps, reach);
+  for (int n = 0; n < substeps; ++n) moveOnce(phi, velocity, solidPhi, dt / substeps, reach, visibility);
 }
 
 }  // namespace fluidtex::sim

@@ -14,8 +14,10 @@ namespace fluidtex::sim {
 // Moves phi with the velocity for dt seconds:  d(phi)/dt + u . grad(phi) = 0. Each cell takes the value from
 // where it came (semi-Lagrangian, cubic interpolation where phi is smooth near the surface), in as many
 // sub-steps as moves of kMaxTrace cells ask for. Leaves are added where the surface can get to. Values
-// outside the velocity's leaves stay, and those deeper in solids than kSolidLayers.
-void advectPhi(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPhi, double dt);
+// outside the velocity's leaves stay, and those deeper in solids than kSolidLayers. visibility: of the solids
+// (SolidField), null for none that are thin.
+void advectPhi(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPhi, double dt,
+               const Visibility* visibility = nullptr);
 
 // Cells deeper in a solid than this many voxels hold what extendIntoSolids gives them; no face of such a cell
 // is open, but for a sliver.
@@ -31,7 +33,8 @@ inline constexpr double kReinitReach = 0.4;
 // Turns phi into a signed distance near the surface, which itself stays where it is: cells next to it use its
 // place between the cell centres, to fourth order where it is smooth and three cells from solids. Cells in
 // solids more than half a cell deep are left alone (see extendIntoSolids).
-void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, int iterations = 8);
+void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, int iterations = 8,
+                  const Visibility* visibility = nullptr);
 
 // Asked of cells in the open beside a solid: has the liquid there let go of the solid, or, where the cell is
 // air, does the velocity lead away from the solid?

@@ -71,26 +71,80 @@ bool liesOnWall(const Marker& m, const BlockSamples& distance, const BlockSample
   return distance.at(away[0], away[1], away[2]) > distance.at(m.x, m.y, m.z) + 0.5f;
 }
 
+// Beside thin walls: what VisibleCells reach around a marker's nearest cell.
+constexpr int kThinWallHalo = VisibleCells::kReach + 1;
+
+// The cell whose centre is nearest to a marker, along one axis.
+int nearestCell(float x) {
+  return static_cast<int>(std::floor(x + 0.5f));
+}
+
+// What the markers of a block see from their nearest cells.
+class Sight {
+ public:
+  Sight(const Visibility* visibility, const Coord& origin) : m_visibility(visibility), m_origin(origin) {
+    if (visibility == nullptr || !visibility->touches(openvdb::CoordBBox(origin, origin.offsetBy(kLeafDim))))
+      m_visibility = nullptr;
+  }
+  bool any() const { return m_visibility != nullptr; }
+  // null where all is seen.
+  const VisibleCells* at(const Marker& m) const {
+    if (m_visibility == nullptr) return nullptr;
+    return m_visibility->around(m_origin.offsetBy(nearestCell(m.x), nearestCell(m.y), nearestCell(m.z)));
+  }
+
+ private:
+  const Visibility* m_visibility;
+  Coord m_origin;
+};
+
+// A corner of the cube of cell centres around a marker, as VisibleCells of its nearest cell know it.
+int cornerOf(const Marker& m, int corner) {
+  constexpr const int* kStride = VisibleCells::kStride;
+  return VisibleCells::kMiddle + (int(m.x) + (corner >> 2) - nearestCell(m.x)) * kStride[0] +
+         (int(m.y) + ((corner >> 1) & 1) - nearestCell(m.y)) * kStride[1] +
+         (int(m.z) + (corner & 1) - nearestCell(m.z)) * kStride[2];
+}
+
+// phi, in cells, where a marker is.
+float sample(const BlockSamples& distance, const Marker& m, const VisibleCells* visible) {
+  if (visible == nullptr) return distance.at(m.x, m.y, m.z);
+  constexpr int kReach = VisibleCells::kReach;
+  Stencil values;
+  float* to = values.data();
+  for (int i = -kReach; i <= kReach; ++i)
+    for (int j = -kReach; j <= kReach; ++j, to += VisibleCells::kSide)
+      std::copy_n(distance.sample(nearestCell(m.x) + i, nearestCell(m.y) + j, nearestCell(m.z) - kReach),
+                  VisibleCells::kSide, to);
+  goOnBehind(values, *visible);
+  return trilinear(values.data() + cornerOf(m, 0), VisibleCells::kStride[0], VisibleCells::kStride[1],
+                   m.x - std::floor(m.x), m.y - std::floor(m.y), m.z - std::floor(m.z));
+}
+
 void measure(Marker& m, float phi) {
   m.radius = side(m) * std::clamp(side(m) * phi, kSmallest, kLargest);
 }
 
 }  // namespace
 
-void correctPhi(FloatGrid& phi, const Markers& markers) {
+void correctPhi(FloatGrid& phi, const Markers& markers, const Visibility* visibility) {
   const float h = static_cast<float>(phi.voxelSize()[0]);
   Markers out(markers.size());  // those that have escaped
   tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
     thread_local BlockSamples distance(1);
     thread_local CellRanges range;
+    const Sight sight(visibility, markers[n].origin);
+    distance.setHalo(sight.any() ? kThinWallHalo : 1);
     distance.load(phi.constTree(), markers[n].origin, 1.0f / h);
     range.find(distance);
     out[n].origin = markers[n].origin;
     const float wrong = kSmallest - CellRanges::kRounding;
     for (const Marker& m : markers[n].markers) {
       const auto cell = std::size_t(cellOf(m));
-      if (m.radius < 0.0f ? range.high[cell] < wrong : range.low[cell] > -wrong) continue;
-      if (escaped(m, distance.at(m.x, m.y, m.z))) out[n].markers.push_back(m);
+      const VisibleCells* visible = sight.at(m);
+      if (visible == nullptr && (m.radius < 0.0f ? range.high[cell] < wrong : range.low[cell] > -wrong))
+        continue;
+      if (escaped(m, sample(distance, m, visible))) out[n].markers.push_back(m);
     }
   });
   std::erase_if(out, [](const MarkerBlock& block) { return block.markers.empty(); });
@@ -111,10 +165,13 @@ void correctPhi(FloatGrid& phi, const Markers& markers) {
         std::copy_n(value, kLeafSize, liquid.begin());
         touched = true;
       }
+      const Sight sight(visibility, block->origin);
       for (const Marker& m : block->markers) {
+        const VisibleCells* visible = sight.at(m);
         for (int corner = 0; corner < 8; ++corner) {
           const int i = int(m.x) + (corner >> 2) + shift[0], j = int(m.y) + ((corner >> 1) & 1) + shift[1],
                     k = int(m.z) + (corner & 1) + shift[2];
+          if (visible != nullptr && !visible->sees(cornerOf(m, corner))) continue;
           if (i < 0 || j < 0 || k < 0 || i >= kLeafDim || j >= kLeafDim || k >= kLeafDim) continue;
           const float dx = m.x + float(shift[0] - i), dy = m.y + float(shift[1] - j),
                       dz = m.z + float(shift[2] - k);
@@ -135,13 +192,15 @@ void correctPhi(FloatGrid& phi, const Markers& markers) {
   });
 }
 
-Markers seedMarkers(const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed) {
+Markers seedMarkers(const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed,
+                    const Visibility* visibility) {
   Markers markers;
-  maintainMarkers(markers, phi, solidPhi, seed);
+  maintainMarkers(markers, phi, solidPhi, seed, visibility);
   return markers;
 }
 
-void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed) {
+void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed,
+                     const Visibility* visibility) {
   const float h = static_cast<float>(phi.voxelSize()[0]);
   std::vector<Coord> origins;
   for (const MarkerBlock& block : markers) origins.push_back(block.origin);
@@ -152,6 +211,8 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
   tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
     thread_local BlockSamples distance(2), solid(2);
     thread_local CellRanges range, wallRange;
+    const Sight sight(visibility, origins[n]);
+    distance.setHalo(sight.any() ? kThinWallHalo : 2);
     distance.load(phi.constTree(), origins[n], 1.0f / h);
     solid.load(solidPhi.constTree(), origins[n], 1.0f / h);
     range.find(distance);
@@ -166,7 +227,7 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
         const auto cell = std::size_t(cellOf(m));
         int& there = count[cell];
         const bool open = wallRange.low[cell] > kRounding - 1.0f;
-        const float here = distance.at(m.x, m.y, m.z);
+        const float here = sample(distance, m, sight.at(m));
         const bool out = escaped(m, here);
         if (side(m) * here > kBand) continue;
         if (out && m.radius > 0.0f && -here > kDeepestAir) continue;
@@ -187,19 +248,22 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
     }
     for (std::size_t c = 0; c < kLeafSize; ++c) {
       if (count[c] > kPerCell / 2) continue;
-      if (range.low[c] > kBand + kRounding || range.high[c] < -kBand - kRounding) continue;
+      const bool farOff = range.low[c] > kBand + kRounding || range.high[c] < -kBand - kRounding;
+      if (farOff && !sight.any()) continue;
       if (wallRange.high[c] < -kWallDepth - kRounding) continue;
       const Coord local(int(c >> 6), int(c >> 3 & 7), int(c & 7));
       const Vec3f corner(local.asVec3s());
       // From the middle to a corner it is less than a cell.
-      if (std::abs(distance.at(corner[0] + 0.5f, corner[1] + 0.5f, corner[2] + 0.5f)) > kBand + 1.0f)
+      if (!sight.any() &&
+          std::abs(distance.at(corner[0] + 0.5f, corner[1] + 0.5f, corner[2] + 0.5f)) > kBand + 1.0f)
         continue;
       const CellRandom random(seed, origins[n] + local);
       for (int m = count[c]; m < kPerCell; ++m) {
         const Vec3f at = corner + random.point(std::uint32_t(m));
-        const float here = distance.at(at[0], at[1], at[2]);
+        Marker added{at[0], at[1], at[2], 0.0f};
+        const float here = sample(distance, added, sight.at(added));
         if (std::abs(here) > kBand || solid.at(at[0], at[1], at[2]) < -kWallDepth) continue;
-        Marker added{at[0], at[1], at[2], here < 0.0f ? -kSmallest : kSmallest};
+        added.radius = here < 0.0f ? -kSmallest : kSmallest;
         measure(added, here);
         kept.push_back(added);
       }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "sim/mac_grid.h"
+#include "sim/visibility.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -37,8 +38,9 @@ auto findBlock(Blocks& markers, const Coord& origin) {
 }
 
 // Markers for a surface: of the liquid and of the air, in every cell that the band reaches, none deep in
-// solids.
-Markers seedMarkers(const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed);
+// solids. visibility: of the solids (SolidField), null for none that are thin.
+Markers seedMarkers(const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed,
+                    const Visibility* visibility = nullptr);
 
 // The markers dt seconds later (give them away: there are too many to keep twice): third-order Runge-Kutta,
 // velocity trilinear. dt max|u| / h must be below 5.
@@ -46,12 +48,13 @@ Markers seedMarkers(const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64
 Markers advectMarkers(Markers markers, const Velocity& velocity, double dt);
 
 // Puts phi right at the corners of cells with escaped markers, those farther on the wrong side than their
-// radius.
-void correctPhi(FloatGrid& phi, const Markers& markers);
+// radius; at those that are on the marker's side of a thin solid.
+void correctPhi(FloatGrid& phi, const Markers& markers, const Visibility* visibility = nullptr);
 
 // Measures the radii anew; drops markers that have left the band, those in solids, and those of bubbles that
 // have closed; and fills cells near the surface that have no more than half of what they should. `seed` must
 // differ from call to call.
-void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed);
+void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed,
+                     const Visibility* visibility = nullptr);
 
 }  // namespace fluidtex::sim

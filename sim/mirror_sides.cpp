@@ -40,7 +40,7 @@ void extendBeyond(FloatGrid& phi, const SolidField& solid, const LetGo& letGo, f
 }
 
 void redistance(FloatGrid& phi, const SolidField& solid, int iterations) {
-  reinitialize(phi, *solid.phiMirrored, iterations);
+  reinitialize(phi, *solid.phiMirrored, iterations, solid.visibility.get());
   mirrorAtSides(phi, solid);
 }
 

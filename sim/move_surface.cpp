@@ -14,15 +14,16 @@ constexpr int kReinitIterations = 8;
 
 void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const SolidField& solid,
                  double dt, std::uint64_t seed, const RunningFlows& flows) {
+  const Visibility* const visibility = solid.visibility.get();
   markers = advectMarkers(std::move(markers), velocity, dt);
-  advectPhi(phi, velocity, *solid.phi, dt);
-  correctPhi(phi, markers);
+  advectPhi(phi, velocity, *solid.phi, dt, visibility);
+  correctPhi(phi, markers, visibility);
   applyFlows(phi, markers, flows);
   extendBeyond(phi, solid);
   redistance(phi, solid, kReinitIterations);
-  correctPhi(phi, markers);
+  correctPhi(phi, markers, visibility);
   applyFlows(phi, markers, flows);
-  maintainMarkers(markers, phi, *solid.phi, seed);
+  maintainMarkers(markers, phi, *solid.phi, seed, visibility);
   trimBand(phi, *solid.phi);
 }
 

@@ -55,6 +55,34 @@ inline int blockIndex(int offset) {
 struct NearCell {
   int offset;
   std::array<float, 6> reach;
+  const VisibleCells* visible = nullptr;  // where it does not see all around it
+};
+
+// The values around a cell along each axis, as they are stored.
+struct StoredValues {
+  const float* p;
+  float operator()(int axis, int steps) const { return p[steps * kStride[axis]]; }
+};
+
+// The same on the cell's side of thin walls, going on linearly behind them.
+struct OneSidedValues {
+  std::array<std::array<float, 5>, 3> value;
+  float operator()(int axis, int steps) const { return value[axis][steps + 2]; }
+
+  OneSidedValues(const float* p, const VisibleCells& visible) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto sees = [&](int steps) {
+        return visible.sees(VisibleCells::kMiddle + steps * VisibleCells::kStride[axis]);
+      };
+      auto& v = value[axis];
+      for (int steps = -2; steps <= 2; ++steps) v[steps + 2] = p[steps * kStride[axis]];
+      const bool low = sees(-1), high = sees(1);
+      if (!low) v[1] = high ? 2.0f * v[2] - v[3] : v[2];
+      if (!high) v[3] = low ? 2.0f * v[2] - v[1] : v[2];
+      if (!sees(-2)) v[0] = 2.0f * v[1] - v[2];
+      if (!sees(2)) v[4] = 2.0f * v[3] - v[2];
+    }
+  }
 };
 
 // Where between two cells (0: at the first) the cubic-free ENO parabola through phi vanishes [Min10 eq. 9].
@@ -69,19 +97,29 @@ float crossing(float before, float here, float there, float after) {
   return 0.5f + (here - there - side * root) / curvature;
 }
 
-std::vector<NearCell> nearCells(const float* block) {
+// Fills in how far the surface is; false where it is next to the cell on no side.
+template <class Values>
+bool findSurface(const Values& at, NearCell& cell) {
+  bool near = false;
+  for (int direction = 0; direction < 6; ++direction) {
+    const int axis = direction >> 1, out = (direction & 1) != 0 ? 1 : -1;
+    const float here = at(axis, 0), there = at(axis, out);
+    if ((here < 0.0f) == (there < 0.0f)) continue;
+    near = true;
+    cell.reach[direction] = std::clamp(crossing(at(axis, -out), here, there, at(axis, 2 * out)), 0.0f, 1.0f);
+  }
+  return near;
+}
+
+std::vector<NearCell> nearCells(const float* block, const Visibility::Leaf* visibility) {
   std::vector<NearCell> cells;
   for (int offset = 0; offset < kLeafSize; ++offset) {
     const float* p = block + blockIndex(offset);
     NearCell cell{offset, {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f}};
-    bool near = false;
-    for (int direction = 0; direction < 6; ++direction) {
-      const int d = (direction & 1) != 0 ? kStride[direction >> 1] : -kStride[direction >> 1];
-      if ((p[0] < 0.0f) == (p[d] < 0.0f)) continue;
-      near = true;
-      cell.reach[direction] = std::clamp(crossing(p[-d], p[0], p[d], p[2 * d]), 0.0f, 1.0f);
-    }
-    if (near) cells.push_back(cell);
+    if (visibility != nullptr && !(*visibility)[offset].seesAll()) cell.visible = &(*visibility)[offset];
+    if (cell.visible != nullptr ? findSurface(OneSidedValues(p, *cell.visible), cell)
+                                : findSurface(StoredValues{p}, cell))
+      cells.push_back(cell);
   }
   return cells;
 }
@@ -110,31 +148,33 @@ inline float upwindSquare(float minus, float plus, float side) {
   }
 }
 
-// The same for one cell next to the surface: differences end at the surface, where phi is 0.
-float nearSlope(const float* p, const NearCell& cell) {
+// The same for one cell; next to the surface differences end at it, where phi is 0.
+template <class Values>
+float slopeAt(const Values& at, const NearCell& cell) {
   float square = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
-    const int d = kStride[axis];
-    const float below = p[-2 * d] - 2.0f * p[-d] + p[0], here = p[-d] - 2.0f * p[0] + p[d],
-                above = p[0] - 2.0f * p[d] + p[2 * d];
+    const float m2 = at(axis, -2), m1 = at(axis, -1), c = at(axis, 0), p1 = at(axis, 1), p2 = at(axis, 2);
+    const float below = m2 - 2.0f * m1 + c, here = m1 - 2.0f * c + p1, above = c - 2.0f * p1 + p2;
     const float left = cell.reach[2 * axis], right = cell.reach[2 * axis + 1];
-    const bool crossLeft = (p[0] < 0.0f) != (p[-d] < 0.0f), crossRight = (p[0] < 0.0f) != (p[d] < 0.0f);
-    const float minus = (crossLeft ? p[0] / left : p[0] - p[-d]) + 0.5f * left * minmod(here, below);
-    const float plus = (crossRight ? -p[0] / right : p[d] - p[0]) - 0.5f * right * minmod(here, above);
-    square += upwindSquare(minus, plus, p[0] < 0.0f ? -1.0f : 1.0f);
+    const bool crossLeft = (c < 0.0f) != (m1 < 0.0f), crossRight = (c < 0.0f) != (p1 < 0.0f);
+    const float minus = (crossLeft ? c / left : c - m1) + 0.5f * left * minmod(here, below);
+    const float plus = (crossRight ? -c / right : p1 - c) - 0.5f * right * minmod(here, above);
+    square += upwindSquare(minus, plus, c < 0.0f ? -1.0f : 1.0f);
   }
   return square;
 }
 
 struct LeafPlan {
   std::vector<NearCell> near;       // those whose distance comes from the iteration
+  std::vector<NearCell> oneSided;   // others that do not see all around them
   std::vector<std::int16_t> held;   // offsets of cells that do not take part in it
   std::vector<CellDistance> moved;  // of those, the ones that get a new value beforehand
 
   bool rests() const { return held.size() == kLeafSize; }
 };
 
-LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h) {
+LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h,
+                  const Visibility::Leaf* visibility) {
   float scratch[kLeafSize];
   const float* solid = leafValues(solidPhi, origin, scratch);
   const float deepest = -kDeepInSolid * h;
@@ -147,12 +187,14 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
   }
   static thread_local float block[kBlock];  // 0 where nothing is gathered
   gather(phi, origin, kHalo, block, true);
-  plan.near = nearCells(block);
+  plan.near = nearCells(block, visibility);
   for (const NearCell& cell : plan.near) {
     if (*std::min_element(cell.reach.begin(), cell.reach.end()) < kClosest) held[cell.offset] = true;
   }
   std::array<bool, kLeafSize> notAsked;
-  for (int i = 0; i < kLeafSize; ++i) notAsked[i] = solid[i] < kAwayFromSolids * h;
+  for (int i = 0; i < kLeafSize; ++i) {
+    notAsked[i] = solid[i] < kAwayFromSolids * h || (visibility != nullptr && !(*visibility)[i].seesAll());
+  }
   for (const CellDistance& cell : surfaceDistances(phi, origin, h, notAsked)) {
     held[cell.offset] = true;
     if (std::abs(block[blockIndex(cell.offset)] / h - cell.phi) > kRightEnough) plan.moved.push_back(cell);
@@ -160,6 +202,13 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
   std::erase_if(plan.near, [&](const NearCell& cell) { return held[cell.offset]; });
   for (std::int16_t i = 0; i < kLeafSize; ++i) {
     if (held[i]) plan.held.push_back(i);
+  }
+  if (visibility == nullptr) return plan;
+  std::array<bool, kLeafSize> isNear{};
+  for (const NearCell& cell : plan.near) isNear[cell.offset] = true;
+  for (int i = 0; i < kLeafSize; ++i) {
+    if (!held[i] && !isNear[i] && !(*visibility)[i].seesAll())
+      plan.oneSided.push_back({i, {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f}, &(*visibility)[i]});
   }
   return plan;
 }
@@ -175,8 +224,14 @@ void eulerStep(const FloatTree& from, FloatLeaf& to, const LeafPlan& plan, float
   for (int axis = 0; axis < 3; ++axis) addSlopes(block, kStride[axis], square);
   float step[kLeafSize];
   std::fill_n(step, kLeafSize, kCourant);
+  const auto slope = [&](const NearCell& cell) {
+    const float* p = block + blockIndex(cell.offset);
+    return cell.visible != nullptr ? slopeAt(OneSidedValues(p, *cell.visible), cell)
+                                   : slopeAt(StoredValues{p}, cell);
+  };
+  for (const NearCell& cell : plan.oneSided) square[cell.offset] = slope(cell);
   for (const NearCell& cell : plan.near) {
-    square[cell.offset] = nearSlope(block + blockIndex(cell.offset), cell);
+    square[cell.offset] = slope(cell);
     step[cell.offset] = kCourant * *std::min_element(cell.reach.begin(), cell.reach.end());
   }
   float* out = to.buffer().data();
@@ -201,12 +256,14 @@ void eulerStep(const FloatTree& from, FloatLeaf& to, const LeafPlan& plan, float
 
 }  // namespace
 
-void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, int iterations) {
+void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, int iterations, const Visibility* visibility) {
   const float h = static_cast<float>(phi.voxelSize()[0]);
   const auto leaves = leavesOf(phi.tree());
   std::vector<LeafPlan> plans(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    plans[n] = planLeaf(phi.constTree(), solidPhi.constTree(), leaves[n]->origin(), h);
+    const Coord& origin = leaves[n]->origin();
+    plans[n] = planLeaf(phi.constTree(), solidPhi.constTree(), origin, h,
+                        visibility != nullptr ? visibility->leaf(origin) : nullptr);
   });
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     for (const CellDistance& cell : plans[n].moved) leaves[n]->setValueOnly(cell.offset, h * cell.phi);

@@ -220,6 +220,7 @@ SolidField makeSolidField(const SolidDistance& distance, const SolidDistance& op
   field.openU = u;
   field.openV = v;
   field.openW = w;
+  field.visibility = visibilityOf(*field.phi, {u.get(), v.get(), w.get()});
   field.chunks = std::move(chunks);
   return field;
 }

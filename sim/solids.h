@@ -9,6 +9,7 @@
 #include "sim/pose.h"
 #include "sim/shapes.h"
 #include "sim/surface_velocity.h"
+#include "sim/visibility.h"
 
 #include <openvdb/openvdb.h>
 
@@ -49,6 +50,8 @@ struct SolidField {
   // the lower x face of cell (i,j,k). Background 0; tiles of 1 where all is open; every face that is not
   // closed is active.
   FloatGrid::Ptr openU, openV, openW;
+  // Where walls are so thin that stencils reach through them; null where none is.
+  std::shared_ptr<const Visibility> visibility;
   // Velocity of the solids at faces, m/s, near their surface; null where all are at rest.
   FloatGrid::Ptr speedU, speedV, speedW;
   // Velocity of faces where it is given, m/s, active there, else kNotGiven: the pressure has no say there.

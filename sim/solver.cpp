@@ -329,7 +329,8 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       next = step(liquid, *m_solid, *solid, dt, evenPart(after, nextLongest), m_options, &solves,
                   m_flows->at(m_state.time + 0.5 * dt));
       if (next) break;
-      liquid.markers = seedMarkers(*liquid.phi, *m_solid->phi, static_cast<std::uint64_t>(liquid.steps));
+      liquid.markers = seedMarkers(*liquid.phi, *m_solid->phi, static_cast<std::uint64_t>(liquid.steps),
+                                   m_solid->visibility.get());
       if (halving == kMaxHalvings) fail(m_state.time, dt, solves);
       dt *= 0.5;
       last = false;

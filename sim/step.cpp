@@ -363,7 +363,8 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   FloatGrid& phi = *liquid.phi;
   applyFlows(phi, liquid.markers, flows);
   settleSurface(phi, solid);
-  liquid.markers = seedMarkers(phi, *solid.phi, static_cast<std::uint64_t>(liquid.steps));
+  liquid.markers =
+      seedMarkers(phi, *solid.phi, static_cast<std::uint64_t>(liquid.steps), solid.visibility.get());
 
   const Velocity before = liquid.velocity;
   liquid.velocity = velocityFor(phi, solid);

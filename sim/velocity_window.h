@@ -3,9 +3,11 @@
 
 #include "sim/mac_grid.h"
 #include "sim/tricubic.h"
+#include "sim/visibility.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -46,6 +48,25 @@ struct Window {
     const Place place = locate(x, 1);
     const Lanes& t = place.t;
     return tricubic(place.low, side * side, side, lane0(t), lane1(t), lane2(t));
+  }
+
+  // The samples of the cell that x lies in and those around it, and x from that cell's middle, in cells; of
+  // samples at cell centres, at most halo - 2 cells outside the leaf.
+  Vec3f around(const Vec3f& x, Stencil& out) const {
+    constexpr int kReach = VisibleCells::kReach;
+    int cell[3];
+    Vec3f local;
+    for (int a = 0; a < 3; ++a) {
+      cell[a] = std::clamp(static_cast<int>(std::floor(x[a])), kReach - halo, kLeafDim + halo - kReach - 1);
+      local[a] = std::clamp(x[a] - static_cast<float>(cell[a]) - 0.5f, -0.5f, 0.5f);
+    }
+    const float* from = values.get() + ((cell[0] + halo - kReach) * side + cell[1] + halo - kReach) * side +
+                        cell[2] + halo - kReach;
+    float* to = out.data();
+    for (int i = 0; i < VisibleCells::kSide; ++i)
+      for (int j = 0; j < VisibleCells::kSide; ++j, to += VisibleCells::kSide)
+        std::copy_n(from + (i * side + j) * side, VisibleCells::kSide, to);
+    return local;
   }
 
   // Smallest and largest of the eight samples around x.

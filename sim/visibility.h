@@ -1,0 +1,69 @@
+// Which cells lie on one's own side of a thin solid. Stencils that reach across a wall of a few cells would
+// mix the liquid on its one side with the air on its other; with what is known here they read one side only.
+// Source: Guendelman, Selle, Losasso, Fedkiw, "Coupling water and smoke to thin deformable and rigid shells",
+// 2005, section 4 (one-sided interpolation by visibility).
+#pragma once
+
+#include "sim/mac_grid.h"
+
+#include <openvdb/openvdb.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+namespace fluidtex::sim {
+
+using openvdb::Coord;
+
+// Cells that are seen from one cell, of the 5 x 5 x 5 around it.
+struct VisibleCells {
+  static constexpr int kReach = 2, kSide = 2 * kReach + 1, kCount = kSide * kSide * kSide;
+  static constexpr int kStride[3] = {kSide * kSide, kSide, 1};
+  static constexpr int kMiddle = kReach * (kStride[0] + kStride[1] + kStride[2]);
+
+  std::array<std::uint64_t, 2> bits{~std::uint64_t{0}, ~std::uint64_t{0}};
+
+  // at: kMiddle + i kStride[0] + j kStride[1] + k kStride[2] for the cell (i, j, k) away.
+  bool sees(int at) const { return (bits[at >> 6] >> (at & 63) & 1) != 0; }
+  bool seesAll() const { return bits[0] == ~std::uint64_t{0} && bits[1] == ~std::uint64_t{0}; }
+  void hide(int at) { bits[at >> 6] &= ~(std::uint64_t{1} << (at & 63)); }
+};
+
+// A field's values in the cells around one.
+using Stencil = std::array<float, VisibleCells::kCount>;
+
+// Gives the cells that are not seen the values of those that are, going on linearly along the axes, so that
+// the field runs on behind the wall as it does before it.
+void goOnBehind(Stencil& values, const VisibleCells& visible);
+
+class Visibility {
+ public:
+  using Leaf = std::array<VisibleCells, kLeafSize>;
+
+  bool empty() const { return m_leaves.empty(); }
+  // Of the cells of one block of 8 x 8 x 8, by its lowest cell; null where each sees all around it.
+  const Leaf* leaf(const Coord& origin) const {
+    const auto found = m_leaves.find(origin);
+    return found == m_leaves.end() ? nullptr : found->second.get();
+  }
+  // Of one cell; null where it sees all around it.
+  const VisibleCells* around(const Coord& cell) const;
+  // Whether a cell of the box may not see all around it.
+  bool touches(const openvdb::CoordBBox& box) const;
+
+  void add(const Coord& origin, std::unique_ptr<Leaf> leaf) { m_leaves.emplace(origin, std::move(leaf)); }
+
+ private:
+  std::unordered_map<Coord, std::unique_ptr<Leaf>> m_leaves;
+};
+
+// solidPhi, open: as in SolidField. A cell in the open sees another one where a path leads there that turns
+// back along no axis and passes through open faces only. Cells deeper in the solid than kDeepInSolid, whose
+// values go on from the nearest cell in the open, see and are seen as that one. Null where all see all.
+std::shared_ptr<const Visibility> visibilityOf(const FloatGrid& solidPhi,
+                                               const std::array<const FloatGrid*, 3>& open);
+
+}  // namespace fluidtex::sim
