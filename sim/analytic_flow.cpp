@@ -74,7 +74,8 @@ AnalyticFlow::AnalyticFlow(const Options& options, const MotionOptions& motion)
   m_state.v = nothing.component[1];
   m_state.w = nothing.component[2];
   m_state.phi = start(0.0);
-  if (carriesSurface(motion.flow)) m_state.markers = seedMarkers(*m_state.phi, *m_solid->phi, 0, m_solid->visibility.get());
+  if (carriesSurface(motion.flow))
+    m_state.markers = seedMarkers(*m_state.phi, *m_solid->phi, 0, m_solid->visibility.get());
 }
 
 AnalyticFlow::AnalyticFlow(const Options& options, const MotionOptions& motion, State state)

@@ -64,7 +64,7 @@ struct StoredValues {
   float operator()(int axis, int steps) const { return p[steps * kStride[axis]]; }
 };
 
-// The same on the cell's side of thin walls, going on linearly behind them.
+// The same on the cell's side of thin walls.
 struct OneSidedValues {
   std::array<std::array<float, 5>, 3> value;
   float operator()(int axis, int steps) const { return value[axis][steps + 2]; }
@@ -76,9 +76,9 @@ struct OneSidedValues {
       };
       auto& v = value[axis];
       for (int steps = -2; steps <= 2; ++steps) v[steps + 2] = p[steps * kStride[axis]];
-      const bool low = sees(-1), high = sees(1);
-      if (!low) v[1] = high ? 2.0f * v[2] - v[3] : v[2];
-      if (!high) v[3] = low ? 2.0f * v[2] - v[1] : v[2];
+      // Nothing comes from behind the wall: neither a surface nor a slope.
+      if (!sees(-1)) v[1] = v[2];
+      if (!sees(1)) v[3] = v[2];
       if (!sees(-2)) v[0] = 2.0f * v[1] - v[2];
       if (!sees(2)) v[4] = 2.0f * v[3] - v[2];
     }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace fluidtex::sim {
 
@@ -23,6 +24,9 @@ constexpr double kClosed = 1e-3;
 // Distances below this share of a cell are 0, so that a wall in the plane of a face closes it in spite of
 // rounding.
 constexpr double kOnWall = 1e-6;
+
+// Walls of half a cell are seen: samples between cell centres are no farther apart than this share of one.
+constexpr double kThinnestWall = 0.25;
 
 // Area of the part of the unit square where the distance is positive; corners in order, no saddle.
 double polygonArea(const std::array<double, 4>& d) {
@@ -62,6 +66,95 @@ double snapped(double fraction) {
 // Open shares of the lower faces of a block's cells.
 using Faces = std::array<std::array<float, kLeafSize>, 3>;
 
+// Whether a solid crosses the way between two places outside it, so many metres apart, where the distance is
+// low and high. Distances never change by more than one gets on; samples are no farther apart than `least`.
+bool isCrossed(const SolidDistance& distance, const Vec3d& from, const Vec3d& to, double low, double high,
+               double length, double least) {
+  if (low + high > length || length <= least) return false;
+  const Vec3d middle = 0.5 * (from + to);
+  const double there = distance(middle), half = 0.5 * length;
+  return there < 0.0 || isCrossed(distance, from, middle, low, there, half, least) ||
+         isCrossed(distance, middle, to, there, high, half, least);
+}
+
+// Distances at the centres of a block's cells and of those beside it, found when they are asked for.
+constexpr int kCentreSide = kLeafDim + 2, kCentres = kCentreSide * kCentreSide * kCentreSide;
+class CentreDistances {
+ public:
+  CentreDistances(const SolidDistance& distance, const Coord& origin, double h)
+      : m_distance(distance), m_origin(origin), m_h(h) {
+    m_value.fill(kUnknown);
+  }
+  static int index(const Coord& local) {
+    return ((local[0] + 1) * kCentreSide + local[1] + 1) * kCentreSide + local[2] + 1;
+  }
+  Vec3d place(const Coord& local) const { return ((m_origin + local).asVec3d() + Vec3d(0.5)) * m_h; }
+  // Each from -1 to 8.
+  double at(const Coord& local) {
+    double& value = m_value[index(local)];
+    if (value == kUnknown) value = m_distance(place(local));
+    return value;
+  }
+
+ private:
+  static constexpr double kUnknown = std::numeric_limits<double>::max();
+  const SolidDistance& m_distance;
+  Coord m_origin;
+  double m_h;
+  std::array<double, kCentres> m_value;
+};
+
+// Whether a place in a solid, that deep, lies in a wall thinner than a cell's diagonal: such a wall leaves
+// parts of a cell open on both of its sides.
+bool isInThinWall(const SolidDistance& distance, const Vec3d& x, double depth, double h) {
+  constexpr double kStep = 0.25;  // cells
+  const double thickest = std::sqrt(3.0) * h;
+  if (depth > 0.5 * thickest) return false;
+  Vec3d inwards;
+  for (int a = 0; a < 3; ++a) {
+    Vec3d step(0.0);
+    step[a] = 0.1 * h;
+    inwards[a] = distance(x - step) - distance(x + step);
+  }
+  const double length = inwards.length();
+  // In the middle of the wall there is no direction, but half of the way is enough to know.
+  if (length < 0.02 * h) return true;
+  for (double way = kStep * h; depth + way < thickest; way += kStep * h)
+    if (distance(x + inwards * (way / length)) > 0.0) return true;
+  return false;
+}
+
+// A wall thinner than a cell may have no corner of a cell in it, and yet nothing passes: shuts the faces
+// between cells that it parts, and all faces of cells whose centre lies in it.
+void shutBehindThinWalls(const SolidDistance& distance, double h, const Coord& origin, Faces& faces) {
+  CentreDistances centre(distance, origin, h);
+  std::array<signed char, kCentres> inWall;
+  inWall.fill(-1);
+  const auto isShut = [&](const Coord& local) {
+    signed char& known = inWall[CentreDistances::index(local)];
+    if (known < 0) {
+      const double d = centre.at(local);
+      known = d < 0.0 && isInThinWall(distance, centre.place(local), -d, h) ? 1 : 0;
+    }
+    return known == 1;
+  };
+  for (int c = 0; c < kLeafSize; ++c) {
+    const Coord local(c >> 6, (c >> 3) & 7, c & 7);
+    for (int axis = 0; axis < 3; ++axis) {
+      float& open = faces[axis][c];
+      if (open <= 0.0f) continue;
+      Coord below = local;
+      below[axis] -= 1;
+      const double low = centre.at(below), high = centre.at(local);
+      const bool parted =
+          low > 0.0 && high > 0.0
+              ? isCrossed(distance, centre.place(below), centre.place(local), low, high, h, kThinnestWall * h)
+              : isShut(below) || isShut(local);
+      if (parted) open = 0.0f;
+    }
+  }
+}
+
 // From distances at the block's 9^3 nodes.
 Faces openShares(const SolidDistance& distance, const CoordBBox& domain, double h, const Coord& origin) {
   Faces faces;
@@ -89,6 +182,7 @@ Faces openShares(const SolidDistance& distance, const CoordBBox& domain, double 
       faces[axis][c] = inside ? static_cast<float>(openAreaFraction(d[0], d[s], d[s + t], d[t])) : 0.0f;
     }
   }
+  shutBehindThinWalls(distance, h, origin, faces);
   return faces;
 }
 

@@ -3,7 +3,8 @@
 // - Only faces beside a liquid cell are unknown. A strain that would need another face is left out: that face
 //   would have no mass and give way until the strain is gone. What mass there is around such a face goes to
 //   its unknown neighbours, so that a film's weight is whole.
-// - Walls lie where the solid's distance has its zero, not at faces: a difference that reaches into a solid is
+// - Walls lie where the solid's distance has its zero, not at faces: a difference that reaches into a solid
+// is
 //   taken over the distance to the wall, and volumes end there. For walls along an axis this is second order.
 #include "sim/viscous_system.h"
 

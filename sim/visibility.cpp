@@ -178,7 +178,8 @@ void goOnBehind(Stencil& values, const VisibleCells& visible) {
             const int inwards = offset[a] > 0 ? -VisibleCells::kStride[a] : VisibleCells::kStride[a];
             const float near = values[at + inwards];
             // Two steps inwards may lead past the middle, but never out of the stencil.
-            sum += known[at + 2 * inwards] ? 2.0f * near - values[at + 2 * inwards] : near;
+            const float further = known[at + 2 * inwards] ? 2.0f * near - values[at + 2 * inwards] : near;
+            sum += (further < 0.0f) == (near < 0.0f) ? further : near;
             ++count;
           }
           values[at] = sum / static_cast<float>(count);

@@ -35,8 +35,8 @@ struct VisibleCells {
 // A field's values in the cells around one.
 using Stencil = std::array<float, VisibleCells::kCount>;
 
-// Gives the cells that are not seen the values of those that are, going on linearly along the axes, so that
-// the field runs on behind the wall as it does before it.
+// Gives the cells that are not seen the values of those that are, going on linearly along the axes, so that a
+// level set runs on behind the wall as it does before it; it does not change its sign there.
 void goOnBehind(Stencil& values, const VisibleCells& visible);
 
 class Visibility {
