@@ -1,5 +1,6 @@
 #include "sim/level_set.h"
 
+#include "sim/cell_volume.h"
 #include "sim/chunks.h"
 #include "sim/leaf_table.h"
 
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 
 namespace fluidtex::sim {
@@ -249,10 +251,18 @@ FloatGrid::Ptr visibleSurface(const FloatGrid& phi, const SolidField& solid, int
 }
 
 double liquidVolume(const FloatGrid& phi, const SolidField& solid) {
+  const auto origins = wetLeaves(phi, solid.domain);
+  std::vector<double> sums(origins.size());
+  tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
+    LeafShares liquid;
+    liquidShares(phi, solid, origins[n], liquid);
+    const Coord last = solid.domain.max() + Coord(1) - origins[n];
+    for (int i = 0; i < std::min(kLeafDim, last.x()); ++i)
+      for (int j = 0; j < std::min(kLeafDim, last.y()); ++j)
+        for (int k = 0; k < std::min(kLeafDim, last.z()); ++k) sums[n] += liquid[64 * i + 8 * j + k];
+  });
   const double h = phi.voxelSize()[0];
-  const double cells = sumOverCells(
-      phi, solid, [&](float p, float s) { return std::clamp(0.5 - std::max<double>(p, -s) / h, 0.0, 1.0); });
-  return cells * h * h * h;
+  return std::accumulate(sums.begin(), sums.end(), 0.0) * h * h * h;
 }
 
 std::int64_t liquidCells(const FloatGrid& phi, const SolidField& solid) {

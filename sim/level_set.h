@@ -73,8 +73,7 @@ void unite(FloatGrid& phi, const ShapeDistance& shape, const CoordBBox& domain);
 // either side.
 FloatGrid::Ptr visibleSurface(const FloatGrid& phi, const SolidField& solid, int halfWidth);
 
-// Cubic metres of liquid outside solids: each cell's share of liquid from phi and of open space from
-// solidPhi.
+// Cubic metres that the surface encloses outside solids (see sim/cell_volume.h).
 double liquidVolume(const FloatGrid& phi, const SolidField& solid);
 
 // Cells of the domain with phi < 0 whose centre is not in a solid.

@@ -1,6 +1,7 @@
 #include "sim/owed_volume.h"
 
 #include "sim/leaf_patch.h"
+#include "sim/level_set.h"
 #include "sim/volume_flux.h"
 
 #include <tbb/parallel_for.h>
@@ -23,11 +24,11 @@ constexpr int kGatherRounds = 4;
 constexpr int kSpreadRounds = 10;
 // Less than this share of a cell is nothing.
 constexpr float kNothing = 1e-6f;
-// Solid, to what looks for the liquid.
-constexpr float kFar = 1e6f;
+// Solid, to what looks for the liquid, in cells.
+constexpr float kFar = 1e3f;
 
-// The leaves in which something can be owed.
-LeafTable leavesAround(const FloatGrid& before, const FloatGrid& after, const FloatGrid* owed,
+// The leaves in which something can be owed; `inside` the liquid, too.
+LeafTable leavesAround(const FloatGrid& before, const FloatGrid& after, const FloatGrid* owed, bool inside,
                        const CoordBBox& domain) {
   FloatTree topology(0.0f);
   const auto touch = [&](const Coord& origin) {
@@ -35,6 +36,9 @@ LeafTable leavesAround(const FloatGrid& before, const FloatGrid& after, const Fl
   };
   for (auto leaf = before.constTree().cbeginLeaf(); leaf; ++leaf) touch(leaf->origin());
   for (auto leaf = after.constTree().cbeginLeaf(); leaf; ++leaf) touch(leaf->origin());
+  if (inside) {
+    for (const Coord& origin : wetLeaves(before, domain)) touch(origin);
+  }
   if (owed != nullptr) {
     for (auto leaf = owed->constTree().cbeginLeaf(); leaf; ++leaf) {
       for (int n = 0; n < 27; ++n)
@@ -55,10 +59,11 @@ void forRows(const Body& body) {
   for (int row = 0; row < kLeafSize; row += kLeafDim) body(row, patchIndex(row));
 }
 
-// What is owed in cells of air falls towards the liquid, to the neighbours that are nearer to it. phi: kFar
-// in solids.
-void gatherInLiquid(const LeafTable& leaves, const std::vector<float>& phi, std::vector<float>& owed) {
-  const auto none = [](float) { return kFar; };
+// What is owed in cells of air falls towards the liquid, to the neighbours that are nearer to it. phi: `far`
+// or more in solids.
+void gatherInLiquid(const LeafTable& leaves, const std::vector<float>& phi, float far,
+                    std::vector<float>& owed) {
+  const auto none = [far](float) { return far; };
   // One over the sum of differences to lower neighbours; 0 where nothing is given on.
   std::vector<float> rate(owed.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
@@ -171,39 +176,43 @@ FloatGrid::Ptr toGrid(const LeafTable& leaves, const std::vector<float>& owed, d
 FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const FloatGrid* owed,
                           const Velocity& velocity, const SolidField& solid, const SolidField& solidAfter,
                           const RunningFlows& flows, double dt) {
-  VolumeFlux flux =
-      volumeFlux(leavesAround(before, after, owed, solid.domain), before, after, velocity, solid, dt);
+  // Between two steps solids come or go; all the liquid may be there.
+  const bool between = dt == 0.0;
+  const VolumeFlux flux = volumeFlux(leavesAround(before, after, owed, between, solidAfter.domain), before,
+                                     after, velocity, solid, dt);
   const LeafTable& leaves = flux.leaves;
-  std::vector<float> due(leaves.voxels(), 0.0f), shares = wetShares(before, solid, leaves);
+  std::vector<float> due(leaves.voxels(), 0.0f);
+  const std::vector<float> was = wetShares(before, solid, leaves), is = wetShares(after, solidAfter, leaves);
+  std::vector<float> shares = was;
   if (owed != nullptr) {
-    const std::vector<float> was = sampleOn(leaves, owed->constTree());
+    const std::vector<float> value = sampleOn(leaves, owed->constTree());
     for (std::size_t at = 0; at < shares.size(); ++at) {
       if (flux.room[at] > 0.0f) {
-        shares[at] += was[at] / flux.room[at];
+        shares[at] += value[at] / flux.room[at];
       } else {
-        due[at] = was[at];
+        due[at] = value[at];
       }
     }
   }
-  shares = carried(flux, std::move(shares));
-
-  for (std::size_t at = 0; at < due.size(); ++at) due[at] += flux.room[at] * shares[at];
-  if (!flux.swept.empty()) {
-    for (std::size_t at = 0; at < due.size(); ++at)
-      due[at] -= static_cast<float>(flux.steps) * flux.swept[at] * shares[at];
-    moveRoom(flux, solid, solidAfter);
-  }
-  const std::vector<float> is = wetShares(after, solidAfter, leaves);
-  std::vector<float> phi = sampleOn(leaves, after.constTree());
-  for (std::size_t at = 0; at < due.size(); ++at) {
-    due[at] -= flux.room[at] * is[at];
-    if (flux.room[at] <= 0.0f) phi[at] = kFar;
-  }
+  const CarriedShares flown = carried(flux, std::move(shares));
   const float h = static_cast<float>(solid.voxelSize);
+  const bool moved = between || !flux.swept.empty();
+  const std::vector<float> openAfter = moved ? openRoom(solidAfter, leaves) : flux.open;
+  std::vector<float> phi = sampleOn(leaves, after.constTree());
+  const std::vector<float> depth =
+      moved ? sampleOn(leaves, solidAfter.phi->constTree()) : std::vector<float>();
+  for (std::size_t at = 0; at < due.size(); ++at) {
+    // What slivers have room for beyond their volume holds nothing.
+    const float more = flux.room[at] - flux.open[at];
+    due[at] += flux.room[at] * flown.share[at] - more * was[at] - openAfter[at] * is[at];
+    if (!flown.swept.empty()) due[at] -= flown.swept[at];
+    // Out of solids that have come over liquid it leads to their surface.
+    if (openAfter[at] <= 0.0f) phi[at] = kFar * h - (moved ? depth[at] : 0.0f);
+  }
   for (const auto& running : flows.sources) forgive(leaves, *running.source->phi, h, due);
   for (const FloatGrid* drain : flows.drains) forgive(leaves, *drain, h, due);
-  gatherInLiquid(leaves, phi, due);
-  spreadInLiquid(leaves, phi, flux.room, due);
+  gatherInLiquid(leaves, phi, kFar * h, due);
+  spreadInLiquid(leaves, phi, openAfter, due);
   return toGrid(leaves, due, solid.voxelSize);
 }
 

@@ -281,7 +281,7 @@ void Solver::applyEvents() {
   }
   if (whole != nullptr) {
     liquid.owed =
-        owedVolume(*whole, *liquid.phi, liquid.owed.get(), makeVelocity(h), *m_solid, *m_solid, flows, 0.0);
+        owedVolume(*whole, *liquid.phi, liquid.owed.get(), makeVelocity(h), *before, *m_solid, flows, 0.0);
   }
   store(m_state, std::move(liquid), h);
 }

@@ -293,7 +293,6 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
     // What is left of the band has no surface that could renew it.
     next.phi->clear();
     next.markers.clear();
-    next.owed = nullptr;
     next.acceleration = next.swelling = {};
   }
   return next;

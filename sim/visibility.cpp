@@ -11,7 +11,7 @@ namespace fluidtex::sim {
 namespace {
 
 // Walls thicker than this many cells are none: stencils end within them.
-constexpr int kThickest = 6;
+constexpr int kThickest = 5;
 // What is known around a block: the cells that are asked about, the way from one in the solid to the open,
 // and from there on.
 constexpr int kHalo = 8, kSide = kLeafDim + 2 * kHalo;
@@ -36,6 +36,10 @@ struct Surroundings {
     }
   }
 
+  // Nearer than a cell's half diagonal to every cell centre beside its surface.
+  bool anySolid() const {
+    return std::any_of(distance.begin(), distance.end(), [](float d) { return d < 0.87f; });
+  }
   bool isOpen(int cell) const { return distance[cell] >= -kDeepInSolid; }
   // Whether a way leads from a cell to the next one along an axis.
   bool leadsUp(int cell, int axis) const {
@@ -43,31 +47,49 @@ struct Surroundings {
     return isOpen(cell) && isOpen(next) && openness[axis][next] > 0.0f;
   }
 
-  // Whether a row of cells leaves the open and comes back to it within kThickest cells.
-  bool crossesThinWall(int first, int axis) const {
+  // Marks the cells from which a row of cells leaves the open to where it comes back, where these are no
+  // more than kThickest apart. True if any.
+  bool markThinWalls(int first, int axis, std::vector<char>& marks) const {
     int last = -kSide;  // the last open cell
-    bool left = false;  // since then
+    bool left = false, any = false;
     for (int i = 0; i < kSide; ++i) {
       const int cell = first + i * kStride[axis];
       if (!isOpen(cell)) {
         left = true;
         continue;
       }
-      if (i > 0 && last == i - 1 && openness[axis][cell] <= 0.0f) left = true;
-      if (left && i - last <= kThickest) return true;
+      if (last == i - 1 && openness[axis][cell] <= 0.0f) left = true;
+      if (left && i - last <= kThickest) {
+        any = true;
+        for (int n = last; n <= i; ++n) marks[first + n * kStride[axis]] = 1;
+      }
       last = i;
       left = false;
     }
-    return false;
+    return any;
   }
-  bool hasThinWall() const {
+  // The cells beside thin walls, and those in them; none where there are none.
+  std::vector<char> besideThinWalls() const {
+    std::vector<char> marks(distance.size(), 0);
+    bool any = false;
     for (int axis = 0; axis < 3; ++axis) {
       const int p = kStride[(axis + 1) % 3], q = kStride[(axis + 2) % 3];
       for (int i = 0; i < kSide; ++i)
-        for (int j = 0; j < kSide; ++j)
-          if (crossesThinWall(i * p + j * q, axis)) return true;
+        for (int j = 0; j < kSide; ++j) any = markThinWalls(i * p + j * q, axis, marks) || any;
     }
-    return false;
+    if (!any) return {};
+    // As far as stencils reach, one axis after the other.
+    for (const int stride : kStride) {
+      const std::vector<char> before = marks;
+      for (std::size_t at = 0; at < marks.size(); ++at) {
+        if (before[at] == 0) continue;
+        for (int n = -VisibleCells::kReach; n <= VisibleCells::kReach; ++n) {
+          const auto there = static_cast<std::ptrdiff_t>(at) + n * stride;
+          if (there >= 0 && there < static_cast<std::ptrdiff_t>(marks.size())) marks[there] = 1;
+        }
+      }
+    }
+    return marks;
   }
 
   // The cell in the open from which a cell gets its values: downhill in depth. Itself in the open; -1 for
@@ -86,33 +108,39 @@ struct Surroundings {
   }
 };
 
-// Which cells of the box around an open one a way leads to that turns back along no axis.
-void walk(const Surroundings& around, int from, std::array<bool, kBox * kBox * kBox>& reached) {
-  reached.fill(false);
+using Reached = std::array<bool, kBox * kBox * kBox>;
+
+// Which cells up to `far` from an open one a way leads to that turns back along no axis.
+void walk(const Surroundings& around, int from, int far, Reached& reached) {
   reached[kBoxMiddle] = true;
-  const auto visit = [&](int i, int j, int k) {
-    const int offset[3] = {i, j, k};
-    const int cell = from + i * kStride[0] + j * kStride[1] + k * kStride[2];
-    const int at = kBoxMiddle + i * kBoxStride[0] + j * kBoxStride[1] + k * kBoxStride[2];
-    for (int a = 0; a < 3 && !reached[at]; ++a) {
-      if (offset[a] == 0) continue;
-      const int back = offset[a] > 0 ? -1 : 1;
-      reached[at] =
-          reached[at + back * kBoxStride[a]] && around.leadsUp(back < 0 ? cell - kStride[a] : cell, a);
+  // From the cells one step nearer along each axis; of one octant, the upper one where a sign is 1.
+  const auto fill = [&](int si, int sj, int sk) {
+    const int out[3] = {si * kStride[0], sj * kStride[1], sk * kStride[2]};
+    const int boxOut[3] = {si * kBoxStride[0], sj * kBoxStride[1], sk * kBoxStride[2]};
+    const int sign[3] = {si, sj, sk};
+    for (int i = 0; i <= far; ++i) {
+      for (int j = 0; j <= far; ++j) {
+        for (int k = 0; k <= far; ++k) {
+          const int steps[3] = {i, j, k};
+          const int cell = from + i * out[0] + j * out[1] + k * out[2];
+          const int at = kBoxMiddle + i * boxOut[0] + j * boxOut[1] + k * boxOut[2];
+          bool any = i + j + k == 0;
+          for (int a = 0; a < 3 && !any; ++a) {
+            any = steps[a] > 0 && reached[at - boxOut[a]] &&
+                  around.leadsUp(sign[a] > 0 ? cell - kStride[a] : cell, a);
+          }
+          reached[at] = any;
+        }
+      }
     }
   };
-  // Outwards in each octant; their common planes come twice, which does no harm.
-  for (int octant = 0; octant < 8; ++octant) {
-    const int si = (octant & 4) != 0 ? -1 : 1, sj = (octant & 2) != 0 ? -1 : 1,
-              sk = (octant & 1) != 0 ? -1 : 1;
-    for (int i = 0; i <= kFar; ++i)
-      for (int j = 0; j <= kFar; ++j)
-        for (int k = 0; k <= kFar; ++k)
-          if (i + j + k > 0) visit(si * i, sj * j, sk * k);
-  }
+  for (int octant = 0; octant < 8; ++octant)
+    fill((octant & 4) != 0 ? -1 : 1, (octant & 2) != 0 ? -1 : 1, (octant & 1) != 0 ? -1 : 1);
 }
 
 std::unique_ptr<Visibility::Leaf> look(const Surroundings& around) {
+  const std::vector<char> asked = around.besideThinWalls();
+  if (asked.empty()) return nullptr;
   auto leaf = std::make_unique<Visibility::Leaf>();
   bool any = false;
   std::vector<int> source(around.distance.size(), -2);  // -2: not asked yet
@@ -120,33 +148,43 @@ std::unique_ptr<Visibility::Leaf> look(const Surroundings& around) {
     if (source[cell] == -2) source[cell] = around.sourceOf(cell);
     return source[cell];
   };
-  std::array<bool, kBox * kBox * kBox> reached;
+  Reached reached;
   constexpr int kReach = VisibleCells::kReach;
   for (int c = 0; c < kLeafSize; ++c) {
     const int i = (c >> 6) + kHalo, j = ((c >> 3) & 7) + kHalo, k = (c & 7) + kHalo;
     const int cell = i * kStride[0] + j * kStride[1] + k * kStride[2];
+    if (asked[cell] == 0) continue;
     const int from = sourceOf(cell);
     if (from < 0) continue;
-    const int fromAt[3] = {from / kStride[0], from / kSide % kSide, from % kSide};
-    if (std::any_of(fromAt, fromAt + 3, [](int x) { return x < kFar || x >= kSide - kFar; })) continue;
-    walk(around, from, reached);
-    VisibleCells& visible = (*leaf)[c];
+    const Coord fromAt(from / kStride[0], from / kSide % kSide, from % kSide);
+    // Where the cells around get their values from, seen from there; too far away to be seen where beyond
+    // kFar.
+    std::array<Coord, VisibleCells::kCount> way;
+    std::array<bool, VisibleCells::kCount> owned;
+    int far = 0, at = 0;
     for (int di = -kReach; di <= kReach; ++di) {
       for (int dj = -kReach; dj <= kReach; ++dj) {
-        for (int dk = -kReach; dk <= kReach; ++dk) {
+        for (int dk = -kReach; dk <= kReach; ++dk, ++at) {
           const int to = sourceOf(cell + di * kStride[0] + dj * kStride[1] + dk * kStride[2]);
-          if (to < 0) continue;  // nobody's
-          const int way[3] = {to / kStride[0] - fromAt[0], to / kSide % kSide - fromAt[1],
-                              to % kSide - fromAt[2]};
-          const bool near = std::all_of(way, way + 3, [](int w) { return std::abs(w) <= kFar; });
-          if (near &&
-              reached[kBoxMiddle + way[0] * kBoxStride[0] + way[1] * kBoxStride[1] + way[2] * kBoxStride[2]])
-            continue;
-          visible.hide(VisibleCells::kMiddle + di * VisibleCells::kStride[0] + dj * VisibleCells::kStride[1] +
-                       dk * VisibleCells::kStride[2]);
-          any = true;
+          owned[at] = to >= 0;
+          if (!owned[at]) continue;
+          way[at] = Coord(to / kStride[0], to / kSide % kSide, to % kSide) - fromAt;
+          for (int a = 0; a < 3; ++a) far = std::max(far, std::abs(way[at][a]));
         }
       }
+    }
+    far = std::min(far, kFar);
+    for (int a = 0; a < 3; ++a) far = std::min({far, fromAt[a], kSide - 1 - fromAt[a]});
+    walk(around, from, far, reached);
+    VisibleCells& visible = (*leaf)[c];
+    for (at = 0; at < VisibleCells::kCount; ++at) {
+      if (!owned[at]) continue;
+      const Coord& w = way[at];
+      const bool near = std::abs(w[0]) <= far && std::abs(w[1]) <= far && std::abs(w[2]) <= far;
+      if (near && reached[kBoxMiddle + w[0] * kBoxStride[0] + w[1] * kBoxStride[1] + w[2] * kBoxStride[2]])
+        continue;
+      visible.hide(at);
+      any = true;
     }
   }
   return any ? std::move(leaf) : nullptr;
@@ -221,7 +259,7 @@ std::shared_ptr<const Visibility> visibilityOf(const FloatGrid& solidPhi,
   std::vector<std::unique_ptr<Visibility::Leaf>> leaves(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t n) {
     const Surroundings around(solidPhi, open, all[n]);
-    if (around.hasThinWall()) leaves[n] = look(around);
+    if (around.anySolid()) leaves[n] = look(around);
   });
   auto result = std::make_shared<Visibility>();
   for (std::size_t n = 0; n < all.size(); ++n)

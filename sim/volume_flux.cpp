@@ -1,5 +1,6 @@
 #include "sim/volume_flux.h"
 
+#include "sim/cell_volume.h"
 #include "sim/leaf_patch.h"
 
 #include <tbb/parallel_for.h>
@@ -31,17 +32,6 @@ float netOutflow(const LeafFaces& flux, int offset) {
     sum += face[kNextFace[axis]] - face[0];
   }
   return sum;
-}
-
-float openShare(float solid, float h) {
-  return std::clamp(0.5f + solid / h, 0.0f, 1.0f);
-}
-
-// The liquid's share of a cell's room.
-float wetShare(float phi, float solid, float h) {
-  const float open = openShare(solid, h), wet = std::clamp(0.5f - phi / h, 0.0f, 1.0f);
-  if (open <= 0.0f) return phi < 0.0f ? 1.0f : 0.0f;
-  return std::min(1.0f, wet / open);
 }
 
 // One side of a face: of the room there the share that is liquid, and phi in cells.
@@ -94,7 +84,7 @@ void divide(VolumeFlux& flux, const std::vector<float>& leaving, const std::vect
 // 2010.
 template <int kAxis>
 std::vector<float> carriedAlong(const VolumeFlux& all, bool last, const std::vector<char>& full,
-                                const std::vector<float>& shares) {
+                                const std::vector<float>& shares, std::vector<float>& pressed) {
   constexpr int kStride = kPatchStride[kAxis];
   std::vector<float> next(shares.size());
   tbb::parallel_for(std::size_t{0}, all.leaves.size(), [&](std::size_t n) {
@@ -130,8 +120,11 @@ std::vector<float> carriedAlong(const VolumeFlux& all, bool last, const std::vec
         gain[k] = isFull[k] != 0 ? gain[k] + swells - net[k] : gain[k];
       }
       // What solids sweep out, or make room for, is neither lost nor gained.
-      for (int k = 0; swept != nullptr && k < kLeafDim; ++k)
-        gain[k] += swept[row + k] * share[patchIndex(row) + k];
+      for (int k = 0; swept != nullptr && k < kLeafDim; ++k) {
+        const float more = swept[row + k] * share[patchIndex(row) + k];
+        gain[k] += more;
+        pressed[n * kLeafSize + row + k] += more;
+      }
       for (int k = 0; k < kLeafDim; ++k) {
         const int at = patchIndex(row) + k;
         const float space = room[at] > 0.0f ? room[at] : 1.0f, moved = share[at] + gain[k] / space;
@@ -146,11 +139,11 @@ std::vector<float> carriedAlong(const VolumeFlux& all, bool last, const std::vec
 
 VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid& after,
                       const Velocity& velocity, const SolidField& solid, double dt) {
-  VolumeFlux result{std::move(table), {}, {}, {}, {}, 1};
+  VolumeFlux result{std::move(table), {}, {}, {}, {}, {}, 1};
   const LeafTable& leaves = result.leaves;
   const float h = static_cast<float>(solid.voxelSize), step = static_cast<float>(dt / solid.voxelSize);
   result.flux.resize(leaves.size());
-  result.room.resize(leaves.voxels());
+  result.open = result.room = openRoom(solid, leaves);
   result.phi.resize(leaves.voxels());
   const bool moving = solid.speedU != nullptr;
   if (moving) result.swept.resize(leaves.voxels());
@@ -159,8 +152,7 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
   const FloatGrid* const push[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     const Coord& origin = leaves.origins[n];
-    float solidScratch[kLeafSize], fromScratch[kLeafSize], toScratch[kLeafSize];
-    const float* s = leafValues(solid.phi->constTree(), origin, solidScratch);
+    float fromScratch[kLeafSize], toScratch[kLeafSize];
     const float* from = leafValues(before.constTree(), origin, fromScratch);
     const float* to = leafValues(after.constTree(), origin, toScratch);
     std::array<LeafPatch, 3> share, pushed;
@@ -179,23 +171,21 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
     for (int i = 0; i < kLeafSize; ++i) {
       const std::size_t cell = n * kLeafSize + i;
       const int at = patchIndex(i);
-      float out = 0.0f, anyOpen = 0.0f, swept = 0.0f, throughFace = 0.0f;
+      float out = 0.0f, swept = 0.0f, throughFace = 0.0f;
       for (int axis = 0; axis < 3; ++axis) {
         const float* flux = result.flux[n][axis].data() + faceIndex(i, axis);
         const int above = at + kPatchStride[axis];
         out += std::max(0.0f, -flux[0]) + std::max(0.0f, flux[kNextFace[axis]]);
         throughFace = std::max({throughFace, -flux[0], flux[kNextFace[axis]]});
-        anyOpen += share[axis][at] + share[axis][above];
         if (moving) {
           swept += step * ((1.0f - share[axis][at]) * pushed[axis][at] -
                            (1.0f - share[axis][above]) * pushed[axis][above]);
         }
       }
       result.phi[cell] = 0.5f * (from[i] + to[i]) / h;
-      if (anyOpen <= 0.0f) continue;
+      if (result.open[cell] <= 0.0f) continue;
       if (moving) result.swept[cell] = swept;
       leaving[cell] = out + std::abs(swept);
-      result.room[cell] = openShare(s[i], h);
       if (result.room[cell] > kSliver) most[n] = std::max(most[n], throughFace / result.room[cell]);
     }
   });
@@ -205,42 +195,43 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
 
 std::vector<float> wetShares(const FloatGrid& phi, const SolidField& solid, const LeafTable& leaves) {
   std::vector<float> shares(leaves.voxels());
-  const float h = static_cast<float>(solid.voxelSize);
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    float phiScratch[kLeafSize], solidScratch[kLeafSize];
-    const float* p = leafValues(phi.constTree(), leaves.origins[n], phiScratch);
-    const float* s = leafValues(solid.phi->constTree(), leaves.origins[n], solidScratch);
-    for (int i = 0; i < kLeafSize; ++i) shares[n * kLeafSize + i] = wetShare(p[i], s[i], h);
+    LeafShares liquid, open;
+    liquidShares(phi, solid, leaves.origins[n], liquid);
+    openShares(solid, leaves.origins[n], open);
+    float scratch[kLeafSize];
+    const float* p = leafValues(phi.constTree(), leaves.origins[n], scratch);
+    for (int i = 0; i < kLeafSize; ++i) {
+      const float inSolid = p[i] < 0.0f ? 1.0f : 0.0f;  // what lies beyond the outline of the open part
+      shares[n * kLeafSize + i] = open[i] > 0.0f ? liquid[i] / open[i] : inSolid;
+    }
   });
   return shares;
 }
 
-std::vector<float> carried(const VolumeFlux& flux, std::vector<float> shares) {
+std::vector<float> openRoom(const SolidField& solid, const LeafTable& leaves) {
+  std::vector<float> room(leaves.voxels());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    LeafShares open;
+    openShares(solid, leaves.origins[n], open);
+    std::copy(open.begin(), open.end(), room.begin() + static_cast<std::ptrdiff_t>(n * kLeafSize));
+  });
+  return room;
+}
+
+CarriedShares carried(const VolumeFlux& flux, std::vector<float> shares) {
   std::vector<char> full(shares.size());
+  std::vector<float> pressed(flux.swept.size(), 0.0f);
   for (int step = 0; step < flux.steps; ++step) {
     std::transform(shares.begin(), shares.end(), full.begin(), [](float share) { return share > 0.5f; });
     // The axes take turns at being first.
     for (int n = 0; n < 3; ++n) {
       const int axis = (step + n) % 3;
       const auto along = axis == 0 ? carriedAlong<0> : axis == 1 ? carriedAlong<1> : carriedAlong<2>;
-      shares = along(flux, n == 2, full, shares);
+      shares = along(flux, n == 2, full, shares, pressed);
     }
   }
-  return shares;
-}
-
-void moveRoom(VolumeFlux& flux, const SolidField& before, const SolidField& after) {
-  const float h = static_cast<float>(before.voxelSize);
-  tbb::parallel_for(std::size_t{0}, flux.leaves.size(), [&](std::size_t n) {
-    float wasScratch[kLeafSize], isScratch[kLeafSize];
-    const float* was = leafValues(before.phi->constTree(), flux.leaves.origins[n], wasScratch);
-    const float* is = leafValues(after.phi->constTree(), flux.leaves.origins[n], isScratch);
-    for (int i = 0; i < kLeafSize; ++i) {
-      float& room = flux.room[n * kLeafSize + i];
-      const float more = room > 0.0f ? room - openShare(was[i], h) : 0.0f;
-      room = std::max(0.0f, openShare(is[i], h) + more);
-    }
-  });
+  return {std::move(shares), std::move(pressed)};
 }
 
 }  // namespace fluidtex::sim

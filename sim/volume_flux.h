@@ -18,7 +18,8 @@ using LeafFaces = std::array<std::array<float, (kLeafDim + 1) * kLeafDim * kLeaf
 // What flows in a step, and into how much room. Volumes are in cells (h^3).
 struct VolumeFlux {
   LeafTable leaves;             // the flat arrays below are theirs, 512 values a leaf
-  std::vector<float> room;      // open share of each cell's volume, 0 in solids
+  std::vector<float> open;      // open share of each cell's volume, 0 in solids
+  std::vector<float> room;      // the same, but slivers have room for all that flows out of them
   std::vector<LeafFaces> flux;  // of volume through each face in a sub-step, upwards
   std::vector<float> swept;  // by solids that move into the cell, in a sub-step; empty where all are at rest
   std::vector<float> phi;    // half way through the step, in cells
@@ -30,14 +31,18 @@ struct VolumeFlux {
 VolumeFlux volumeFlux(LeafTable leaves, const FloatGrid& before, const FloatGrid& after,
                       const Velocity& velocity, const SolidField& solid, double dt);
 
-// The share of each cell's room that phi makes liquid.
+// The open share of each cell's volume, 0 in solids.
+std::vector<float> openRoom(const SolidField& solid, const LeafTable& leaves);
+
+// The share of each cell's open part that phi makes liquid.
 std::vector<float> wetShares(const FloatGrid& phi, const SolidField& solid, const LeafTable& leaves);
 
-// The shares at the step's end, without what solids sweep. The sum over share times room changes by what
-// crosses the leaves' outline only.
-std::vector<float> carried(const VolumeFlux& flux, std::vector<float> shares);
-
-// The room there is once the solids have moved from `before` to `after`.
-void moveRoom(VolumeFlux& flux, const SolidField& before, const SolidField& after);
+// At the step's end: the shares, and what solids have swept into each cell, which counts in the shares but has
+// not come from anywhere. The sum over share times room less `swept` changes by what crosses the leaves'
+// outline only.
+struct CarriedShares {
+  std::vector<float> share, swept;  // `swept` is empty where all solids are at rest
+};
+CarriedShares carried(const VolumeFlux& flux, std::vector<float> shares);
 
 }  // namespace fluidtex::sim

@@ -1,0 +1,61 @@
+#include "sim/cell_volume.h"
+
+#include "sim/leaf_patch.h"
+
+#include <algorithm>
+
+namespace fluidtex::sim {
+namespace {
+
+// At half a cell's diagonal from its centre a solid leaves the cell alone.
+constexpr float kClear = 0.87f;
+
+LeafPatch patchOf(const FloatTree& tree, const Coord& origin) {
+  LeafPatch patch{};
+  gather(tree, origin, 1, patch.data(), true);
+  return patch;
+}
+
+}  // namespace
+
+void openShares(const SolidField& solid, const Coord& origin, LeafShares& open) {
+  const float h = static_cast<float>(solid.voxelSize);
+  float scratch[kLeafSize];
+  const float* s = leafValues(solid.phi->constTree(), origin, scratch);
+  bool anyNear = false;
+  for (int i = 0; i < kLeafSize; ++i) {
+    open[i] = std::clamp(0.5f + s[i] / h, 0.0f, 1.0f);
+    anyNear = anyNear || s[i] < kClear * h;
+  }
+  if (!anyNear) return;
+  std::array<LeafPatch, 3> faces;
+  const FloatGrid* const grids[3] = {solid.openU.get(), solid.openV.get(), solid.openW.get()};
+  for (int a = 0; a < 3; ++a) faces[a] = patchOf(grids[a]->constTree(), origin);
+  for (int i = 0; i < kLeafSize; ++i) {
+    const int at = patchIndex(i);
+    float any = 0.0f;
+    for (int a = 0; a < 3; ++a) any += faces[a][at] + faces[a][at + kPatchStride[a]];
+    if (any <= 0.0f) open[i] = 0.0f;
+  }
+}
+
+void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& origin, LeafShares& liquid) {
+  const float h = static_cast<float>(solid.voxelSize);
+  openShares(solid, origin, liquid);
+  const LeafPatch p = patchOf(phi.constTree(), origin), s = patchOf(solid.phi->constTree(), origin);
+  const auto isLiquid = [&](int at) { return p[at] < 0.0f && s[at] > 0.0f; };
+  for (int i = 0; i < kLeafSize; ++i) {
+    const int at = patchIndex(i);
+    if (p[at] >= 0.5f * h) {
+      liquid[i] = 0.0f;
+      continue;
+    }
+    liquid[i] = std::min(liquid[i], std::min(1.0f, 0.5f - p[at] / h));
+    if (p[at] < 0.0f || liquid[i] == 0.0f) continue;
+    bool beside = false;
+    for (const int stride : kPatchStride) beside = beside || isLiquid(at - stride) || isLiquid(at + stride);
+    if (!beside) liquid[i] = 0.0f;
+  }
+}
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,22 @@
+// How much room, and how much liquid, there is in each cell.
+#pragma once
+
+#include "sim/mac_grid.h"
+#include "sim/solids.h"
+
+#include <array>
+
+namespace fluidtex::sim {
+
+using LeafShares = std::array<float, kLeafSize>;
+
+// The share of each cell of a block that no solid takes, from the solid's distance at the centre; 0 for cells
+// without an open face, which nothing can get into.
+void openShares(const SolidField& solid, const Coord& origin, LeafShares& open);
+
+// The share of each cell of a block that is liquid: what phi's surface encloses outside solids, from the
+// distance at the centre. A cell whose centre is not liquid counts only beside one whose centre is: else
+// there is no surface, and nobody sees it.
+void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& origin, LeafShares& liquid);
+
+}  // namespace fluidtex::sim
