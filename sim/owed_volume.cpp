@@ -63,7 +63,7 @@ void forRows(const Body& body) {
 // or more in solids.
 void gatherInLiquid(const LeafTable& leaves, const std::vector<float>& phi, float far,
                     std::vector<float>& owed) {
-  const auto none = [far](float) { return far; };
+  const auto none = [far](float) { return 2.0f * far; };  // nothing goes where there is no leaf
   // One over the sum of differences to lower neighbours; 0 where nothing is given on.
   std::vector<float> rate(owed.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
@@ -221,6 +221,21 @@ double totalOwed(const FloatGrid& owed) {
   for (auto leaf = owed.constTree().cbeginLeaf(); leaf; ++leaf)
     cells += std::accumulate(leaf->buffer().data(), leaf->buffer().data() + kLeafSize, 0.0);
   return cells * std::pow(owed.voxelSize()[0], 3);
+}
+
+Vec3d placeOfMost(const FloatGrid& owed) {
+  double most = -1.0;
+  Coord cell(0);
+  for (auto leaf = owed.constTree().cbeginLeaf(); leaf; ++leaf) {
+    const float* values = leaf->buffer().data();
+    const double sum = std::abs(std::accumulate(values, values + kLeafSize, 0.0));
+    if (sum <= most) continue;
+    most = sum;
+    const float* largest = std::max_element(values, values + kLeafSize,
+                                            [](float a, float b) { return std::abs(a) < std::abs(b); });
+    cell = leaf->offsetToGlobalCoord(static_cast<openvdb::Index>(largest - values));
+  }
+  return owed.indexToWorld(cell);
 }
 
 FloatGrid::Ptr growthOf(const FloatGrid& owed, double time) {

@@ -27,6 +27,9 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
 // centres, of half a cell at most.
 FloatGrid::Ptr growthOf(const FloatGrid& owed, double time);
 
+// Where most is owed: the middle of the cell that owes most, either way, of the block that does.
+Vec3d placeOfMost(const FloatGrid& owed);
+
 // What is owed in all, m3; below 0 where there is too much liquid.
 double totalOwed(const FloatGrid& owed);
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace fluidtex::sim {
 
@@ -18,22 +17,6 @@ namespace {
 // cells at most, its band is little wider, and stencils reach a leaf further. Some more is made at once, so
 // that it lasts for many steps.
 constexpr int kNeeded = 1, kMade = 2;
-
-// The corners of the domain's cells that a solid within these cells can hold; of one without an end, some.
-CoordBBox cornersOf(const Coord& cells, const CoordBBox& domain, const CoordBBox& within) {
-  constexpr int kSome = 16;
-  if (within.empty()) return {};
-  CoordBBox corners;
-  for (int a = 0; a < 3; ++a) {
-    const int first = within.min()[a], last = within.max()[a];
-    const bool begins = first > -kEndless, ends = last < kEndless - 1;
-    const int low = begins ? first - 1 : std::min(0, ends ? last - kSome : 0);
-    const int high = ends ? last + 2 : std::max(cells[a], begins ? first + kSome : 0);
-    corners.min()[a] = std::max(low, domain.min()[a]);
-    corners.max()[a] = std::min(high, domain.max()[a] + 1);
-  }
-  return corners;
-}
 
 bool everySide(Side) {
   return true;
@@ -101,55 +84,6 @@ double Solids::nextChange(double t) const {
     }
   }
   return next;
-}
-
-double Solids::deepestCorner(const Placed& solid, double enough) const {
-  const double h = m_options.voxelSize();
-  const CoordBBox corners = cornersOf(cellCount(m_options.size, h), m_domain,
-                                      cellsIn(boundsAt(solid.shape.boundsIn(kEverywhere), solid.pose), h));
-  if (corners.empty()) return -kForever;
-  double deepest = -kForever;
-  // At the corners of a cube of cells, the upper ones left out.
-  const std::function<void(const Coord&, int)> look = [&](const Coord& low, int size) {
-    if (deepest >= enough || !corners.hasOverlap(CoordBBox::createCube(low, size))) return;
-    const int half = size / 2;
-    const Coord middle = low.offsetBy(half);
-    const double depth = -distanceTo(solid, middle.asVec3d() * h);
-    if (corners.isInside(middle)) deepest = std::max(deepest, depth);
-    if (size == 1 || depth < -0.5 * std::sqrt(3.0) * size * h) return;
-    for (int n = 0; n < 8; ++n)
-      look(low.offsetBy((n & 1) * half, (n >> 1 & 1) * half, (n >> 2) * half), half);
-  };
-  int size = 1;
-  while (size <= corners.extents()[corners.maxExtent()]) size *= 2;
-  look(corners.min(), size);
-  return deepest;
-}
-
-std::vector<std::string> Solids::warnings() const {
-  std::vector<std::string> warnings;
-  const double h = m_options.voxelSize(), enough = 0.99 * h;
-  for (std::size_t i = 0; i < m_options.solids.size(); ++i) {
-    // A wall of two cells has a corner a cell deep, wherever it stands.
-    const Solid& solid = m_options.solids[i];
-    // One that moves may come in later.
-    double deepest = deepestCorner(placed(i, solid.from), enough);
-    for (std::size_t k = 0; k < solid.keyframes.size() && deepest < enough; ++k)
-      deepest = std::max(deepest, deepestCorner(placed(i, solid.keyframes[k].time), enough));
-    if (deepest >= enough) continue;
-    std::ostringstream text;
-    const std::string& name = m_options.solids[i].name;
-    text << "solid " << (name.empty() ? std::to_string(i) : "\"" + name + "\"");
-    if (deepest <= 0.0) {
-      text << " is nowhere in the domain, or so thin that no cell of " << h << " m can tell";
-    } else {
-      text << " is nowhere thicker than about " << 2.0 * deepest << " m, less than two cells of " << h
-           << " m";
-    }
-    text << ": liquid may pass through it; make it thicker, or give a higher domain.resolution";
-    warnings.push_back(text.str());
-  }
-  return warnings;
 }
 
 Solids::Placed Solids::placed(std::size_t index, double t) const {

@@ -85,7 +85,8 @@ class Solids {
   // The first time after t at which the set changes, or a solid's motion; kForever where it never does again.
   double nextChange(double t) const;
 
-  // One sentence for each solid that no cell's face can feel: liquid would pass through it.
+  // One sentence for each solid that is nowhere, or has walls too thin to hold liquid: where, how thin, and
+  // which resolution would do.
   std::vector<std::string> warnings() const;
 
   // Signed distance at world position x to the active solids and the domain's walls, metres, negative inside.
@@ -128,8 +129,12 @@ class Solids {
   const Wall& nearestWall(const std::vector<Placed>& solids, const Vec3d& x) const;
   Vec3d velocityOf(const Placed& solid, const SurfaceVelocity* change, const Vec3d& x, double distance) const;
   void addSpeeds(SolidField& field, const std::vector<Placed>& solids) const;
-  // How deep in the solid a corner of the domain's cells lies; looks no further once it is `enough`.
-  double deepestCorner(const Placed& solid, double enough) const;
+  struct Thinness {
+    bool there = false;           // any of the solid is among the domain's cells
+    double thickness = kForever;  // metres: of its thinnest wall, where that is thinner than walls that hold
+    Vec3d place{0.0};             // of that
+  };
+  Thinness thinnest(const Placed& solid) const;
   Chunks movingChunks(const std::vector<Placed>& solids, const CoordBBox& box) const;
   SolidField fieldOf(const std::vector<Placed>& solids, Chunks chunks) const;
 

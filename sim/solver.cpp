@@ -19,6 +19,10 @@
 namespace fluidtex::sim {
 namespace {
 
+// More of the liquid than this share should never be owed.
+constexpr double kMostOwed = 0.02;
+// Solids that come over no more than this share of the liquid go unmentioned.
+constexpr double kMentioned = 1e-3;
 // How often a step that fails is halved.
 constexpr int kMaxHalvings = 6;
 // Times closer than this share of a frame are one.
@@ -279,11 +283,38 @@ void Solver::applyEvents() {
     if (!(kick > 0.0) || halving == kMaxHalvings) fail(now, 2.0 * kick, report);
     kick *= 0.5;
   }
+  if (whole != nullptr && solidsChanged) {
+    const double covered = liquidVolume(*whole, *before) - liquidVolume(*whole, *m_solid);
+    if (covered > kMentioned * m_whole) {
+      std::ostringstream text;
+      text << "at time " << now << " s a solid appears in " << covered
+           << " m3 of liquid, which comes out again beside it";
+      m_warnings.push_back(text.str());
+    }
+  }
   if (whole != nullptr) {
     liquid.owed =
         owedVolume(*whole, *liquid.phi, liquid.owed.get(), makeVelocity(h), *before, *m_solid, flows, 0.0);
   }
   store(m_state, std::move(liquid), h);
+}
+
+void Solver::tellOfDeficit() {
+  if (m_toldOfDeficit || m_state.owed == nullptr) return;
+  const double owed = totalOwed(*m_state.owed);
+  if (std::abs(owed) <= kMostOwed * m_whole) return;
+  m_toldOfDeficit = true;
+  const Vec3d place = placeOfMost(*m_state.owed);
+  std::ostringstream text;
+  text << "at time " << m_state.time << " s the surface holds " << std::abs(owed) << " m3 "
+       << (owed > 0.0 ? "less" : "more") << " than it should, of " << m_whole << " m3, most of it near ("
+       << place[0] << ", " << place[1] << ", " << place[2] << "); "
+       << (owed > 0.0
+               ? "a solid may press on liquid that has no way out, or the liquid is in drops and films "
+                 "thinner than a cell"
+               : "jets and drops may be thinner than a few cells")
+       << "; a higher domain.resolution may help";
+  m_warnings.push_back(text.str());
 }
 
 // By no more than rounding.
@@ -346,6 +377,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     store(m_state, std::move(*next), m_options.voxelSize());
     m_state.time = last ? time : m_state.time + dt;
     m_solid = solid;
+    tellOfDeficit();
     if (report) report(m_state.time);
   }
 }
@@ -381,6 +413,7 @@ Frame Solver::next(const std::function<void(double)>& progress) {
   m_state.frame = frame.index;
   describeLiquid(frame, *m_state.phi, *m_solid);
   if (m_state.owed) frame.stats.owed = totalOwed(*m_state.owed);
+  m_whole = frame.stats.volume + frame.stats.owed;
   if (m_state.temperature) frame.fields["temperature"] = m_state.temperature;
   if (progress) progress(1.0);
   return frame;

@@ -54,7 +54,7 @@ class Solver {
 
   const State& state() const { return m_state; }
 
-  // What will not be as the scene may mean it, one sentence each.
+  // What will not be, or has not been, as the scene may mean it, one sentence each; next() may add to them.
   const std::vector<std::string>& warnings() const { return m_warnings; }
 
  private:
@@ -65,6 +65,8 @@ class Solver {
   void applyEvents();
   void moveTime(double time);
   void advanceTo(double time, Frame& frame, const std::function<void(double)>& report);
+  // Says once when more is owed than a run should owe.
+  void tellOfDeficit();
 
   Options m_options;
   State m_state;
@@ -73,6 +75,8 @@ class Solver {
   std::vector<std::size_t> m_active;          // solids in m_solid
   std::shared_ptr<const Flows> m_flows;
   std::vector<std::string> m_warnings;
+  double m_whole = 0.0;  // m3 of liquid after the last frame, with what was owed
+  bool m_toldOfDeficit = false;
 };
 
 // Throws SolverError when the state was made with cells of another size than the options ask for.
