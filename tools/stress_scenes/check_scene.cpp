@@ -18,8 +18,12 @@
 namespace fluidtex::stress {
 namespace {
 
-// Of the liquid's volume.
+// Of the liquid's volume, in each of so many frames. An impact takes more (6% of the dam break's at a cfl of
+// 3, scenes/README.md), which the liquid beside it gives back within a frame or two.
 constexpr double kMostOwed = 0.02;
+constexpr int kOwedFrames = 4;
+// And in any frame.
+constexpr double kMostOwedAtOnce = 0.1;
 // Times the speed that a fall from the highest place to the lowest gives. The front of a dam break alone has
 // 1.4 times that (Ritter), and where fronts meet or close, jets are faster still.
 constexpr double kJets = 3.0;
@@ -118,7 +122,7 @@ class Checks {
     const Measures now = measure(solver.state(), *frame.solidPhi, m_options);
     volume(frame, now);
     outside(solver.state(), frame);
-    energy(solver.state(), now, frame.time);
+    energy(solver.state(), frame, now);
     speed(now, frame.time);
     m_time = frame.time;
   }
@@ -146,8 +150,9 @@ class Checks {
       fail(m_frame == 1 ? "poured" : "volume",
            fmt::format("{:+.3g} m3, {:+.1f}% of {:.4g} m3", outside, 100.0 * outside / whole, whole));
     // Less than a cell is owed by any film.
-    const double cube = std::pow(m_options.voxelSize(), 3);
-    if (std::abs(frame.stats.owed) > kMostOwed * whole + cube)
+    const double cube = std::pow(m_options.voxelSize(), 3), owed = std::abs(frame.stats.owed);
+    m_owing = owed > kMostOwed * whole + cube ? m_owing + 1 : 0;
+    if (m_owing >= kOwedFrames || owed > kMostOwedAtOnce * whole + cube)
       fail("owed", fmt::format("{:+.3g} m3, {:+.1f}% of {:.4g} m3, most of it ({:+.3g} of a cell) at {}",
                                frame.stats.owed, 100.0 * frame.stats.owed / whole, whole, now.owed.value,
                                written(now.owed.place)));
@@ -174,14 +179,17 @@ class Checks {
 
   // Potential energy and surface are those of the frame, the velocity is of a time `ahead`. Until then the
   // energy of place falls by what gravity does meanwhile: exactly, but for a part of second order, of which
-  // free fall has the most, m (g ahead)^2 / 2.
-  void energy(const sim::State& state, const Measures& now, double time) {
+  // free fall has the most, m (g ahead)^2 / 2. What is owed may have been lost at another height than where
+  // it is.
+  void energy(const sim::State& state, const sim::Frame& frame, const Measures& now) {
     if (isDriven(m_options)) return;
-    const double fall = m_options.gravity.length() * state.ahead;
+    const double weight = m_options.gravity.length(), fall = weight * state.ahead;
     const double sum = now.kinetic + now.potential + now.surface - now.falling * state.ahead;
-    const double allowed =
-        kEnergyTolerance * (now.kinetic + now.potential + now.surface) + 0.5 * now.mass * fall * fall;
-    if (m_frame == 1 || isEvent(m_options, m_time, time)) m_energy = sum;
+    const double lifted =
+        m_options.density * std::abs(frame.stats.owed) * (m_surroundings.highest(frame.time) - now.lowest);
+    const double allowed = kEnergyTolerance * (now.kinetic + now.potential + now.surface) + lifted +
+                           0.5 * now.mass * fall * fall;
+    if (m_frame == 1 || isEvent(m_options, m_time, frame.time)) m_energy = sum;
     // A volume that is wrong has a wrong energy.
     if (sum > m_energy + allowed && !failed("volume"))
       fail("energy", fmt::format("{:.4g} J after {:.4g} J, {:+.1f}%; fastest {:.3g} m/s at {}", sum, m_energy,
@@ -212,7 +220,7 @@ class Checks {
   Surroundings m_surroundings;
   VolumeBudget m_budget;
   std::vector<Failure> m_failures;
-  int m_frame = 0;
+  int m_frame = 0, m_owing = 0;
   double m_time = 0.0, m_energy = 0.0;
 };
 
@@ -236,7 +244,7 @@ sim::State lastState(const sim::Options& options, int frames, int threads, int b
 }  // namespace
 
 std::vector<Failure> checkScene(const std::filesystem::path& file, const std::filesystem::path& scratch,
-                                const std::function<void(double)>& progress) {
+                                const std::string& wanted) {
   scenes::Scene scene;
   try {
     scene = scenes::loadScene(file);
@@ -246,17 +254,13 @@ std::vector<Failure> checkScene(const std::filesystem::path& file, const std::fi
   const sim::Options& options = scene.sim;
   std::optional<Checks> checks;
   std::optional<sim::State> expected;
-  const auto report = [&](double share) {
-    if (progress) progress(share);
-  };
   try {
     onThreads(2, [&] {
       sim::Solver solver(options);
       checks.emplace(options, solver);
       for (int n = 1; n <= scene.frames; ++n) {
         checks->frame(solver, nextFrame(solver));
-        report(0.5 * n / scene.frames);
-        if (checks->failed("finite")) return;
+        if (checks->failed("finite") || checks->failed(wanted)) return;
       }
       expected = solver.state();
     });
@@ -264,10 +268,10 @@ std::vector<Failure> checkScene(const std::filesystem::path& file, const std::fi
     if (!checks) return {{"runs", 0, error.what()}};
     checks->fail("runs", error.what());
   }
-  if (!expected) return checks->take();
+  const bool ofBytes = wanted.empty() || wanted == "threads" || wanted == "restart";
+  if (!expected || !ofBytes) return checks->take();
   try {
     const sim::State broken = lastState(options, scene.frames, 1, scene.frames / 2, scratch);
-    report(1.0);
     if (!difference(*expected, broken).empty()) {
       // By the other number of threads, or by the break?
       const sim::State unbroken = lastState(options, scene.frames, 1, 0, scratch);

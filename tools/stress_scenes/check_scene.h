@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,15 +19,16 @@ struct Failure {
 //   finite   no value of the state is infinite or no number
 //   poured   on the first frame there is as much liquid as the shapes hold
 //   volume   liquid and what is owed are together what was poured, what came and what went, to 1% of it
-//   owed     what is owed is less than 2% of the liquid
+//   owed     what is owed is less than 2% of the liquid, but for a few frames
 //   outside  no liquid where there is no open way to
 //   energy   of motion, place and surface together does not rise where nothing drives the liquid
 //   speed    is no more than what gravity, height and what drives the liquid can give
 //   rest     what is at rest stays at rest
 //   threads  the state after the last frame has the same bytes on one thread as on two
 //   restart  and the same bytes where it was written and read again half way
-// scratch: a folder in which a state can be written. progress: is told the share done.
+// scratch: a folder in which a state can be written. wanted: where given, no more is done than it takes to
+// know whether this one fails.
 std::vector<Failure> checkScene(const std::filesystem::path& file, const std::filesystem::path& scratch,
-                                const std::function<void(double)>& progress = {});
+                                const std::string& wanted = "");
 
 }  // namespace fluidtex::stress

@@ -46,14 +46,15 @@ std::vector<Failure> parsed(const std::string& text) {
 }  // namespace
 
 std::vector<Failure> checkInOwnProcess(const std::filesystem::path& file,
-                                       const std::filesystem::path& scratch, double seconds) {
+                                       const std::filesystem::path& scratch, double seconds,
+                                       const std::string& wanted) {
   int ends[2];
   if (pipe(ends) != 0) throw std::system_error(errno, std::generic_category(), "a pipe");
   const pid_t child = fork();
   if (child < 0) throw std::system_error(errno, std::generic_category(), "a process");
   if (child == 0) {
     close(ends[0]);
-    write(ends[1], checkScene(file, scratch));
+    write(ends[1], checkScene(file, scratch, wanted));
     _exit(0);
   }
   close(ends[1]);

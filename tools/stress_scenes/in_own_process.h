@@ -9,6 +9,7 @@ namespace fluidtex::stress {
 //   crash  the process is not ended by a signal
 //   time   it ends within so many seconds
 std::vector<Failure> checkInOwnProcess(const std::filesystem::path& file,
-                                       const std::filesystem::path& scratch, double seconds);
+                                       const std::filesystem::path& scratch, double seconds,
+                                       const std::string& wanted = "");
 
 }  // namespace fluidtex::stress

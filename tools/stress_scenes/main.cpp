@@ -92,7 +92,7 @@ class Runs {
     smaller.replace_filename(file.stem().string() + "_" + invariant + ".toml");
     const auto fails = [&](const SceneParts& some) {
       writeText(smaller, textOf(some));
-      return !holds(checkInOwnProcess(smaller, m_settings.out, m_settings.seconds), invariant);
+      return !holds(checkInOwnProcess(smaller, m_settings.out, m_settings.seconds, invariant), invariant);
     };
     writeText(smaller, textOf(smallest(parts, fails)));
     fmt::print("  smaller: {}\n", smaller.string());
