@@ -3,6 +3,7 @@
 #include "sim/leaf_table.h"
 #include "sim/level_set.h"
 #include "sim/poisson.h"
+#include "sim/require.h"
 
 #include <tbb/parallel_for.h>
 
@@ -142,6 +143,8 @@ void extendTemperature(FloatGrid& temperature, const FloatGrid& phi, const Float
 
 bool conductHeat(FloatGrid& temperature, const FloatGrid& phi, const SolidField& solid, double dt,
                  double density, const HeatOptions& heat) {
+  require(dt >= 0.0 && density > 0.0 && heat.capacity > 0.0,
+          "conductHeat: density and heat capacity must be positive, the time step must not be negative");
   const double h = solid.voxelSize, volumeHeat = density * heat.capacity;  // J / (m3 K)
   const double conduction = heat.conductivity * dt / (volumeHeat * h * h);
   const double radiation = heat.emissivity * kStefanBoltzmann * dt / (volumeHeat * h);

@@ -2,6 +2,7 @@
 
 #include "sim/chunks.h"
 #include "sim/leaf_table.h"
+#include "sim/require.h"
 
 #include <openvdb/tools/Prune.h>
 
@@ -227,6 +228,7 @@ void unite(FloatGrid& phi, const ShapeDistance& shape, const CoordBBox& domain) 
 }
 
 FloatGrid::Ptr visibleSurface(const FloatGrid& phi, const SolidField& solid, int halfWidth) {
+  require(halfWidth > 0, "visibleSurface: a band of at least one voxel");
   const double h = phi.voxelSize()[0];
   FloatGrid::Ptr surface = makePhi(h, halfWidth * h);
   surface->setName("surface");
