@@ -24,6 +24,9 @@ constexpr double kMostOwed = 0.02;
 constexpr int kOwedFrames = 4;
 // And in any frame.
 constexpr double kMostOwedAtOnce = 0.1;
+// Besides, of a cell for each cell's face of the surface: by so much phi knows where it is. It counts for
+// spray.
+constexpr double kOwedOfSurface = 0.03;
 // Times the speed that a fall from the highest place to the lowest gives. The front of a dam break alone has
 // 1.4 times that (Ritter), and where fronts meet or close, jets are faster still.
 constexpr double kJets = 3.0;
@@ -149,10 +152,10 @@ class Checks {
     if (outside != 0.0)
       fail(m_frame == 1 ? "poured" : "volume",
            fmt::format("{:+.3g} m3, {:+.1f}% of {:.4g} m3", outside, 100.0 * outside / whole, whole));
-    // Less than a cell is owed by any film.
-    const double cube = std::pow(m_options.voxelSize(), 3), owed = std::abs(frame.stats.owed);
-    m_owing = owed > kMostOwed * whole + cube ? m_owing + 1 : 0;
-    if (m_owing >= kOwedFrames || owed > kMostOwedAtOnce * whole + cube)
+    const double h = m_options.voxelSize(), owed = std::abs(frame.stats.owed);
+    const double always = kOwedOfSurface * h * now.area + h * h * h;
+    m_owing = owed > kMostOwed * whole + always ? m_owing + 1 : 0;
+    if (m_owing >= kOwedFrames || owed > kMostOwedAtOnce * whole + always)
       fail("owed", fmt::format("{:+.3g} m3, {:+.1f}% of {:.4g} m3, most of it ({:+.3g} of a cell) at {}",
                                frame.stats.owed, 100.0 * frame.stats.owed / whole, whole, now.owed.value,
                                written(now.owed.place)));

@@ -90,11 +90,17 @@ class Runs {
   void shrink(const std::string& invariant, const fs::path& file, const SceneParts& parts) const {
     fs::path smaller = file;
     smaller.replace_filename(file.stem().string() + "_" + invariant + ".toml");
+    const fs::path trial = m_settings.out / "trial.toml";
     const auto fails = [&](const SceneParts& some) {
-      writeText(smaller, textOf(some));
-      return !holds(checkInOwnProcess(smaller, m_settings.out, m_settings.seconds, invariant), invariant);
+      writeText(trial, textOf(some));
+      if (holds(checkInOwnProcess(trial, m_settings.out, m_settings.seconds, invariant), invariant))
+        return false;
+      fs::rename(trial, smaller);
+      return true;
     };
-    writeText(smaller, textOf(smallest(parts, fails)));
+    writeText(smaller, textOf(parts));
+    smallest(parts, fails);
+    fs::remove(trial);
     fmt::print("  smaller: {}\n", smaller.string());
   }
 

@@ -64,17 +64,15 @@ Measures measure(const sim::State& state, const sim::FloatGrid& solidPhi, const 
     const double share = std::clamp(0.5 - std::max(p, -s) / h, 0.0, 1.0);
     const Vec3d x = (cell.asVec3d() + Vec3d(0.5)) * h;
     const double high = -options.gravity.dot(x);
-    if (options.surfaceTension > 0.0) {
-      // The area is the integral of the gradient's length of what is 1 in the liquid and 0 outside.
-      double slope = 0.0;
-      for (int a = 0; a < 3; ++a) {
-        Coord low = cell, up = cell;
-        low[a] -= 1;
-        up[a] += 1;
-        slope += square((wet(up) - wet(low)) / (2.0 * h));
-      }
-      found.surface += options.surfaceTension * std::sqrt(slope) * std::clamp(0.5 + s / h, 0.0, 1.0) * cube;
+    // The area is the integral of the gradient's length of what is 1 in the liquid and 0 outside.
+    double slope = 0.0;
+    for (int a = 0; a < 3; ++a) {
+      Coord low = cell, up = cell;
+      low[a] -= 1;
+      up[a] += 1;
+      slope += square((wet(up) - wet(low)) / (2.0 * h));
     }
+    found.area += std::sqrt(slope) * std::clamp(0.5 + s / h, 0.0, 1.0) * cube;
     if (share <= 0.0) return;
     Vec3d velocity;
     double squares = 0.0;
@@ -94,6 +92,7 @@ Measures measure(const sim::State& state, const sim::FloatGrid& solidPhi, const 
     found.lowest = std::min(found.lowest, high);
     if (const double speed = velocity.length(); !(speed <= found.speed.value)) found.speed = {speed, x};
   });
+  found.surface = options.surfaceTension * found.area;
   if (state.owed == nullptr) return found;
   for (auto it = state.owed->cbeginValueOn(); it; ++it) {
     const Vec3d x = (it.getCoord().asVec3d() + Vec3d(0.5)) * h;

@@ -58,7 +58,7 @@ class Random {
 };
 
 std::string text(double x) {
-  return fmt::format("{:.4g}", x);
+  return fmt::format("{:.6g}", x);  // as many digits as the domain's size: what reaches its sides does so
 }
 
 std::string text(const Vec3d& x) {
@@ -137,8 +137,11 @@ class Writer {
       key("fluid.surface_tension",
           text(density * m_h * m_h * m_h / (4.0 * std::numbers::pi * dt * dt) / 2.0));
     }
-    if (!m_still && m_random.chance(0.1)) key("fluid.gravity", text(m_random.direction() * kGravity));
-    if (!m_still && m_random.chance(0.05)) key("fluid.gravity", "[0, 0, 0]");
+    const Vec3d upright(0.0, 0.0, -kGravity);
+    Vec3d gravity = upright;
+    if (!m_still && m_random.chance(0.1)) gravity = m_random.direction() * kGravity;
+    if (!m_still && m_random.chance(0.05)) gravity = Vec3d(0.0);
+    if (gravity != upright) key("fluid.gravity", text(gravity));
     if (m_random.chance(0.3)) key("simulation.cfl", text(m_random.number(0.5, 4.0)));
     if (m_random.chance(0.2)) {
       key("heat.simulate", "true");
