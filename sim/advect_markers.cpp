@@ -1,6 +1,7 @@
 #include "sim/block_samples.h"
 #include "sim/local_reach.h"
 #include "sim/markers.h"
+#include "sim/require.h"
 
 #include <tbb/parallel_for.h>
 
@@ -92,6 +93,9 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt) {
   const double h = velocity.component[0]->voxelSize()[0];
   const float scale = static_cast<float>(dt / h);
   const LocalReach reach(velocity, dt);
+  // Farther, and markers would leave the neighbouring blocks, and their velocities what is copied of those.
+  require(dt * maxAbs(velocity) < kMaxTrace * h && reach.farthest() < kMaxTrace,
+          "advectMarkers: nothing may move five cells or more in a step");
   // Of a block: the markers that stay in it, and those that leave, by the neighbour they end in.
   struct Moved {
     std::vector<Marker> stay, leave;

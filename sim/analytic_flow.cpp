@@ -1,5 +1,6 @@
 #include "sim/analytic_flow.h"
 
+#include "sim/check_options.h"
 #include "sim/describe_liquid.h"
 #include "sim/level_set.h"
 #include "sim/move_surface.h"
@@ -60,7 +61,7 @@ Coord boundedCells(const SolidField& solid) {
 
 AnalyticFlow::AnalyticFlow(const Options& options, const MotionOptions& motion,
                            std::shared_ptr<const SolidField> solid)
-    : m_options(options),
+    : m_options(checked(options)),
       m_motion(motion),
       m_flow(flowOf(options, motion)),
       m_solid(std::move(solid)),

@@ -4,6 +4,7 @@
 #include "sim/extrapolate.h"
 
 #include "sim/leaf_table.h"
+#include "sim/require.h"
 #include "sim/sort_by_distance.h"
 
 #include <tbb/blocked_range.h>
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 
 namespace fluidtex::sim {
 namespace {
@@ -160,7 +160,7 @@ void extrapolateFields(const std::vector<Extrapolated>& fields, const FloatGrid&
 }  // namespace
 
 void extrapolate(const std::vector<Extrapolated>& fields, const FloatGrid& phi, const FloatGrid& solidPhi) {
-  assert(!fields.empty() && fields.size() <= 3);
+  require(!fields.empty() && fields.size() <= 3, "extrapolate: one to three fields at once");
   if (fields.size() == 1) extrapolateFields<1>(fields, phi, solidPhi);
   if (fields.size() == 2) extrapolateFields<2>(fields, phi, solidPhi);
   if (fields.size() == 3) extrapolateFields<3>(fields, phi, solidPhi);

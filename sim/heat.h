@@ -34,9 +34,9 @@ FloatGrid::Ptr advectTemperature(const FloatGrid& from, const Velocity& velocity
                                  const FloatGrid& phiTo, double dt);
 
 // Conduction in the liquid, radiation from its surface (Stefan and Boltzmann's law against the surroundings)
-// and loss to walls, for dt seconds; implicit, the radiation linearised about the temperature before, so that
-// no dt is too long and nothing gets colder than the coldest around it. False where the solve does not
-// converge.
+// and loss to walls, for dt seconds; implicit, with the radiation's conductance as it is before, so that no
+// dt is too long and nothing gets colder or hotter than the coldest and the hottest of the liquid, the walls
+// and what is around. False where the solve does not converge.
 [[nodiscard]] bool conductHeat(FloatGrid& temperature, const FloatGrid& phi, const SolidField& solid,
                                double dt, double density, const HeatOptions& heat);
 

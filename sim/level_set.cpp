@@ -3,6 +3,7 @@
 #include "sim/cell_volume.h"
 #include "sim/chunks.h"
 #include "sim/leaf_table.h"
+#include "sim/require.h"
 
 #include <openvdb/tools/Prune.h>
 
@@ -229,6 +230,7 @@ void unite(FloatGrid& phi, const ShapeDistance& shape, const CoordBBox& domain) 
 }
 
 FloatGrid::Ptr visibleSurface(const FloatGrid& phi, const SolidField& solid, int halfWidth) {
+  require(halfWidth > 0, "visibleSurface: a band of at least one voxel");
   const double h = phi.voxelSize()[0];
   FloatGrid::Ptr surface = makePhi(h, halfWidth * h);
   surface->setName("surface");

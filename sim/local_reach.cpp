@@ -29,7 +29,10 @@ LocalReach::LocalReach(const Velocity& velocity, double dt) : m_blocks(0.0f) {
     reach[n] = scale * *std::max_element(largest, largest + kLeafDim);
   });
   openvdb::tree::ValueAccessor<FloatTree> blocks(m_blocks);
-  for (std::size_t n = 0; n < leaves.size(); ++n) blocks.setValue(leaves[n]->origin() >> 3, reach[n]);
+  for (std::size_t n = 0; n < leaves.size(); ++n) {
+    blocks.setValue(leaves[n]->origin() >> 3, reach[n]);
+    m_farthest = std::max(m_farthest, reach[n]);
+  }
 }
 
 float LocalReach::from(const Coord& origin) const {

@@ -14,9 +14,12 @@ class LocalReach {
   // At least as far, in cells along each axis, as anything gets that starts in the leaf at `origin`; right
   // where that is no more than a leaf. The leaf need not be one of the velocity's.
   float from(const Coord& origin) const;
+  // Of all leaves.
+  float farthest() const { return m_farthest; }
 
  private:
   FloatTree m_blocks;  // one value a leaf, at its origin / 8
+  float m_farthest = 0.0f;
 };
 
 }  // namespace fluidtex::sim

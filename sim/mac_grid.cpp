@@ -3,6 +3,8 @@
 // topology", 2013.
 #include "sim/mac_grid.h"
 
+#include "sim/require.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
@@ -168,6 +170,7 @@ constexpr auto kCopyBox = []<int... kHalo>(std::integer_sequence<int, kHalo...>)
 }  // namespace
 
 void gather(const FloatTree& tree, const Coord& origin, int halo, float* out, bool crossOnly) {
+  require(halo >= 0 && halo <= kLeafDim, "gather: a halo of 0 to 8 cells");
   // What stands in for leaves that are missing: blocks of one value. Few trees have more than two of them
   // side by side; where one does, a block is filled again for the next leaf.
   constexpr int kFills = 4;

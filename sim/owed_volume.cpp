@@ -2,6 +2,7 @@
 
 #include "sim/leaf_patch.h"
 #include "sim/level_set.h"
+#include "sim/require.h"
 #include "sim/volume_flux.h"
 
 #include <tbb/parallel_for.h>
@@ -239,6 +240,7 @@ Vec3d placeOfMost(const FloatGrid& owed) {
 }
 
 FloatGrid::Ptr growthOf(const FloatGrid& owed, double time) {
+  require(time > 0.0, "growthOf: the time must be positive");
   const FloatGrid::Ptr growth = owed.deepCopy();
   const float rate = static_cast<float>(1.0 / time);
   const auto leaves = leavesOf(growth->tree());

@@ -8,6 +8,7 @@
 #include "sim/mac_grid.h"
 #include "sim/poisson.h"
 #include "sim/pressure_system.h"
+#include "sim/require.h"
 #include "sim/surface_pressure.h"
 
 #include <tbb/blocked_range.h>
@@ -230,7 +231,7 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
 
 Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi, const SolidField& solid,
                    double dt, double density, const PressureOptions& options) {
-  assert(dt > 0.0 && density > 0.0);
+  require(dt > 0.0 && density > 0.0, "project: the time step and the density must be positive");
   LiquidCells liquid = gatherLiquid(phi, solid, {&u.constTree(), &v.constTree(), &w.constTree()});
   const int n = liquid.numbering.size();
   const double pascal = density * solid.voxelSize / dt;  // of one unit of q

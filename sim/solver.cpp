@@ -1,6 +1,7 @@
 #include "sim/solver.h"
 
 #include "sim/advect_velocity.h"
+#include "sim/check_options.h"
 #include "sim/describe_liquid.h"
 #include "sim/flows.h"
 #include "sim/heat.h"
@@ -8,6 +9,7 @@
 #include "sim/level_set.h"
 #include "sim/mac_grid.h"
 #include "sim/owed_volume.h"
+#include "sim/require.h"
 #include "sim/shapes.h"
 #include "sim/solids.h"
 #include "sim/step.h"
@@ -195,7 +197,8 @@ void checkResolution(const State& state, const Options& options) {
   throw SolverError(message.str());
 }
 
-Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_shared<Solids>(options)) {
+Solver::Solver(const Options& options)
+    : m_options(checked(options)), m_solids(std::make_shared<Solids>(options)) {
   const double h = options.voxelSize();
   m_state.poured.assign(options.liquid.size(), false);
   store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0, 0.0, {}}, h);
@@ -204,7 +207,8 @@ Solver::Solver(const Options& options) : m_options(options), m_solids(std::make_
 }
 
 Solver::Solver(const Options& options, State state)
-    : m_options(options), m_state(std::move(state)), m_solids(std::make_shared<Solids>(options)) {
+    : m_options(checked(options)), m_state(std::move(state)), m_solids(std::make_shared<Solids>(options)) {
+  require(m_state.phi && m_state.u && m_state.v && m_state.w, "a state needs a surface and a velocity");
   checkResolution(m_state, options);
   setTransforms(m_state, options.voxelSize());
   if (options.heat.simulated && !m_state.temperature)

@@ -12,6 +12,7 @@
 #include "sim/move_surface.h"
 #include "sim/open_gaps.h"
 #include "sim/owed_volume.h"
+#include "sim/require.h"
 #include "sim/walls.h"
 
 #include <tbb/parallel_for.h>
@@ -258,6 +259,7 @@ bool isEmpty(const Liquid& liquid) {
 std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const SolidField& solid, double dt,
                            double nextDt, const Options& options, StepReport* report,
                            const RunningFlows& flows) {
+  require(dt > 0.0 && nextDt >= 0.0, "step: the time step must be positive, the next one not negative");
   const double kick = std::max(0.0, dt - liquid.ahead + 0.5 * nextDt);
   Liquid next{liquid.phi->deepCopy(), {}, {}, liquid.steps + 1, liquid.ahead - dt + kick, {}};
   next.markers = std::move(liquid.markers);

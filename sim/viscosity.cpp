@@ -1,5 +1,6 @@
 #include "sim/viscosity.h"
 
+#include "sim/require.h"
 #include "sim/viscous_multigrid.h"
 #include "sim/viscous_system.h"
 
@@ -140,6 +141,8 @@ ViscosityReport solveViscous(const ViscousSystem& system, std::vector<double>& x
 ViscosityReport applyViscosity(Velocity& velocity, const FloatGrid& phi, const SolidField& solid, double dt,
                                double density, const ViscosityField& viscosity,
                                const ViscosityOptions& options) {
+  require(dt >= 0.0 && density > 0.0 && viscosity.constant >= 0.0,
+          "applyViscosity: the density must be positive, time step and viscosity must not be negative");
   const double h = solid.voxelSize;
   ViscosityReport report;
   report.skipped = isNegligible(viscosity, dt, density, h, options);

@@ -355,8 +355,11 @@ void ViscousMultigrid::cycle(std::size_t number) {
     tbb::parallel_for(0, 3, [&](int c) {
       for (std::int32_t i = level.system.start[c].front(); i < level.system.start[c].back(); ++i) {
         const float rest = level.residual(i, c);
-        for (int n = 0; n < 8; ++n)
-          coarse.b[level.transfer.parent[i][n]] += level.transfer.weight[i][n] * rest;
+        // Not at nowhere(), where the three components would meet.
+        for (int n = 0; n < 8; ++n) {
+          const std::int32_t parent = level.transfer.parent[i][n];
+          if (parent < coarse.system.unknowns) coarse.b[parent] += level.transfer.weight[i][n] * rest;
+        }
       }
     });
     cycle(number + 1);

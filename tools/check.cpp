@@ -6,6 +6,7 @@
 #include "tools/color_between.h"
 #include "tools/common_options.h"
 #include "tools/errors.h"
+#include "tools/foreseen_surface.h"
 #include "tools/liquid_plan.h"
 
 #include <fmt/core.h>
@@ -45,9 +46,9 @@ void check(const CommonOptions& options) {
              static_cast<double>(liquid.atStart) * h * h * h);
   if (liquid.cells != liquid.atStart) fmt::print("; {} cells once all is poured", liquid.cells);
   fmt::print("\n");
-  // How much sources bring cannot be told beforehand.
+  // How much sources bring can be told roughly only.
   const bool fed = !scene.sim.sources.empty();
-  const double spacing = scene.texture.spacing;
+  const double spacing = scene.texture.spacing, foreseen = foreseenSurface(scene);
   const bool counted = spacing <= 0.0 || !fed;
   double points = scene.texture.points;
   if (!counted) {
@@ -56,6 +57,9 @@ void check(const CommonOptions& options) {
   } else if (spacing > 0.0) {
     points = static_cast<double>(liquid.surfaceCells) * (h / spacing) * (h / spacing);
     fmt::print("points    one every {:.4g} m, about {:.2g}\n", spacing, points);
+  } else if (foreseen > 0.0) {
+    fmt::print("points    {} on the {:.2g} m2 that the liquid may come to, one every {:.4g} m or more\n",
+               scene.texture.points, foreseen, foreseenSpacing(scene));
   } else {
     fmt::print("points    {} on the first surface; the spacing then stays\n", scene.texture.points);
   }

@@ -12,6 +12,7 @@
 #include "tools/color_between.h"
 #include "tools/earlier_run.h"
 #include "tools/errors.h"
+#include "tools/foreseen_surface.h"
 #include "tools/onto_mesh.h"
 #include "tools/orientation_guide.h"
 #include "tools/ply.h"
@@ -161,8 +162,7 @@ class FrameLoop {
       Stopwatch watch(seconds.prepare);
       reporter("prepare")(0.0);
       const texture::PointScale scale = scaleIn(m_scale, motion);
-      if (m_surface.spacing <= 0.0)
-        m_surface.spacing = texture::spacingForPoints(*motion.surfacePhi, m_scene.texture.points, scale);
+      if (m_surface.spacing <= 0.0) m_surface.spacing = firstSpacing(motion, scale);
       if (m_surface.spacing > 0.0)
         surface = texture::prepareSurface(
             *motion.surfacePhi, m_surface.spacing, seedsFor(m_surface, motion, surfaceOptions),
@@ -206,6 +206,17 @@ class FrameLoop {
       result.surface.contact = transport::contactAt(result.surface.positions, motion);
     }
     return result;
+  }
+
+  // 0 where there is no surface yet.
+  double firstSpacing(const sim::Frame& motion, const texture::PointScale& scale) const {
+    const double here = texture::spacingForPoints(*motion.surfacePhi, m_scene.texture.points, scale);
+    if (!(here > 0.0)) return here;
+    const double spacing = std::max(here, foreseenSpacing(m_scene));
+    spdlog::info(
+        "texture: one point every {:.4g} m, {}", spacing,
+        spacing > here ? "for the surface that the liquid is going to have" : "by the first surface");
+    return spacing;
   }
 
   void writeResults(const sim::Frame& motion, StageSeconds& seconds) {

@@ -151,6 +151,62 @@ TEST_CASE("conductHeat: a well-stirred pool radiates as Stefan and Boltzmann say
   CHECK_THAT(pool.at(7, 7, 3), WithinAbs(400.0, 1.0));
 }
 
+TEST_CASE("conductHeat: hot surroundings heat a cold surface as Stefan and Boltzmann say", "[sim]") {
+  constexpr double kLevel = 0.5, kSigma = 5.670374419e-8, kAmbient = 1500.0;
+  HeatOptions heat;
+  heat.capacity = 1000.0;
+  heat.conductivity = 1e9;
+  heat.emissivity = 0.9;
+  heat.ambient = kAmbient;
+  Pool pool(16, kLevel, [](const Vec3d&) { return 300.0; });
+  // dT/dt = rate (ambient^4 - T^4): the time from 0 to T is the integral of its inverse.
+  const double rate = heat.emissivity * kSigma / (kLevel * kDensity * heat.capacity);
+  const auto timeTo = [&](double t) {
+    return (std::log((kAmbient + t) / (kAmbient - t)) + 2.0 * std::atan(t / kAmbient)) /
+           (4.0 * rate * std::pow(kAmbient, 3));
+  };
+  const double time = timeTo(1200.0) - timeTo(300.0);
+  constexpr int kSteps = 200;
+  for (int n = 0; n < kSteps; ++n)
+    REQUIRE(conductHeat(*pool.temperature, *pool.phi, pool.solid, time / kSteps, kDensity, heat));
+  CHECK_THAT(pool.at(7, 7, 3), WithinRel(1200.0, 0.01));
+}
+
+TEST_CASE("conductHeat: however long a step, nothing leaves the range of what is around", "[sim]") {
+  HeatOptions heat;
+  heat.capacity = 1000.0;
+  heat.emissivity = 1.0;
+  heat.wallTransfer = 50.0;
+  heat.wallTemperature = 700.0;
+  // Alone, with a little conduction and with much; into heat and into cold.
+  for (const double conductivity : {0.0, 1.5, 1e6}) {
+    for (const double ambient : {1500.0, 0.0}) {
+      for (const double dt : {1.0, 1e3, 1e6, 1e12}) {
+        heat.conductivity = conductivity;
+        heat.ambient = ambient;
+        Pool pool(16, 0.53, [](const Vec3d& x) { return x[0] < 0.5 ? 300.0 : 400.0; });
+        const double low = std::min(300.0, ambient), high = std::max(700.0, ambient);
+        for (int n = 0; n < 3; ++n) {
+          REQUIRE(conductHeat(*pool.temperature, *pool.phi, pool.solid, dt, kDensity, heat));
+          double coldest = 1e9, hottest = 0.0;
+          for (int i = 0; i < 16; ++i) {
+            for (int j = 0; j < 16; ++j) {
+              for (int k = 0; k < 8; ++k) {
+                coldest = std::min(coldest, pool.at(i, j, k));
+                hottest = std::max(hottest, pool.at(i, j, k));
+              }
+            }
+          }
+          INFO(conductivity << " W/(m K), around " << ambient << " K, " << dt << " s: " << coldest << " to "
+                            << hottest);
+          REQUIRE(coldest >= low * (1.0 - 1e-6));
+          REQUIRE(hottest <= high * (1.0 + 1e-6));
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("solver: temperature rides on the liquid, and comes back from a file bit by bit", "[sim]") {
   Options options;
   options.resolution = 16;

@@ -186,4 +186,12 @@ TEST_CASE("fluidtex: version, help with an example for each subcommand, and the 
                             Catch::Contains("kB a cell of what flows in") &&
                             !Catch::Contains("cover the surface"));
   }
+  // By number, they are counted on what the scene will hold: not on the first trickle.
+  const Finished dry = runProgram(
+      {"check", kSmallScene, "--set", "liquid=[]", "--set",
+       "source=[{ box = { min = [0.4, 0.2, 0.4], max = [0.5, 0.3, 0.5] }, velocity = [0, 0, -1] }]"});
+  INFO(dry.all());
+  CHECK(dry.exitCode == 0);
+  CHECK_THAT(dry.out,
+             Catch::Contains("points    3000 on the ") && Catch::Contains(" m2 that the liquid may come to"));
 }

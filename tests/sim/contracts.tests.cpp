@@ -1,0 +1,130 @@
+// Functions that are given what their headers rule out say so, in release builds too.
+#include "sim/check_options.h"
+#include "sim/extrapolate.h"
+#include "sim/heat.h"
+#include "sim/level_set.h"
+#include "sim/markers.h"
+#include "sim/motion.h"
+#include "sim/move_surface.h"
+#include "sim/owed_volume.h"
+#include "sim/pressure.h"
+#include "sim/step.h"
+#include "sim/viscosity.h"
+#include "tests/sim/solver_scenes.h"
+#include "tests/sim/velocity_field.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+using namespace fluidtex::sim;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A block of liquid that moves evenly along x, by so many cells in a step of a second.
+struct Block {
+  double h = 1.0 / 16;
+  FloatGrid::Ptr phi = makePhi(h, 6.0 * h);
+  SolidField solid = *Solids(tank(16, {})).at(0.0);
+  Velocity velocity;
+  Markers markers;
+
+  explicit Block(double cells) {
+    const auto cube = [](const Vec3d& x) {
+      const Vec3d away = x - Vec3d(0.5);
+      return std::max({std::abs(away[0]), std::abs(away[1]), std::abs(away[2])}) - 0.2;
+    };
+    unite(*phi, cube, firstCells(Coord(16)));
+    velocity = velocityField(h, phi->tree(), [&](const Vec3d&) { return Vec3d(cells * h, 0.0, 0.0); });
+    markers = seedMarkers(*phi, *solid.phi, 0);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("advectMarkers: what would move five cells or more in a step is refused", "[sim]") {
+  Block slow(4.9);
+  CHECK_FALSE(advectMarkers(slow.markers, slow.velocity, 1.0).empty());
+  for (const double cells : {5.0, 6.5, 40.0, 1e9, kInfinity, std::nan("")}) {
+    INFO(cells << " cells");
+    Block fast(cells);
+    CHECK_THROWS_AS(advectMarkers(fast.markers, fast.velocity, 1.0), std::invalid_argument);
+    CHECK_THROWS_AS(moveSurface(*fast.phi, fast.markers, fast.velocity, fast.solid, 1.0, 1),
+                    std::invalid_argument);
+  }
+  // Backwards as well.
+  Block back(-7.0);
+  CHECK_THROWS_AS(advectMarkers(back.markers, back.velocity, 1.0), std::invalid_argument);
+}
+
+TEST_CASE("gather: a halo beyond the neighbouring leaves is refused", "[sim]") {
+  const Block block(0.0);
+  std::vector<float> out(40 * 40 * 40);
+  CHECK_NOTHROW(gather(block.phi->tree(), Coord(0), kLeafDim, out.data()));
+  CHECK_THROWS_AS(gather(block.phi->tree(), Coord(0), kLeafDim + 1, out.data()), std::invalid_argument);
+  CHECK_THROWS_AS(gather(block.phi->tree(), Coord(0), -1, out.data()), std::invalid_argument);
+}
+
+TEST_CASE("solver: settings that it cannot work with are refused", "[sim]") {
+  const Options good = tank(8, {box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.5))});
+  CHECK_NOTHROW(Solver(good));
+  const std::function<void(Options&)> spoil[] = {
+      [](Options& o) { o.size = Vec3d(1.0, 0.0, 1.0); },
+      [](Options& o) { o.size = Vec3d(1.0, -1.0, 1.0); },
+      [](Options& o) { o.size = Vec3d(kInfinity, 1.0, 1.0); },
+      [](Options& o) { o.resolution = 0; },
+      [](Options& o) { o.density = 0.0; },
+      [](Options& o) { o.density = std::nan(""); },
+      [](Options& o) { o.viscosity = -1.0; },
+      [](Options& o) { o.surfaceTension = -0.1; },
+      [](Options& o) { o.gravity = Vec3d(0.0, 0.0, kInfinity); },
+      [](Options& o) { o.cfl = 0.0; },
+      [](Options& o) { o.frameRate = 0.0; },
+      [](Options& o) { o.heat.simulated = true, o.heat.capacity = 0.0; },
+      [](Options& o) { o.heat.simulated = true, o.heat.conductivity = -1.0; },
+      [](Options& o) { o.heat.simulated = true, o.heat.ambient = -1.0; },
+  };
+  int number = 0;
+  for (const auto& change : spoil) {
+    INFO("change " << number++);
+    Options bad = good;
+    change(bad);
+    CHECK_THROWS_AS(Solver(bad), std::invalid_argument);
+    CHECK_THROWS_AS(Solver(bad, State{}), std::invalid_argument);
+  }
+  Options bad = good;
+  bad.frameRate = -24.0;
+  CHECK_THROWS_AS(makeMotion(bad, {.flow = MotionKind::rotation}), std::invalid_argument);
+}
+
+TEST_CASE("solver: a state without a surface or a velocity is refused", "[sim]") {
+  CHECK_THROWS_AS(Solver(tank(8, {}), State{}), std::invalid_argument);
+}
+
+TEST_CASE("sim: time steps and properties that make no sense are refused", "[sim]") {
+  Block block(0.0);
+  auto& [u, v, w] = block.velocity.component;
+  for (const double wrong : {0.0, -1.0, std::nan("")}) {
+    INFO(wrong);
+    CHECK_THROWS_AS(project(*u, *v, *w, *block.phi, block.solid, wrong, 1000.0), std::invalid_argument);
+    CHECK_THROWS_AS(project(*u, *v, *w, *block.phi, block.solid, 0.1, wrong), std::invalid_argument);
+    CHECK_THROWS_AS(applyViscosity(block.velocity, *block.phi, block.solid, 0.1, wrong, {.constant = 1.0}),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(growthOf(*block.phi, wrong), std::invalid_argument);
+    Liquid liquid{block.phi, block.velocity, {}, 0, 0.0, {}};
+    CHECK_THROWS_AS(step(liquid, block.solid, block.solid, wrong, 0.1, tank(16, {})), std::invalid_argument);
+  }
+  CHECK_THROWS_AS(applyViscosity(block.velocity, *block.phi, block.solid, 0.1, 1000.0, {.constant = -1.0}),
+                  std::invalid_argument);
+  const FloatGrid::Ptr temperature = makeTemperature(block.h, 300.0);
+  CHECK_THROWS_AS(conductHeat(*temperature, *block.phi, block.solid, -0.1, 1000.0, {}),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(conductHeat(*temperature, *block.phi, block.solid, 0.1, 0.0, {}), std::invalid_argument);
+  CHECK_THROWS_AS(visibleSurface(*block.phi, block.solid, 0), std::invalid_argument);
+  CHECK_THROWS_AS(extrapolate(std::vector<Extrapolated>{}, *block.phi, *block.solid.phi),
+                  std::invalid_argument);
+}

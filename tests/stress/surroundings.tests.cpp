@@ -1,0 +1,111 @@
+#include "tools/stress_scenes/surroundings.h"
+
+#include "tools/stress_scenes/budget.h"
+
+#include <catch2/catch.hpp>
+
+using namespace fluidtex;
+using sim::Coord;
+using sim::Vec3d;
+using stress::Surroundings;
+
+namespace {
+
+sim::Shape box(const Vec3d& low, const Vec3d& high) {
+  return {sim::Box{low, high}};
+}
+
+sim::Shape without(sim::Shape whole, sim::Shape part) {
+  return {sim::Difference{{std::move(whole), std::move(part)}}};
+}
+
+// A tank of 20 cells a side.
+sim::Options tank(sim::Shape liquid) {
+  sim::Options options;
+  options.resolution = 20;
+  options.liquid.push_back({std::move(liquid)});
+  return options;
+}
+
+void addSolid(sim::Options& options, sim::Shape shape) {
+  sim::Solid solid;
+  solid.name = std::to_string(options.solids.size());
+  solid.shape = std::move(shape);
+  options.solids.push_back(solid);
+}
+
+// Walls of half a cell around a room of ten cells a side.
+sim::Options shutBox() {
+  sim::Options options = tank(box(Vec3d(0.25), Vec3d(0.75, 0.75, 0.45)));
+  addSolid(options, without(box(Vec3d(0.225), Vec3d(0.775)), box(Vec3d(0.25), Vec3d(0.75))));
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("surroundings: a pool is at rest, a column, a drop and a pool that moves are not", "[stress]") {
+  CHECK(Surroundings(tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.43))), {}).atRest());
+  CHECK_FALSE(Surroundings(tank(box(Vec3d(0.0), Vec3d(0.5, 1.0, 0.43))), {}).atRest());
+  CHECK_FALSE(Surroundings(tank({sim::Sphere{Vec3d(0.5), 0.2}}), {}).atRest());
+  sim::Options moves = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.43)));
+  moves.liquid[0].velocity = Vec3d(0.1, 0.0, 0.0);
+  CHECK_FALSE(Surroundings(moves, {}).atRest());
+  sim::Options open = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.43)));
+  open.sides[1] = sim::Side::open;
+  CHECK_FALSE(Surroundings(open, {}).atRest());
+}
+
+TEST_CASE("surroundings: no way leads through a wall of half a cell, unless it is known to leak",
+          "[stress]") {
+  const sim::Options options = shutBox();
+  const Surroundings held(options, {});
+  CHECK(held.atRest());
+  CHECK(held.reached(Coord(10, 10, 6)));
+  CHECK_FALSE(held.reached(Coord(10, 10, 12)));  // there is a way, but nothing lifts liquid at rest
+  CHECK_FALSE(held.reached(Coord(2, 10, 6)));
+  const Surroundings leaks(options, {0});
+  CHECK_FALSE(leaks.atRest());
+  CHECK(leaks.reached(Coord(2, 10, 6)));
+  // In free fall everything inside can be reached, and nothing outside.
+  sim::Options falls = shutBox();
+  falls.liquid[0].velocity = Vec3d(0.0, 0.0, 1.0);
+  const Surroundings inside(falls, {});
+  CHECK(inside.reached(Coord(10, 10, 12)));
+  CHECK_FALSE(inside.reached(Coord(2, 10, 6)));
+}
+
+TEST_CASE("surroundings: what leaves through one unbounded side may come back through another", "[stress]") {
+  sim::Options options = tank(box(Vec3d(0.1), Vec3d(0.3, 0.9, 0.5)));
+  addSolid(options, box(Vec3d(0.45, -1.0, -1.0), Vec3d(0.55, 2.0, 2.0)));
+  CHECK_FALSE(Surroundings(options, {}).reached(Coord(15, 10, 10)));
+  options.sides[0] = options.sides[1] = sim::Side::unbounded;
+  const Surroundings around(options, {});
+  CHECK(around.reached(Coord(15, 10, 10)));
+  CHECK(around.reached(Coord(-40, 0, 0)));
+}
+
+TEST_CASE("surroundings: volumes are those of the shapes outside of solids", "[stress]") {
+  sim::Options options = tank(box(Vec3d(-1.0), Vec3d(0.513, 2.0, 0.377)));
+  options.size = Vec3d(1.0, 0.729, 1.0);
+  addSolid(options, {sim::Sphere{Vec3d(0.25, 0.4, 0.2), 0.15}});
+  const double expected = 0.513 * 0.729 * 0.377 - 4.0 / 3.0 * M_PI * 0.15 * 0.15 * 0.15;
+  CHECK(Surroundings(options, {}).pouredVolume() == Approx(expected).epsilon(0.003));
+}
+
+TEST_CASE("volume budget: what comes and goes is allowed, and no more", "[stress]") {
+  sim::Options options = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.4)));
+  options.liquid.push_back({box(Vec3d(0.3, 0.3, 0.6), Vec3d(0.7, 0.7, 0.8)), Vec3d(0.0), 0.5});
+  const Surroundings surroundings(options, {});
+  stress::VolumeBudget budget(options, surroundings);
+  CHECK(budget.start(0.4) == 0.0);
+  CHECK(budget.advance(0.0, 0.25, 0.4) == 0.0);
+  CHECK(budget.advance(0.25, 0.5, 0.432) == 0.0);  // the second body
+  CHECK(budget.advance(0.5, 0.75, 0.45) == Approx(0.018).epsilon(0.02));
+  CHECK(budget.advance(0.75, 1.0, 0.42) == Approx(-0.012).epsilon(0.02));
+  // Through a drain liquid goes for good.
+  options.drains.push_back({box(Vec3d(0.0), Vec3d(0.1))});
+  stress::VolumeBudget drained(options, surroundings);
+  drained.start(0.4);
+  CHECK(drained.advance(0.0, 0.1, 0.3) == 0.0);
+  CHECK(drained.advance(0.1, 0.2, 0.33) == Approx(0.03).epsilon(0.02));
+}

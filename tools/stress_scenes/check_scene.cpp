@@ -1,0 +1,291 @@
+#include "tools/stress_scenes/check_scene.h"
+
+#include "scenes/scene.h"
+#include "sim/level_set.h"
+#include "sim/solver.h"
+#include "tools/stress_scenes/budget.h"
+#include "tools/stress_scenes/measures.h"
+#include "tools/stress_scenes/surroundings.h"
+
+#include <fmt/core.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace fluidtex::stress {
+namespace {
+
+// Of the liquid's volume, in each of so many frames. An impact takes more (6% of the dam break's at a cfl of
+// 3, scenes/README.md), which the liquid beside it gives back within a frame or two.
+constexpr double kMostOwed = 0.02;
+constexpr int kOwedFrames = 4;
+// And in any frame.
+constexpr double kMostOwedAtOnce = 0.1;
+// Besides, of a cell for each cell's face of the surface: by so much phi knows where it is. It counts for
+// spray.
+constexpr double kOwedOfSurface = 0.03;
+// Times the speed that a fall from the highest place to the lowest gives. The front of a dam break alone has
+// 1.4 times that (Ritter), and where fronts meet or close, jets are faster still.
+constexpr double kJets = 3.0;
+// Of the energy of motion and place: what the surface's volume, read off phi, is not exact by.
+constexpr double kEnergyTolerance = 0.01;
+// Of the speed at which a ripple of a cell's height falls, which is sqrt(g h): what is left at rest is less.
+constexpr double kStill = 0.1;
+// In a frame. Liquid of the greatest speed that is allowed takes less.
+constexpr int kMostSteps = 500;
+
+template <class F>
+auto onThreads(int threads, const F& f) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  return arena.execute(f);
+}
+
+struct TooManySteps : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+sim::Frame nextFrame(sim::Solver& solver) {
+  int steps = 0;
+  return solver.next([&](double) {
+    if (++steps > kMostSteps) throw TooManySteps(fmt::format("more than {} steps to a frame", kMostSteps));
+  });
+}
+
+// Solids that the solver warns of: liquid may pass through them.
+std::vector<std::size_t> leaking(const sim::Solver& solver, const sim::Options& options) {
+  std::vector<std::size_t> found;
+  for (std::size_t n = 0; n < options.solids.size(); ++n) {
+    const std::string name = "\"" + options.solids[n].name + "\"";
+    for (const std::string& warning : solver.warnings()) {
+      if (warning.find(name) == std::string::npos) continue;
+      found.push_back(n);
+      break;
+    }
+  }
+  return found;
+}
+
+// The greatest speed that liquid is given, m/s: that of bodies, sources, solids and walls.
+double givenSpeed(const sim::Options& options) {
+  double speed = 0.0;
+  for (const sim::LiquidBody& body : options.liquid) speed = std::max(speed, body.velocity.length());
+  for (const sim::DomainWall& wall : options.walls) speed = std::max(speed, wall.wall.velocity.length());
+  for (const sim::Source& source : options.sources) {
+    double factor = source.rate.empty() ? 1.0 : 0.0;
+    for (const sim::RatePoint& point : source.rate) factor = std::max(factor, point.factor);
+    speed = std::max(speed, factor * source.velocity.length());
+  }
+  for (const sim::Solid& solid : options.solids) {
+    speed = std::max(speed, solid.wall.velocity.length());
+    for (std::size_t n = 1; n < solid.keyframes.size(); ++n) {
+      const sim::Keyframe &a = solid.keyframes[n - 1], &b = solid.keyframes[n];
+      const double time = b.time - a.time, turn = std::abs(b.turn - a.turn) * M_PI / 180.0 / time;
+      speed = std::max(speed, (b.move - a.move).length() / time + turn * options.size.length());
+    }
+  }
+  return speed;
+}
+
+// Whether something does work on the liquid.
+bool isDriven(const sim::Options& options) {
+  const auto runs = [](const sim::Wall& wall) { return wall.velocity != Vec3d(0.0); };
+  return !options.sources.empty() ||
+         std::any_of(
+             options.solids.begin(), options.solids.end(),
+             [&](const sim::Solid& solid) { return solid.keyframes.size() > 1 || runs(solid.wall); }) ||
+         std::any_of(options.walls.begin(), options.walls.end(),
+                     [&](const sim::DomainWall& wall) { return runs(wall.wall); }) ||
+         std::find(options.sides.begin(), options.sides.end(), sim::Side::stream) != options.sides.end();
+}
+
+// Whether liquid is poured, or a solid comes or goes.
+bool isEvent(const sim::Options& options, double from, double to) {
+  const auto now = [&](double time) { return happens(time, from, to, options.frameRate); };
+  return std::any_of(options.liquid.begin(), options.liquid.end(),
+                     [&](const auto& body) { return now(body.from); }) ||
+         std::any_of(options.solids.begin(), options.solids.end(),
+                     [&](const auto& solid) { return now(solid.from) || now(solid.until); });
+}
+
+class Checks {
+ public:
+  Checks(const sim::Options& options, const sim::Solver& solver)
+      : m_options(options),
+        m_surroundings(options, leaking(solver, options)),
+        m_budget(options, m_surroundings) {}
+
+  void frame(const sim::Solver& solver, const sim::Frame& frame) {
+    m_frame = frame.index;
+    if (const std::string grid = notFinite(solver.state()); !grid.empty()) return fail("finite", grid);
+    const Measures now = measure(solver.state(), *frame.solidPhi, m_options);
+    volume(frame, now);
+    outside(solver.state(), frame);
+    energy(solver.state(), frame, now);
+    speed(now, frame.time);
+    m_time = frame.time;
+  }
+
+  void fail(const std::string& invariant, const std::string& what) {
+    for (const Failure& failure : m_failures)
+      if (failure.invariant == invariant) return;
+    m_failures.push_back({invariant, m_frame, what});
+  }
+
+  bool failed(const std::string& invariant) const {
+    return std::any_of(m_failures.begin(), m_failures.end(),
+                       [&](const Failure& failure) { return failure.invariant == invariant; });
+  }
+
+  std::vector<Failure> take() { return std::move(m_failures); }
+  int atFrame() const { return m_frame; }
+
+ private:
+  void volume(const sim::Frame& frame, const Measures& now) {
+    const double sum = frame.stats.volume + frame.stats.owed;
+    const double outside = m_frame == 1 ? m_budget.start(sum) : m_budget.advance(m_time, frame.time, sum);
+    const double whole = m_budget.most();
+    if (outside != 0.0)
+      fail(m_frame == 1 ? "poured" : "volume",
+           fmt::format("{:+.3g} m3, {:+.1f}% of {:.4g} m3", outside, 100.0 * outside / whole, whole));
+    const double h = m_options.voxelSize(), owed = std::abs(frame.stats.owed);
+    const double always = kOwedOfSurface * h * now.area + h * h * h;
+    m_owing = owed > kMostOwed * whole + always ? m_owing + 1 : 0;
+    if (m_owing >= kOwedFrames || owed > kMostOwedAtOnce * whole + always)
+      fail("owed", fmt::format("{:+.3g} m3, {:+.1f}% of {:.4g} m3, most of it ({:+.3g} of a cell) at {}",
+                               frame.stats.owed, 100.0 * frame.stats.owed / whole, whole, now.owed.value,
+                               written(now.owed.place)));
+  }
+
+  void outside(const sim::State& state, const sim::Frame& frame) {
+    const double h = m_options.voxelSize();
+    const openvdb::tree::ValueAccessor<const sim::FloatTree> solid(frame.solidPhi->constTree());
+    int cells = 0;
+    Coord first;
+    const sim::CoordBBox domain = sim::domainCells(m_options);
+    for (const Coord& origin : sim::wetLeaves(*state.phi, domain)) {
+      for (int i = 0; i < sim::kLeafSize; ++i) {
+        const Coord cell = origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7);
+        if (!domain.isInside(cell) || state.phi->constTree().getValue(cell) >= 0.0f) continue;
+        if (solid.getValue(cell) <= 0.0f || m_surroundings.reached(cell)) continue;
+        if (cells++ == 0) first = cell;
+      }
+    }
+    if (cells > 0)
+      fail("outside",
+           fmt::format("{} cells of liquid, one at {}", cells, written((first.asVec3d() + Vec3d(0.5)) * h)));
+  }
+
+  // Potential energy and surface are those of the frame, the velocity is of a time `ahead`. Until then the
+  // energy of place falls by what gravity does meanwhile: exactly, but for a part of second order, of which
+  // free fall has the most, m (g ahead)^2 / 2. What is owed may have been lost at another height than where
+  // it is.
+  void energy(const sim::State& state, const sim::Frame& frame, const Measures& now) {
+    if (isDriven(m_options)) return;
+    const double weight = m_options.gravity.length(), fall = weight * state.ahead;
+    const double sum = now.kinetic + now.potential + now.surface - now.falling * state.ahead;
+    const double lifted =
+        m_options.density * std::abs(frame.stats.owed) * (m_surroundings.highest(frame.time) - now.lowest);
+    const double allowed = kEnergyTolerance * (now.kinetic + now.potential + now.surface) + lifted +
+                           0.5 * now.mass * fall * fall;
+    if (m_frame == 1 || isEvent(m_options, m_time, frame.time)) m_energy = sum;
+    // A volume that is wrong has a wrong energy.
+    if (sum > m_energy + allowed && !failed("volume"))
+      fail("energy", fmt::format("{:.4g} J after {:.4g} J, {:+.1f}%; fastest {:.3g} m/s at {}", sum, m_energy,
+                                 100.0 * (sum / m_energy - 1.0), now.speed.value, written(now.speed.place)));
+    m_energy = std::min(m_energy, sum);
+  }
+
+  void speed(const Measures& now, double time) {
+    const double h = m_options.voxelSize(), weight = m_options.gravity.length();
+    if (!std::isfinite(now.lowest)) return;
+    const double ripple = std::sqrt(weight * h);
+    if (m_surroundings.atRest() && now.speed.value > kStill * ripple + 1e-3 * h * m_options.frameRate)
+      fail("rest", fmt::format("{:.3g} m/s, {:.2f} sqrt(g h), at {}", now.speed.value,
+                               now.speed.value / ripple, written(now.speed.place)));
+    // Bernoulli: from the highest place to the lowest; a solid that moves can lift liquid to any place.
+    // Surface tension draws cells of liquid together at up to sqrt(4 tension / (density h)).
+    const double given = givenSpeed(m_options);
+    const double height = std::max(0.0, m_surroundings.highest(time) - now.lowest) +
+                          (isDriven(m_options) ? weight * m_options.size.length() : 0.0);
+    const double most = kJets * std::sqrt(given * given + 2.0 * height + 2.0 * weight * h +
+                                          4.0 * m_options.surfaceTension / (m_options.density * h));
+    if (now.speed.value > most)
+      fail("speed", fmt::format("{:.3g} m/s where {:.3g} m/s is possible, at {}", now.speed.value, most,
+                                written(now.speed.place)));
+  }
+
+  const sim::Options& m_options;
+  Surroundings m_surroundings;
+  VolumeBudget m_budget;
+  std::vector<Failure> m_failures;
+  int m_frame = 0, m_owing = 0;
+  double m_time = 0.0, m_energy = 0.0;
+};
+
+// The state after the last frame, on so many threads; written, read and gone on with after `broken` frames.
+sim::State lastState(const sim::Options& options, int frames, int threads, int broken,
+                     const std::filesystem::path& scratch) {
+  return onThreads(threads, [&] {
+    std::optional<sim::Solver> solver(options);
+    for (int n = 1; n <= frames; ++n) {
+      nextFrame(*solver);
+      if (n != broken) continue;
+      const std::filesystem::path file = scratch / "state.vdb";
+      sim::writeState(solver->state(), file);
+      solver.emplace(options, sim::readState(file));
+      std::filesystem::remove(file);
+    }
+    return solver->state();
+  });
+}
+
+}  // namespace
+
+std::vector<Failure> checkScene(const std::filesystem::path& file, const std::filesystem::path& scratch,
+                                const std::string& wanted) {
+  scenes::Scene scene;
+  try {
+    scene = scenes::loadScene(file);
+  } catch (const std::exception& error) {
+    return {{"loader", 0, error.what()}};
+  }
+  const sim::Options& options = scene.sim;
+  std::optional<Checks> checks;
+  std::optional<sim::State> expected;
+  try {
+    onThreads(2, [&] {
+      sim::Solver solver(options);
+      checks.emplace(options, solver);
+      for (int n = 1; n <= scene.frames; ++n) {
+        checks->frame(solver, nextFrame(solver));
+        if (checks->failed("finite") || checks->failed(wanted)) return;
+      }
+      expected = solver.state();
+    });
+  } catch (const std::exception& error) {
+    if (!checks) return {{"runs", 0, error.what()}};
+    checks->fail("runs", error.what());
+  }
+  const bool ofBytes = wanted.empty() || wanted == "threads" || wanted == "restart";
+  if (!expected || !ofBytes) return checks->take();
+  try {
+    const sim::State broken = lastState(options, scene.frames, 1, scene.frames / 2, scratch);
+    if (!difference(*expected, broken).empty()) {
+      // By the other number of threads, or by the break?
+      const sim::State unbroken = lastState(options, scene.frames, 1, 0, scratch);
+      if (const std::string what = difference(*expected, unbroken); !what.empty())
+        checks->fail("threads", what);
+      if (const std::string what = difference(unbroken, broken); !what.empty()) checks->fail("restart", what);
+    }
+  } catch (const std::exception& error) {
+    checks->fail("restart", error.what());
+  }
+  return checks->take();
+}
+
+}  // namespace fluidtex::stress

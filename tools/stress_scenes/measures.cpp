@@ -1,0 +1,151 @@
+#include "tools/stress_scenes/measures.h"
+
+#include "sim/level_set.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace fluidtex::stress {
+namespace {
+
+using Accessor = openvdb::tree::ValueAccessor<const sim::FloatTree>;
+
+constexpr std::pair<const char*, sim::FloatGrid::Ptr sim::State::*> kGrids[] = {
+    {"phi", &sim::State::phi},   {"u", &sim::State::u},
+    {"v", &sim::State::v},       {"w", &sim::State::w},
+    {"au", &sim::State::au},     {"av", &sim::State::av},
+    {"aw", &sim::State::aw},     {"temperature", &sim::State::temperature},
+    {"owed", &sim::State::owed}, {"su", &sim::State::su},
+    {"sv", &sim::State::sv},     {"sw", &sim::State::sw}};
+
+double square(double x) {
+  return x * x;
+}
+
+// -gravity . x of the lowest corner of [0, size].
+double floorOf(const sim::Options& options) {
+  double least = 0.0;
+  for (int a = 0; a < 3; ++a) least += std::min(0.0, -options.gravity[a] * options.size[a]);
+  return least;
+}
+
+// Calls body(cell) for the cells of all leaves and tiles of phi in the domain that can be liquid.
+template <class Body>
+void forWetCells(const sim::FloatGrid& phi, const sim::CoordBBox& domain, const Body& body) {
+  for (const Coord& origin : sim::wetLeaves(phi, domain)) {
+    for (int i = 0; i < sim::kLeafSize; ++i) {
+      const Coord cell = origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7);
+      if (domain.isInside(cell)) body(cell);
+    }
+  }
+}
+
+}  // namespace
+
+std::string written(const Vec3d& place) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", place[0], place[1], place[2]);
+}
+
+Measures measure(const sim::State& state, const sim::FloatGrid& solidPhi, const sim::Options& options) {
+  Measures found;
+  const double h = options.voxelSize(), cube = h * h * h, floor = floorOf(options);
+  const sim::CoordBBox domain = sim::domainCells(options);
+  Accessor phi(state.phi->constTree()), solid(solidPhi.constTree());
+  Accessor face[3] = {Accessor(state.u->constTree()), Accessor(state.v->constTree()),
+                      Accessor(state.w->constTree())};
+  found.lowest = INFINITY;
+  const auto wet = [&](const Coord& cell) { return std::clamp(0.5 - phi.getValue(cell) / h, 0.0, 1.0); };
+  forWetCells(*state.phi, domain, [&](const Coord& cell) {
+    const double p = phi.getValue(cell), s = solid.getValue(cell);
+    const double share = std::clamp(0.5 - std::max(p, -s) / h, 0.0, 1.0);
+    const Vec3d x = (cell.asVec3d() + Vec3d(0.5)) * h;
+    const double high = -options.gravity.dot(x);
+    // The area is the integral of the gradient's length of what is 1 in the liquid and 0 outside.
+    double slope = 0.0;
+    for (int a = 0; a < 3; ++a) {
+      Coord low = cell, up = cell;
+      low[a] -= 1;
+      up[a] += 1;
+      slope += square((wet(up) - wet(low)) / (2.0 * h));
+    }
+    found.area += std::sqrt(slope) * std::clamp(0.5 + s / h, 0.0, 1.0) * cube;
+    if (share <= 0.0) return;
+    Vec3d velocity;
+    double squares = 0.0;
+    for (int a = 0; a < 3; ++a) {
+      Coord up = cell;
+      up[a] += 1;
+      const double low = face[a].getValue(cell), high2 = face[a].getValue(up);
+      velocity[a] = 0.5 * (low + high2);
+      squares += 0.5 * (low * low + high2 * high2);
+    }
+    const double mass = options.density * share * cube;
+    found.mass += mass;
+    found.kinetic += 0.5 * mass * squares;
+    found.potential += mass * (high - floor);
+    found.falling += mass * options.gravity.dot(velocity);
+    if (p >= 0.0 || s < 0.0) return;
+    found.lowest = std::min(found.lowest, high);
+    if (const double speed = velocity.length(); !(speed <= found.speed.value)) found.speed = {speed, x};
+  });
+  found.surface = options.surfaceTension * found.area;
+  if (state.owed == nullptr) return found;
+  for (auto it = state.owed->cbeginValueOn(); it; ++it) {
+    const Vec3d x = (it.getCoord().asVec3d() + Vec3d(0.5)) * h;
+    found.potential += options.density * *it * cube * (-options.gravity.dot(x) - floor);
+    if (std::abs(*it) > std::abs(found.owed.value)) found.owed = {*it, x};
+  }
+  return found;
+}
+
+std::string notFinite(const sim::State& state) {
+  for (const auto& [name, member] : kGrids) {
+    if (state.*member == nullptr) continue;
+    for (auto leaf = (state.*member)->constTree().cbeginLeaf(); leaf; ++leaf) {
+      for (int i = 0; i < sim::kLeafSize; ++i)
+        if (!std::isfinite(leaf->buffer().data()[i])) return name;
+    }
+  }
+  return "";
+}
+
+std::string difference(const sim::State& a, const sim::State& b) {
+  if (a.frame != b.frame || a.steps != b.steps) return "the number of steps";
+  if (std::memcmp(&a.time, &b.time, sizeof a.time) != 0 ||
+      std::memcmp(&a.ahead, &b.ahead, sizeof a.ahead) != 0)
+    return "the time";
+  if (a.poured != b.poured) return "what is poured";
+  for (const auto& [name, member] : kGrids) {
+    const sim::FloatGrid *one = (a.*member).get(), *other = (b.*member).get();
+    if ((one == nullptr) != (other == nullptr)) return std::string(name) + ", which one lacks";
+    if (one == nullptr) continue;
+    if (!one->tree().hasSameTopology(other->tree())) return std::string(name) + ", its cells";
+    if (one->transform() != other->transform()) return std::string(name) + ", its place";
+    auto second = other->tree().cbeginLeaf();
+    for (auto first = one->tree().cbeginLeaf(); first; ++first, ++second) {
+      for (int i = 0; i < sim::kLeafSize; ++i) {
+        if (std::memcmp(first->buffer().data() + i, second->buffer().data() + i, sizeof(float)) == 0)
+          continue;
+        return fmt::format("{}, {} and {} at {}", name, first->buffer().data()[i], second->buffer().data()[i],
+                           written(one->indexToWorld(first->offsetToGlobalCoord(i))));
+      }
+    }
+    auto tile = other->tree().cbeginValueAll();
+    for (auto it = one->tree().cbeginValueAll(); it && tile; ++it, ++tile)
+      if (*it != *tile) return std::string(name) + ", a tile";
+  }
+  if (a.markers.size() != b.markers.size()) return "the markers' blocks";
+  for (std::size_t n = 0; n < a.markers.size(); ++n) {
+    const auto &one = a.markers[n], &other = b.markers[n];
+    if (one.origin != other.origin || one.markers.size() != other.markers.size() ||
+        std::memcmp(one.markers.data(), other.markers.data(), one.markers.size() * sizeof(sim::Marker)) != 0)
+      return "the markers";
+  }
+  return "";
+}
+
+}  // namespace fluidtex::stress

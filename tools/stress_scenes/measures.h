@@ -1,0 +1,43 @@
+// What is measured in a state of the solver, by itself.
+#pragma once
+
+#include "sim/solver.h"
+
+#include <string>
+
+namespace fluidtex::stress {
+
+using sim::Coord;
+using sim::Vec3d;
+
+// The largest of something, and where (metres).
+struct Peak {
+  double value = 0.0;
+  Vec3d place{0.0};
+};
+
+struct Measures {
+  // J, of motion at the time that the velocity is for; of place, measured from the domain's lowest corner,
+  // with what is owed where it is owed; of the surface.
+  double kinetic = 0.0, potential = 0.0, surface = 0.0;
+  double area = 0.0;     // m2, of the surface between liquid and air
+  double mass = 0.0;     // kg, without what is owed
+  double falling = 0.0;  // W, by which the potential energy falls
+  Peak speed;            // m/s, of cells of liquid
+  Peak owed;             // largest amount in a cell, in cells
+  double lowest = 0.0;   // least of -gravity . x of a cell of liquid, m2/s2
+};
+
+// solidPhi: as in sim::Frame.
+Measures measure(const sim::State& state, const sim::FloatGrid& solidPhi, const sim::Options& options);
+
+// The name of the first grid that has a value that is not finite; empty for none.
+std::string notFinite(const sim::State& state);
+
+// What two states do not have in common, bit for bit, and where; empty for nothing.
+std::string difference(const sim::State& a, const sim::State& b);
+
+// "(x, y, z)", metres.
+std::string written(const Vec3d& place);
+
+}  // namespace fluidtex::stress

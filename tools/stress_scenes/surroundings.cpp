@@ -1,0 +1,180 @@
+#include "tools/stress_scenes/surroundings.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::stress {
+namespace {
+
+bool staysAsItIs(const sim::Solid& solid) {
+  return solid.keyframes.empty() && solid.from <= 0.0 && solid.until == sim::kForever;
+}
+
+// Share of a sample's cube that lies within the surface at that distance.
+double share(double distance, double step) {
+  return std::clamp(0.5 - distance / step, 0.0, 1.0);
+}
+
+// What can set liquid in motion, or hold it in a shape that is not level.
+bool disturbs(const sim::Options& options) {
+  for (const sim::LiquidBody& body : options.liquid)
+    if (body.from > 0.0 || body.velocity != Vec3d(0.0)) return true;
+  for (const sim::Solid& solid : options.solids)
+    if (!staysAsItIs(solid) || solid.wall.velocity != Vec3d(0.0)) return true;
+  for (const sim::DomainWall& wall : options.walls)
+    if (wall.wall.velocity != Vec3d(0.0)) return true;
+  return !options.sources.empty() || !options.drains.empty() || options.surfaceTension > 0.0;
+}
+
+}  // namespace
+
+Surroundings::Surroundings(const sim::Options& options, const std::vector<std::size_t>& leaking)
+    : m_options(options), m_step(options.voxelSize() / kSamplesPerCell) {
+  const Coord cells = sim::cellCount(options.size, options.voxelSize());
+  m_count = Coord(cells[0] * kSamplesPerCell, cells[1] * kSamplesPerCell, cells[2] * kSamplesPerCell);
+  const openvdb::BBoxd domain = sim::domainBox(options);
+
+  sim::Options tight = options;
+  tight.solids.clear();
+  for (std::size_t n = 0; n < options.solids.size(); ++n) {
+    if (staysAsItIs(options.solids[n]) && std::find(leaking.begin(), leaking.end(), n) == leaking.end())
+      tight.solids.push_back(options.solids[n]);
+  }
+  const sim::Solids held(tight), all(options);
+  const std::vector<float> open = distances([&](const Vec3d& x) { return held.distance(x, 0.0); });
+  const std::vector<float> openNow = distances([&](const Vec3d& x) { return all.distance(x, 0.0); });
+
+  std::vector<float> ever(open.size(), INFINITY), first(open.size(), INFINITY);
+  const auto add = [&](const sim::Shape& shape, double from) {
+    const sim::ShapeDistance distance(shape, options.voxelSize(), domain);
+    const std::vector<float> body = distances([&](const Vec3d& x) { return distance(x); });
+    double highest = -INFINITY;
+    for (std::size_t n = 0; n < body.size(); ++n) {
+      ever[n] = std::min(ever[n], body[n]);
+      if (from <= 0.0) first[n] = std::min(first[n], body[n]);
+      if (body[n] < 0.0f && open[n] > 0.0f) highest = std::max(highest, -options.gravity.dot(place(n)));
+    }
+    m_bodies.push_back({from, highest});
+  };
+  for (const sim::LiquidBody& body : options.liquid) add(body.shape, body.from);
+  for (const sim::Source& source : options.sources) add(source.shape, source.from);
+
+  const double cube = m_step * m_step * m_step;
+  for (std::size_t n = 0; n < first.size(); ++n) {
+    const double distance = std::max(first[n], -openNow[n]);
+    m_poured += share(distance, m_step) * cube;
+    if (std::abs(distance) < 0.5 * m_step) m_pouredSurface += m_step * m_step;
+  }
+  const double top = highest(sim::kForever);
+  const bool calm = !disturbs(options) && std::isfinite(top);
+  const double weight = options.gravity.length();
+  flood(open, ever, calm ? top + weight * options.voxelSize() : INFINITY);
+  if (!calm || m_unbounded) return;
+  m_atRest = true;
+  for (std::size_t n = 0; n < ever.size() && m_atRest; ++n) {
+    if (m_reached[n] == 0 || -options.gravity.dot(place(n)) > top - 1.01 * weight * m_step) continue;
+    m_atRest = ever[n] < 0.5 * m_step;
+  }
+  for (int side = 0; side < 6 && m_atRest; ++side) {
+    if (sim::isClosed(options.sides[side])) continue;
+    const int axis = side / 2, end = side % 2 == 0 ? 0 : m_count[axis] - 1;
+    for (std::size_t n = 0; n < ever.size(); ++n) {
+      const Coord at(static_cast<int>(n) / (m_count[1] * m_count[2]),
+                     static_cast<int>(n) / m_count[2] % m_count[1], static_cast<int>(n) % m_count[2]);
+      if (at[axis] == end && m_reached[n] != 0) m_atRest = false;
+    }
+  }
+  if (!m_atRest) flood(open, ever, INFINITY);
+}
+
+Vec3d Surroundings::place(std::size_t sample) const {
+  const int n = static_cast<int>(sample);
+  return (Vec3d(n / (m_count[1] * m_count[2]), n / m_count[2] % m_count[1], n % m_count[2]) + Vec3d(0.5)) *
+         m_step;
+}
+
+std::vector<float> Surroundings::distances(const std::function<double(const Vec3d&)>& distance) const {
+  std::vector<float> values(static_cast<std::size_t>(m_count[0]) * m_count[1] * m_count[2]);
+  tbb::parallel_for(std::size_t{0}, values.size(),
+                    [&](std::size_t n) { values[n] = static_cast<float>(distance(place(n))); });
+  return values;
+}
+
+// highest: no place with more of -gravity . x is entered.
+void Surroundings::flood(const std::vector<float>& open, const std::vector<float>& liquid, double highest) {
+  m_reached.assign(open.size(), 0);
+  m_unbounded = false;
+  std::vector<std::size_t> front;
+  const auto enter = [&](std::size_t n) {
+    if (m_reached[n] != 0 || open[n] <= 0.0f || -m_options.gravity.dot(place(n)) > highest) return;
+    m_reached[n] = 1;
+    front.push_back(n);
+  };
+  for (std::size_t n = 0; n < open.size(); ++n)
+    if (liquid[n] < 0.0f) enter(n);
+  const std::size_t stride[3] = {static_cast<std::size_t>(m_count[1]) * m_count[2],
+                                 static_cast<std::size_t>(m_count[2]), 1};
+  // What is behind one unbounded side is behind all of them.
+  const auto enterFromOutside = [&] {
+    m_unbounded = true;
+    for (std::size_t n = 0; n < open.size(); ++n) {
+      for (int side = 0; side < 6; ++side) {
+        const int a = side / 2, at = static_cast<int>(n / stride[a]) % m_count[a];
+        if (m_options.sides[side] == sim::Side::unbounded && at == (side % 2 == 0 ? 0 : m_count[a] - 1))
+          enter(n);
+      }
+    }
+  };
+  while (!front.empty()) {
+    const std::size_t n = front.back();
+    front.pop_back();
+    for (int side = 0; side < 6; ++side) {
+      const int a = side / 2, at = static_cast<int>(n / stride[a]) % m_count[a];
+      if (at == (side % 2 == 0 ? 0 : m_count[a] - 1)) {
+        if (m_options.sides[side] == sim::Side::unbounded && !m_unbounded) enterFromOutside();
+        continue;
+      }
+      enter(side % 2 == 0 ? n - stride[a] : n + stride[a]);
+    }
+  }
+}
+
+bool Surroundings::reached(const Coord& cell) const {
+  const Coord first(cell[0] * kSamplesPerCell, cell[1] * kSamplesPerCell, cell[2] * kSamplesPerCell);
+  for (int a = 0; a < 3; ++a)
+    if (first[a] < 0 || first[a] >= m_count[a]) return m_unbounded;
+  for (int i = 0; i < kSamplesPerCell; ++i) {
+    for (int j = 0; j < kSamplesPerCell; ++j) {
+      for (int k = 0; k < kSamplesPerCell; ++k) {
+        const std::size_t n =
+            (static_cast<std::size_t>(first[0] + i) * m_count[1] + first[1] + j) * m_count[2] + first[2] + k;
+        if (m_reached[n] != 0) return true;
+      }
+    }
+  }
+  return false;
+}
+
+double Surroundings::volumeIn(const sim::Shape& shape, double t,
+                              const std::function<double(const Vec3d&)>& alsoIn) const {
+  const sim::ShapeDistance distance(shape, m_options.voxelSize(), sim::domainBox(m_options));
+  const sim::Solids solids(m_options);
+  const std::vector<float> values = distances([&](const Vec3d& x) {
+    const double own = std::max(distance(x), -solids.distance(x, t));
+    return alsoIn ? std::max(own, alsoIn(x)) : own;
+  });
+  double volume = 0.0;
+  for (const float value : values) volume += share(value, m_step);
+  return volume * m_step * m_step * m_step;
+}
+
+double Surroundings::highest(double t) const {
+  double top = -INFINITY;
+  for (const Body& body : m_bodies)
+    if (body.from <= t) top = std::max(top, body.highest);
+  return top;
+}
+
+}  // namespace fluidtex::stress

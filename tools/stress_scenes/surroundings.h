@@ -1,0 +1,65 @@
+// What can be said of a scene before it runs: how much liquid is poured, where it can get to, and whether it
+// is at rest. By samples, three to a cell along each axis, of the shapes themselves: no grid of the solver.
+#pragma once
+
+#include "sim/mac_grid.h"
+#include "sim/shapes.h"
+#include "sim/solids.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace fluidtex::stress {
+
+using sim::Coord;
+using sim::Vec3d;
+
+inline constexpr int kSamplesPerCell = 3;
+
+// Cells of [0, size] and what was found at their samples.
+class Surroundings {
+ public:
+  // leaking: solids (by index) of which it is known that they do not hold liquid. They do not count, nor do
+  // those that move, come or go.
+  Surroundings(const sim::Options& options, const std::vector<std::size_t>& leaking);
+
+  // Nothing moves the liquid: it fills all that it can get to below its highest place, in a domain and beside
+  // solids that stay as they are. (Not known of liquid with surface tension, which may be out of shape.)
+  bool atRest() const { return m_atRest; }
+
+  // Whether there is an open way to a part of this cell from where liquid was poured or comes from; where it
+  // is at rest, one that leads nowhere more than a cell above it.
+  bool reached(const Coord& cell) const;
+
+  // m3 of this shape in the open, as solids are at time t, where `alsoIn` is below 0 (metres, at world
+  // positions).
+  double volumeIn(const sim::Shape& shape, double t,
+                  const std::function<double(const Vec3d&)>& alsoIn = {}) const;
+  // Of all that is there at the start, and how large its surface is, m2.
+  double pouredVolume() const { return m_poured; }
+  double pouredSurface() const { return m_pouredSurface; }
+
+  // Most of -gravity . x, m2/s2, of what is poured or comes in until time t; -infinity where there is
+  // nothing.
+  double highest(double t) const;
+
+ private:
+  Vec3d place(std::size_t sample) const;
+  std::vector<float> distances(const std::function<double(const Vec3d&)>& distance) const;
+  void flood(const std::vector<float>& open, const std::vector<float>& liquid, double highest);
+
+  const sim::Options& m_options;
+  double m_step;  // from sample to sample, metres
+  Coord m_count;  // of samples
+  std::vector<std::uint8_t> m_reached;
+  bool m_unbounded = false;  // liquid can get out of [0, size] through an unbounded side
+  bool m_atRest = false;
+  double m_poured = 0.0, m_pouredSurface = 0.0;
+  struct Body {
+    double from, highest;
+  };
+  std::vector<Body> m_bodies;
+};
+
+}  // namespace fluidtex::stress
