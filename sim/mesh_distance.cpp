@@ -135,18 +135,37 @@ void forLeaves(const std::vector<Leaf*>& leaves, const InsideTest& inside, doubl
                     });
 }
 
-// Gives distances their signs. Returns whether surfaces lie within others.
-bool setSigns(openvdb::FloatGrid& grid, const InsideTest& inside, double h) {
-  std::atomic<bool> nested{false};
+// Gives distances their signs.
+void setSigns(openvdb::FloatGrid& grid, const InsideTest& inside, double h) {
   forLeaves(leavesByColumn(grid), inside, h, [&](Leaf& leaf, Columns& columns) {
     for (int n = 0; n < int(Leaf::SIZE); ++n) {
       const auto offset = static_cast<openvdb::Index>(n);
-      const int winding = columns.winding(leaf.offsetToGlobalCoord(offset));
-      if (winding > 0) leaf.setValueOnly(offset, -std::abs(leaf.getValue(offset)));
-      if (winding > 1) nested = true;
+      if (columns.winding(leaf.offsetToGlobalCoord(offset)) > 0)
+        leaf.setValueOnly(offset, -std::abs(leaf.getValue(offset)));
     }
   });
-  return nested;
+}
+
+// Whether there is a surface where all is inside: of parts that cross each other, or lie side by side.
+bool hasInnerSurface(const openvdb::FloatGrid& grid, double h) {
+  std::atomic<bool> found{false};
+  std::vector<const Leaf*> leaves;
+  grid.tree().getNodes(leaves);
+  const float near = static_cast<float>(-0.6 * h);  // a node beside any surface is no farther
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    const auto values = grid.getConstAccessor();
+    for (auto it = leaves[n]->cbeginValueOn(); it && !found; ++it) {
+      if (!std::signbit(*it) || *it < near) continue;
+      bool within = true;
+      for (int side = 0; side < 6 && within; ++side) {
+        openvdb::Coord beside = it.getCoord();
+        beside[side / 2] += side % 2 == 0 ? 1 : -1;
+        within = std::signbit(values.getValue(beside));
+      }
+      if (within) found = true;
+    }
+  });
+  return found;
 }
 
 // Pieces of triangles, no longer than two cells, that have no solid on both sides: where parts cross each
@@ -271,7 +290,8 @@ MeshDistance meshDistanceIn(const BBoxd& region, const TriangleMesh& mesh, doubl
     return grid;
   };
   openvdb::FloatGrid::Ptr grid = distances(there);
-  if (setSigns(*grid, inside, h)) {
+  setSigns(*grid, inside, h);
+  if (hasInnerSurface(*grid, h)) {
     grid = distances(OuterPieces(inside, h).of(there));
     setSigns(*grid, inside, h);
   }

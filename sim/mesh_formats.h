@@ -1,6 +1,6 @@
-// What the text or bytes of mesh files say. All three formats are read here: of the libraries at hand, none
-// keeps the vertices of an OBJ as they are (texture is written back onto them), reads the strips of a PLY and
-// STL in upper case, and stays within bounds on damaged files.
+// What the text or bytes of mesh files say. All three formats are read here: no library at hand keeps the vertices
+// of an OBJ as they are (texture is written back onto them), reads all that programs write, and stays within bounds
+// on damaged files (docs/architecture.md).
 #pragma once
 
 #include "sim/read_mesh.h"

@@ -119,12 +119,23 @@ TEST_CASE("mesh distance: of parts that cross each other, what lies within is no
   const ShapeDistance both = distanceOf(boxes({block, bar}));
   forCorners([&](const Vec3d& x) {
     const double wanted = std::min(boxDistance(block, x), boxDistance(bar, x));
-    // Inside, the nearest surface is as far as that of either or farther.
+    // Inside, the nearest surface is as far as that of either or farther; where they cross, to half a cell.
     if (wanted > 0.0 && wanted < 9.0 * kVoxel) REQUIRE(both(x) == Approx(wanted).margin(1e-4));
-    if (wanted < 0.0) REQUIRE(both(x) < wanted + 1e-4);
+    if (wanted < 0.0) REQUIRE(both(x) < std::min(wanted + 0.5 * kVoxel, 1e-6));
   });
   // On the bar's lower side within the block.
   CHECK(both(Vec3d(0.5, 0.5, 0.3)) == Approx(-0.1).margin(0.01));
+}
+
+TEST_CASE("mesh distance: of parts side by side, what they share is no surface", "[sim]") {
+  // Of different sizes, so that their faces are not the same; as good as touching.
+  for (const double gap : {0.0, 1e-6}) {
+    const BBoxd block(Vec3d(0.2), Vec3d(0.55, 0.8, 0.8)),
+        bar(Vec3d(0.55 + gap, 0.3, 0.3), Vec3d(0.9, 0.7, 0.7));
+    const ShapeDistance both = distanceOf(boxes({block, bar}));
+    for (const double x : {0.5, 0.54, 0.55, 0.56, 0.6}) CHECK(both(Vec3d(x, 0.5, 0.5)) < -0.15);
+    CHECK(both(Vec3d(0.7, 0.5, 0.25)) == Approx(0.05).margin(1e-4));
+  }
 }
 
 TEST_CASE("mesh distance: slits narrower than two cells stay open, as between two meshes", "[sim]") {
