@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 namespace fluidtex::sim {
 
 namespace {
+
+// Of a mesh, each of two triangles: with its level set some gigabytes.
+constexpr double kMostHeights = 16777216.0;
 
 std::array<double, 4> cubicWeights(double t) {
   return {0.5 * t * (-1.0 + t * (2.0 - t)), 1.0 + 0.5 * t * t * (-5.0 + 3.0 * t),
@@ -39,7 +43,7 @@ TriangleMesh groundMesh(const HeightField& ground, const openvdb::BBoxd& domain,
   const HeightImage image = readHeights(ground.file);
   const double sides[2] = {ground.pixel * image.width, ground.pixel * image.height};
   double low[2], high[2];
-  int count[2];
+  double counts[2];
   for (int a = 0; a < 2; ++a) {
     low[a] = ground.translate[a];
     high[a] = low[a] + sides[a];
@@ -54,19 +58,32 @@ TriangleMesh groundMesh(const HeightField& ground, const openvdb::BBoxd& domain,
     } else if (high[a] >= last - spacing) {
       high[a] = last + beyond;
     }
-    count[a] = std::max(2, static_cast<int>(std::ceil((high[a] - low[a]) / spacing)) + 1);
+    if (high[a] <= low[a]) return {};  // the picture lies beside the domain
+    counts[a] = std::max(2.0, std::ceil((high[a] - low[a]) / spacing) + 1.0);
   }
+  if (counts[0] * counts[1] > kMostHeights) {
+    std::ostringstream text;
+    text.precision(3);
+    text << ground.file.string() << ": is ground of " << high[0] - low[0] << " x " << high[1] - low[1]
+         << " m on sides of the domain that have no end, " << counts[0] * counts[1] << " cells of " << spacing
+         << " m across; " << kMostHeights << " can be had: give a smaller pixel, or larger cells";
+    throw HeightError(text.str());
+  }
+  const int count[2] = {static_cast<int>(counts[0]), static_cast<int>(counts[1])};
+  // Heights farther from the domain than matters are as good as at that distance.
+  const double lowest = domain.min().z() - beyond, highest = domain.max().z() + beyond;
   TriangleMesh mesh;
-  double lowest = base;
+  double foot = base;
   for (int i = 0; i < count[0]; ++i) {
     const double x = low[0] + (high[0] - low[0]) * i / (count[0] - 1);
     for (int j = 0; j < count[1]; ++j) {
       const double y = low[1] + (high[1] - low[1]) * j / (count[1] - 1);
       const double share = sample(image, (x - ground.translate[0]) / ground.pixel - 0.5,
                                   image.height - (y - ground.translate[1]) / ground.pixel - 0.5);
-      const double z = ground.translate[2] + ground.low + (ground.high - ground.low) * share;
+      const double z =
+          std::clamp(ground.translate[2] + ground.low + (ground.high - ground.low) * share, lowest, highest);
       mesh.positions.emplace_back(float(x), float(y), float(z));
-      lowest = std::min(lowest, z - beyond);
+      foot = std::min(foot, z - beyond);
     }
   }
   using Index = openvdb::Index32;
@@ -86,11 +103,10 @@ TriangleMesh groundMesh(const HeightField& ground, const openvdb::BBoxd& domain,
   const Index first = static_cast<Index>(mesh.positions.size()), n = static_cast<Index>(rim.size());
   for (const Index top : rim) {
     openvdb::Vec3f x = mesh.positions[top];
-    x.z() = float(lowest);
+    x.z() = float(foot);
     mesh.positions.push_back(x);
   }
-  mesh.positions.emplace_back(float(0.5 * (low[0] + high[0])), float(0.5 * (low[1] + high[1])),
-                              float(lowest));
+  mesh.positions.emplace_back(float(0.5 * (low[0] + high[0])), float(0.5 * (low[1] + high[1])), float(foot));
   for (Index a = 0; a < n; ++a) {
     const Index b = (a + 1) % n;
     mesh.triangles.emplace_back(rim[a], first + a, first + b);

@@ -8,7 +8,8 @@ namespace fluidtex::sim {
 // The ground as a closed mesh, sampled every `spacing` metres or a little less. It ends `beyond` metres
 // outside the domain where the picture reaches the domain's side, `beyond` outside the picture where the
 // domain is infinite, else at the picture's rim, and below at `base` metres or, where that lies higher,
-// `beyond` below its lowest point. Throws HeightError.
+// `beyond` below its lowest point. Heights more than `beyond` above or below the domain are cut off there.
+// Empty where the picture lies beside the domain. Throws HeightError.
 TriangleMesh groundMesh(const HeightField& ground, const openvdb::BBoxd& domain, double spacing,
                         double beyond, double base);
 

@@ -1,8 +1,10 @@
 #include "sim/moving_mesh.h"
 
+#include "sim/closed_surface.h"
 #include "sim/read_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace fluidtex::sim {
@@ -70,36 +72,9 @@ std::vector<std::size_t> joined(const std::vector<MeshSoup>& files) {
 }
 
 // Its corners by their joined vertices, without those that are the same as the one before.
-Polygon cleaned(const Polygon& polygon, const std::vector<std::size_t>& vertexOf) {
-  Polygon corners;
-  for (const std::size_t corner : polygon) {
-    if (corners.empty() || corners.back() != vertexOf[corner]) corners.push_back(vertexOf[corner]);
-  }
-  while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
-  return corners;
-}
-
-// The corner from which a polygon is best cut into a fan: that whose triangles face its way most, which is
-// any of a convex one's. `x`: where its corners are.
-std::size_t fanStart(const std::vector<Vec3d>& x) {
-  const std::size_t n = x.size();
-  const auto normal = [&](std::size_t a, std::size_t b, std::size_t c) {
-    return (x[b % n] - x[a % n]).cross(x[c % n] - x[a % n]);
-  };
-  Vec3d whole(0.0);
-  for (std::size_t i = 1; i + 1 < n; ++i) whole += normal(0, i, i + 1);
-  std::size_t best = 0;
-  double most = -kForever;
-  for (std::size_t start = 0; n > 3 && start < n; ++start) {
-    double least = kForever;
-    for (std::size_t i = 1; i + 1 < n; ++i)
-      least = std::min(least, normal(start, start + i, start + i + 1).dot(whole));
-    if (least > most) {
-      most = least;
-      best = start;
-    }
-  }
-  return best;
+Polygon cleaned(Polygon polygon, const std::vector<std::size_t>& vertexOf) {
+  for (std::size_t& corner : polygon) corner = vertexOf[corner];
+  return withoutRepeats(polygon);
 }
 
 double volumeOf(const std::vector<Vec3f>& x, const std::vector<Vec3I>& triangles) {
@@ -123,12 +98,13 @@ MovingMesh::MovingMesh(const MeshSequence& sequence, int begin, int end) : m_beg
   }
   const std::filesystem::path name = sequence.fileOf(begin);
   if (polygons.empty()) throw MeshError(name.string() + ": all its faces are degenerate");
-  if (const std::size_t open = openEdges(polygons); open > 0) failOpen(name, open);
+  polygons = withoutTwins(polygons);
+  checkClosed(name, polygons);
 
   for (const Polygon& polygon : polygons) {
     std::vector<Vec3d> x;
     for (const std::size_t corner : polygon) x.push_back(points[corner]);
-    const std::size_t start = fanStart(x), n = polygon.size();
+    const std::size_t start = bestFan(x).start, n = polygon.size();
     for (std::size_t i = 1; i + 1 < n; ++i) {
       const auto corner = [&](std::size_t k) {
         return static_cast<openvdb::Index32>(polygon[(start + k) % n]);
@@ -136,13 +112,16 @@ MovingMesh::MovingMesh(const MeshSequence& sequence, int begin, int end) : m_beg
       m_triangles.emplace_back(corner(0), corner(i), corner(i + 1));
     }
   }
-  for (const MeshSoup& file : files) {
-    std::vector<Vec3f>& positions = m_positions.emplace_back();
-    for (const Vec3d& x : file.points) positions.emplace_back(sequence.scale * x + sequence.translate);
-  }
-  const auto outward = [&](const std::vector<Vec3f>& x) { return volumeOf(x, m_triangles) >= 0.0; };
-  if (!std::all_of(m_positions.begin(), m_positions.end(), outward))
-    for (Vec3I& t : m_triangles) std::swap(t[1], t[2]);
+  std::erase_if(m_triangles, [](const Vec3I& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  for (int n = begin; n <= end; ++n)
+    m_positions.push_back(
+        placedPoints(sequence.fileOf(n), files[std::size_t(n - begin)], sequence.scale, sequence.translate));
+  // As it is turned where it is largest: elsewhere it may be folded flat.
+  const auto largest =
+      std::max_element(m_positions.begin(), m_positions.end(), [&](const auto& a, const auto& b) {
+        return std::abs(volumeOf(a, m_triangles)) < std::abs(volumeOf(b, m_triangles));
+      });
+  m_triangles = outwardTriangles(name, {*largest, m_triangles});
 }
 
 TriangleMesh MovingMesh::at(int file, double part) const {

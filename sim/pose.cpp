@@ -68,6 +68,24 @@ Pose poseAt(const Solid& solid, double t) {
   return pose;
 }
 
+openvdb::math::BBox<Vec3d> reachOf(const Solid& solid, const openvdb::math::BBox<Vec3d>& box) {
+  if (solid.keyframes.empty()) return box;
+  // Between keyframes it moves in straight lines, so they are the farthest it gets.
+  Vec3d least(kForever), most(-kForever);
+  bool turns = false;
+  for (const Keyframe& key : solid.keyframes) {
+    least = openvdb::math::minComponent(least, key.move);
+    most = openvdb::math::maxComponent(most, key.move);
+    turns = turns || key.turn != 0.0;
+  }
+  const openvdb::math::BBox<Vec3d> moved(box.min() - most, box.max() - least);
+  if (!turns) return moved;
+  Vec3d far(0.0);
+  for (int a = 0; a < 3; ++a)
+    far[a] = std::max(std::abs(moved.min()[a] - solid.pivot[a]), std::abs(moved.max()[a] - solid.pivot[a]));
+  return {solid.pivot - Vec3d(far.length()), solid.pivot + Vec3d(far.length())};
+}
+
 openvdb::math::BBox<Vec3d> boundsAt(const openvdb::math::BBox<Vec3d>& bounds, const Pose& pose) {
   const Vec3d &low = bounds.min(), &high = bounds.max();
   if (bounds.empty()) return bounds;

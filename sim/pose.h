@@ -35,6 +35,9 @@ struct Pose {
 // Of what is within these bounds before it is moved. Turned, it is infinite if they are anywhere.
 openvdb::math::BBox<Vec3d> boundsAt(const openvdb::math::BBox<Vec3d>& bounds, const Pose& pose);
 
+// Where a solid's shape, before it is moved, gets into the box at any time; not always the smallest.
+openvdb::math::BBox<Vec3d> reachOf(const Solid& solid, const openvdb::math::BBox<Vec3d>& box);
+
 // The pose at time t; at a keyframe, and at the time of a sequence's file, it goes on as after it.
 Pose poseAt(const Solid& solid, double t);
 

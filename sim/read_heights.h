@@ -18,7 +18,9 @@ struct HeightImage {
   std::vector<float> values;  // height x width
 };
 
-// The first channel as it is stored, 8 or 16 bits (or floats, which are taken as they are).
+// The first channel as it is stored, 8 or 16 bits (or floats, which are taken as they are), not multiplied by
+// alpha, upright as the file's orientation tag says. Pixels that a TIFF marks as without data (GDAL_NODATA)
+// get the height of the nearest one that has any.
 HeightImage readHeights(const std::filesystem::path& file);
 
 }  // namespace fluidtex::sim

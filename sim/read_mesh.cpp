@@ -1,133 +1,172 @@
-// Mesh files through CGAL: soup of polygons, repaired (double points of STL and of split normals joined),
-// turned outward.
+// Files of meshes, and what makes a solid of one: double points joined (of STL, of split normals), walls
+// within taken out, polygons cut into triangles, all turned outward.
 #include "sim/read_mesh.h"
 
+#include "sim/closed_surface.h"
+#include "sim/cut_polygon.h"
+#include "sim/mesh_formats.h"
 #include "sim/shapes.h"
-
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/IO/polygon_soup_io.h>
-#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/orientation.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
-#include <CGAL/Surface_mesh.h>
+#include "sim/text_scan.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <iostream>
-#include <map>
+#include <fstream>
+#include <limits>
+#include <numeric>
+#include <sstream>
 
 namespace fluidtex::sim {
 
 namespace {
 
-namespace PMP = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
+using openvdb::Vec3f;
+using openvdb::Vec3I;
 using Polygon = std::vector<std::size_t>;
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
   throw MeshError(file.string() + ": " + what);
 }
 
-// CGAL's PLY reader writes to std::cerr as it gives up; the caller reports the fault instead.
-struct QuietErrors {
-  const std::ios::iostate before = std::cerr.rdstate();
-  QuietErrors() { std::cerr.setstate(std::ios::failbit); }
-  ~QuietErrors() { std::cerr.clear(before); }
-};
+std::string contentOf(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string content(static_cast<std::size_t>(std::filesystem::file_size(file)), '\0');
+  in.read(content.data(), static_cast<std::streamsize>(content.size()));
+  if (!in) fail(file, "cannot be opened or read");
+  return content;
+}
+
+// For each point the first one at the same place.
+std::vector<std::size_t> joined(const std::vector<Vec3f>& points) {
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (points[a] != points[b]) return points[a] < points[b];
+    return a < b;
+  });
+  std::vector<std::size_t> first(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool same = i > 0 && points[order[i]] == points[order[i - 1]];
+    first[order[i]] = same ? first[order[i - 1]] : order[i];
+  }
+  return first;
+}
+
+std::string edges(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " edge" : " edges");
+}
 
 }  // namespace
 
-std::size_t openEdges(const std::vector<Polygon>& polygons) {
-  std::map<std::pair<std::size_t, std::size_t>, int> uses;
-  for (const Polygon& polygon : polygons) {
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const std::size_t a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-      ++uses[std::minmax(a, b)];
-    }
-  }
-  return std::count_if(uses.begin(), uses.end(), [](const auto& edge) { return edge.second % 2 != 0; });
+void checkClosed(const std::filesystem::path& file, const std::vector<Polygon>& polygons) {
+  const OpenEdges open = openEdges(polygons);
+  if (open.none()) return;
+  std::string what = "is not closed: ";
+  if (open.ofOne > 0)
+    what += edges(open.ofOne) + (open.ofOne == 1 ? " has" : " have") + " a face on one side only";
+  if (open.ofOne > 0 && open.ofMore > 0) what += ", and ";
+  if (open.ofMore > 0)
+    what += "at " + edges(open.ofMore) +
+            " three faces meet, or another odd number: a wall of one face ends there";
+  fail(file, what);
 }
 
-void failOpen(const std::filesystem::path& file, std::size_t openEdges) {
-  fail(file, "is not closed: " + std::to_string(openEdges) + (openEdges == 1 ? " edge has" : " edges have") +
-                 " a face on one side only");
+std::vector<Vec3I> outwardTriangles(const std::filesystem::path& file, const TriangleMesh& mesh) {
+  std::optional<std::vector<Vec3I>> triangles = turnedOutward(mesh);
+  if (!triangles)
+    fail(file,
+         "has no inside: its faces cannot all be turned to one side (a surface that passes through itself)");
+  return std::move(*triangles);
+}
+
+std::vector<Vec3f> placedPoints(const std::filesystem::path& file, const MeshSoup& soup, double scale,
+                                const Vec3d& translate) {
+  std::vector<Vec3f> positions;
+  positions.reserve(soup.points.size());
+  for (const Vec3d& p : soup.points) {
+    const Vec3d x = scale * p + translate;
+    positions.emplace_back(x);
+    // Squares of what is farther away than the universe overflow.
+    constexpr double kFarthest = 1e18;
+    for (int a = 0; a < 3; ++a) {
+      if (std::abs(x[a]) > kFarthest) {
+        std::ostringstream text;
+        text << "vertex " << positions.size() << " lies " << std::abs(x[a]) << " m away";
+        fail(file, text.str());
+      }
+    }
+  }
+  return positions;
 }
 
 MeshSoup readSoup(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) fail(file, "no such file");
   if (!std::filesystem::is_regular_file(file)) fail(file, "not a file");
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = inLowerCase(file.extension().string());
   if (extension != ".obj" && extension != ".ply" && extension != ".stl") {
     fail(file, "unknown kind of mesh file '" + extension + "'; expected .obj, .ply or .stl");
   }
-  if (std::filesystem::file_size(file) == 0) fail(file, "the file is empty");
+  const std::string content = contentOf(file);
+  if (content.empty()) fail(file, "the file is empty");
 
-  std::vector<Point> points;
   MeshSoup soup;
-  std::vector<Polygon>& polygons = soup.polygons;
-  bool read = false;
   try {
-    const QuietErrors quiet;
-    const std::string name = file.string();
-    read = extension == ".obj"   ? CGAL::IO::read_OBJ(name, points, polygons)
-           : extension == ".ply" ? CGAL::IO::read_PLY(name, points, polygons)
-                                 : CGAL::IO::read_STL(name, points, polygons);
-  } catch (const std::exception& error) {
-    fail(file, std::string("cannot be read as a mesh: ") + error.what());
+    soup = extension == ".obj"   ? soupOfObj(content)
+           : extension == ".ply" ? soupOfPly(content)
+                                 : soupOfStl(content);
+  } catch (const std::runtime_error& error) {
+    fail(file, error.what());
   }
-  if (!read && !points.empty() && polygons.empty()) fail(file, "has no faces");
-  if (!read) fail(file, "cannot be read as a mesh: the file is damaged or of another format");
-  if (polygons.empty()) fail(file, "has no faces");
-  for (const Point& p : points) {
-    if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) {
-      fail(file, "has a vertex that is not a finite number");
-    }
-    soup.points.emplace_back(p.x(), p.y(), p.z());
+  if (soup.polygons.empty())
+    fail(file, soup.points.empty() ? "has no vertices and no faces" : "has no faces");
+  for (std::size_t n = 0; n < soup.points.size(); ++n) {
+    const Vec3d& p = soup.points[n];
+    if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z()))
+      fail(file, "vertex " + std::to_string(n + 1) + " is not at finite numbers");
   }
-  for (const Polygon& polygon : polygons) {
-    for (const std::size_t vertex : polygon) {
-      if (vertex >= points.size()) fail(file, "a face names a vertex that does not exist");
+  for (std::size_t n = 0; n < soup.polygons.size(); ++n) {
+    for (const std::size_t vertex : soup.polygons[n]) {
+      if (vertex >= soup.points.size())
+        fail(file, "face " + std::to_string(n + 1) + " names vertex " + std::to_string(vertex) +
+                       ", counted from 0, but there are " + std::to_string(soup.points.size()));
     }
   }
   return soup;
 }
 
 TriangleMesh readMesh(const MeshShape& shape) {
-  MeshSoup soup = readSoup(shape.file);
-  std::vector<Polygon>& polygons = soup.polygons;
-  std::vector<Point> points;
-  for (const Vec3d& x : soup.points) points.emplace_back(x.x(), x.y(), x.z());
-  PMP::repair_polygon_soup(points, polygons);
+  const MeshSoup soup = readSoup(shape.file);
+  const std::vector<Vec3f> positions = placedPoints(shape.file, soup, shape.scale, shape.translate);
+  const std::vector<std::size_t> vertexOf = joined(positions);
+  std::vector<Polygon> polygons;
+  for (Polygon polygon : soup.polygons) {
+    for (std::size_t& corner : polygon) corner = vertexOf[corner];
+    polygon = withoutRepeats(polygon);
+    if (polygon.size() >= 3) polygons.push_back(std::move(polygon));
+  }
   if (polygons.empty()) fail(shape.file, "all its faces are degenerate");
-  if (const std::size_t open = openEdges(polygons); open > 0) failOpen(shape.file, open);
-  PMP::orient_polygon_soup(points, polygons);
-  CGAL::Surface_mesh<Point> surface;
-  PMP::polygon_soup_to_polygon_mesh(points, polygons, surface);
-  if (!PMP::triangulate_faces(surface)) fail(shape.file, "has a face that cannot be cut into triangles");
-  if (CGAL::is_closed(surface)) PMP::orient_to_bound_a_volume(surface);
+  polygons = withoutTwins(polygons);
+  checkClosed(shape.file, polygons);
 
   TriangleMesh mesh;
-  for (const auto vertex : surface.vertices()) {
-    const Point& p = surface.point(vertex);
-    const Vec3d x = shape.scale * Vec3d(p.x(), p.y(), p.z()) + shape.translate;
-    mesh.positions.emplace_back(x);
-  }
-  const bool mirrored = shape.scale < 0.0;
-  for (const auto face : surface.faces()) {
-    openvdb::Vec3I triangle;
-    int corner = 0;
-    for (const auto vertex : CGAL::vertices_around_face(surface.halfedge(face), surface)) {
-      triangle[corner++] = static_cast<openvdb::Index32>(vertex.idx());
+  constexpr openvdb::Index32 kUnused = std::numeric_limits<openvdb::Index32>::max();
+  std::vector<openvdb::Index32> place(positions.size(), kUnused);
+  for (const Polygon& polygon : polygons) {
+    for (const auto& corners : cutPolygon(soup.points, polygon)) {
+      Vec3I triangle;
+      for (int c = 0; c < 3; ++c) {
+        openvdb::Index32& vertex = place[corners[std::size_t(c)]];
+        if (vertex == kUnused) {
+          vertex = static_cast<openvdb::Index32>(mesh.positions.size());
+          mesh.positions.push_back(positions[corners[std::size_t(c)]]);
+        }
+        triangle[c] = vertex;
+      }
+      // Where a polygon touches itself.
+      if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
+        mesh.triangles.push_back(triangle);
     }
-    if (mirrored) std::swap(triangle[1], triangle[2]);
-    mesh.triangles.push_back(triangle);
   }
+  mesh.triangles = outwardTriangles(shape.file, mesh);
   return mesh;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/options.h"
+#include "sim/shapes.h"
 
 #include <stdexcept>
 
@@ -13,17 +14,22 @@ struct MeshError : std::runtime_error {
 };
 
 // The points and polygons of an OBJ, PLY or STL file, in its order and with nothing repaired, but that all
-// points are finite and all corners exist.
+// points are finite, all corners exist and all polygons have three or more. An STL has three points of its
+// own for each facet. Throws MeshError; memory stays within a multiple of the file's size, whatever it holds.
 struct MeshSoup {
   std::vector<Vec3d> points;                       // #P, as in the file
   std::vector<std::vector<std::size_t>> polygons;  // corners of each
 };
 MeshSoup readSoup(const std::filesystem::path& file);
 
-// Edges used by an odd number of polygons: where the surface has a rim.
-std::size_t openEdges(const std::vector<std::vector<std::size_t>>& polygons);
+// scale * x + translate of a file's points, metres. Throws MeshError where that is beyond single precision.
+std::vector<openvdb::Vec3f> placedPoints(const std::filesystem::path& file, const MeshSoup& soup,
+                                         double scale, const Vec3d& translate);
 
-// Throws that the file's mesh has a rim of so many edges.
-[[noreturn]] void failOpen(const std::filesystem::path& file, std::size_t openEdges);
+// Throws MeshError where the file's polygons are no closed surface.
+void checkClosed(const std::filesystem::path& file, const std::vector<std::vector<std::size_t>>& polygons);
+
+// turnedOutward(); throws MeshError where the file's surface has one side only.
+std::vector<openvdb::Vec3I> outwardTriangles(const std::filesystem::path& file, const TriangleMesh& mesh);
 
 }  // namespace fluidtex::sim

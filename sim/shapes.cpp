@@ -2,7 +2,10 @@
 #include "sim/shapes.h"
 
 #include "sim/height_field.h"
+#include "sim/mesh_distance.h"
 #include "sim/moving_mesh.h"
+#include "sim/read_heights.h"
+#include "sim/read_mesh.h"
 
 #include <openvdb/tools/Interpolation.h>
 #include <openvdb/tools/MeshToVolume.h>
@@ -63,20 +66,21 @@ struct ShapeDistance::Node {
   struct Less {
     std::vector<Node> parts;
   };
-  std::variant<Box, Sphere, Cylinder, Plane, openvdb::FloatGrid::ConstPtr, Ground, Any, Less> kind;
+  std::variant<Box, Sphere, Cylinder, Plane, MeshDistance, Ground, Any, Less> kind;
 
-  static Node of(const Shape& shape, double voxelSize, const openvdb::BBoxd& domain);
-  static Node of(const TriangleMesh& mesh, double voxelSize);
+  static Node of(const Shape& shape, double voxelSize, const openvdb::BBoxd& domain,
+                 const openvdb::BBoxd& reach);
+  static Node of(const TriangleMesh& mesh, double voxelSize, const openvdb::BBoxd& reach);
   static Node of(const HeightField& ground, double voxelSize, const openvdb::BBoxd& domain);
   double distance(const Vec3d& x) const;
   openvdb::BBoxd boundsIn(const openvdb::BBoxd& within) const;
 };
 
 ShapeDistance::Node ShapeDistance::Node::of(const Shape& shape, double voxelSize,
-                                            const openvdb::BBoxd& domain) {
+                                            const openvdb::BBoxd& domain, const openvdb::BBoxd& reach) {
   const auto nodesOf = [&](const std::vector<Shape>& parts) {
     std::vector<Node> nodes;
-    for (const Shape& part : parts) nodes.push_back(of(part, voxelSize, domain));
+    for (const Shape& part : parts) nodes.push_back(of(part, voxelSize, domain, reach));
     return nodes;
   };
   if (const auto* box = std::get_if<Box>(&shape.kind)) return {*box};
@@ -86,9 +90,16 @@ ShapeDistance::Node ShapeDistance::Node::of(const Shape& shape, double voxelSize
     return {Plane{plane->point, unitNormal(*plane)}};
   if (const auto* all = std::get_if<Union>(&shape.kind)) return {Any{nodesOf(all->parts)}};
   if (const auto* less = std::get_if<Difference>(&shape.kind)) return {Less{nodesOf(less->parts)}};
+  const auto ofFile = [&](const std::filesystem::path& file, const TriangleMesh& mesh) {
+    try {
+      return of(mesh, voxelSize, reach);
+    } catch (const std::runtime_error& error) {
+      throw MeshError(file.string() + ": " + error.what());
+    }
+  };
   if (const auto* sequence = std::get_if<MeshSequence>(&shape.kind))
-    return of(MovingMesh(*sequence, 0, 0).at(0, 0.0), voxelSize);
-  if (const auto* mesh = std::get_if<MeshShape>(&shape.kind)) return of(readMesh(*mesh), voxelSize);
+    return ofFile(sequence->fileOf(0), MovingMesh(*sequence, 0, 0).at(0, 0.0));
+  if (const auto* mesh = std::get_if<MeshShape>(&shape.kind)) return ofFile(mesh->file, readMesh(*mesh));
   return of(std::get<HeightField>(shape.kind), voxelSize, domain);
 }
 
@@ -98,6 +109,12 @@ ShapeDistance::Node ShapeDistance::Node::of(const HeightField& ground, double vo
   const TriangleMesh mesh = groundMesh(ground, domain, voxelSize, beyond, -beyond);
   openvdb::BBoxd box;
   for (const openvdb::Vec3f& x : mesh.positions) box.expand(Vec3d(x));
+  if (mesh.triangles.empty()) return of(mesh, voxelSize, domain);
+  try {
+    checkCells(mesh, box.extents(), voxelSize, kMeshBand);
+  } catch (const std::runtime_error& error) {
+    throw HeightError(ground.file.string() + ": as ground " + error.what());
+  }
   Vec3d low(-kForever), high(kForever);
   for (int a = 0; a < 2; ++a) {
     if (!std::isfinite(domain.min()[a]) || box.min()[a] < domain.min()[a] - band)
@@ -106,14 +123,15 @@ ShapeDistance::Node ShapeDistance::Node::of(const HeightField& ground, double vo
       high[a] = box.max()[a] - band;
   }
   low[2] = box.min()[2] + band;
-  return {Ground{std::get<openvdb::FloatGrid::ConstPtr>(of(mesh, voxelSize).kind), low, high}};
-}
-
-ShapeDistance::Node ShapeDistance::Node::of(const TriangleMesh& mesh, double voxelSize) {
   const auto transform = openvdb::math::Transform::createLinearTransform(voxelSize);
   openvdb::FloatGrid::ConstPtr grid = openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(
       *transform, mesh.positions, mesh.triangles, kMeshBand);
-  return {std::move(grid)};
+  return {Ground{std::move(grid), low, high}};
+}
+
+ShapeDistance::Node ShapeDistance::Node::of(const TriangleMesh& mesh, double voxelSize,
+                                            const openvdb::BBoxd& reach) {
+  return {meshDistanceIn(reach, mesh, voxelSize, kMeshBand)};
 }
 
 double ShapeDistance::Node::distance(const Vec3d& x) const {
@@ -123,8 +141,8 @@ double ShapeDistance::Node::distance(const Vec3d& x) const {
     double operator()(const Sphere& sphere) const { return (x - sphere.center).length() - sphere.radius; }
     double operator()(const Cylinder& cylinder) const { return cylinderDistance(cylinder, x); }
     double operator()(const Plane& plane) const { return (x - plane.point).dot(plane.normal); }
-    double operator()(const openvdb::FloatGrid::ConstPtr& grid) const {
-      return openvdb::tools::BoxSampler::sample(grid->constTree(), grid->worldToIndex(x));
+    double operator()(const MeshDistance& mesh) const {
+      return openvdb::tools::BoxSampler::sample(mesh.grid->constTree(), mesh.grid->worldToIndex(x));
     }
     double operator()(const Ground& ground) const {
       Vec3d within = x;
@@ -177,12 +195,9 @@ openvdb::BBoxd ShapeDistance::Node::boundsIn(const openvdb::BBoxd& within) const
       }
       return box;
     }
-    Bounds operator()(const openvdb::FloatGrid::ConstPtr& grid) const {
-      const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
-      return box.empty() ? Bounds() : grid->transform().indexToWorld(box);
-    }
+    Bounds operator()(const MeshDistance& mesh) const { return mesh.bounds; }
     Bounds operator()(const Ground& ground) const {
-      Bounds box = (*this)(ground.grid);
+      Bounds box = ground.grid->transform().indexToWorld(ground.grid->evalActiveVoxelBoundingBox());
       for (int a = 0; a < 3; ++a) {
         if (std::isfinite(ground.low[a])) box.min()[a] = -kForever;
         if (std::isfinite(ground.high[a])) box.max()[a] = kForever;
@@ -213,10 +228,14 @@ openvdb::BBoxd ShapeDistance::boundsIn(const openvdb::BBoxd& box) const {
 }
 
 ShapeDistance::ShapeDistance(const Shape& shape, double voxelSize, const openvdb::BBoxd& domain)
-    : m_root(std::make_shared<Node>(Node::of(shape, voxelSize, domain))) {}
+    : ShapeDistance(shape, voxelSize, domain, domain) {}
 
-ShapeDistance::ShapeDistance(const TriangleMesh& mesh, double voxelSize)
-    : m_root(std::make_shared<Node>(Node::of(mesh, voxelSize))) {}
+ShapeDistance::ShapeDistance(const Shape& shape, double voxelSize, const openvdb::BBoxd& domain,
+                             const openvdb::BBoxd& reach)
+    : m_root(std::make_shared<Node>(Node::of(shape, voxelSize, domain, reach))) {}
+
+ShapeDistance::ShapeDistance(const TriangleMesh& mesh, double voxelSize, const openvdb::BBoxd& reach)
+    : m_root(std::make_shared<Node>(Node::of(mesh, voxelSize, reach))) {}
 
 double ShapeDistance::operator()(const Vec3d& x) const {
   return m_root->distance(x);

@@ -14,8 +14,9 @@ struct TriangleMesh {
   std::vector<openvdb::Vec3I> triangles;  // #T, counter-clockwise from outside
 };
 
-// Reads OBJ, PLY or STL, polygons split into triangles. Throws std::runtime_error that names the file and
-// what is wrong (missing, unreadable, no faces, not closed).
+// Reads OBJ, PLY or STL: polygons split into triangles, all turned outward whichever way they are in the
+// file. A closed surface within another one is the wall of a cavity; parts that cross or touch are one solid.
+// Throws MeshError, which names the file and what is wrong (missing, unreadable, no faces, not closed).
 TriangleMesh readMesh(const MeshShape& shape);
 
 inline const openvdb::BBoxd kEverywhere{Vec3d(-kForever), Vec3d(kForever)};
@@ -25,10 +26,14 @@ inline const openvdb::BBoxd kEverywhere{Vec3d(-kForever), Vec3d(kForever)};
 // into a level set once.
 class ShapeDistance {
  public:
-  // domain: height fields go on for ever where they reach its sides, and where it is infinite. A mesh
-  // sequence is as in its first file.
+  // domain: height fields go on for ever where they reach its sides, and where it is infinite; `reach`, the
+  // same where it is not given: where distances to meshes are asked for, others need not be right. A mesh
+  // sequence is as in its first file. Throws MeshError and HeightError, also where one is so large that it
+  // would not fit into memory.
   ShapeDistance(const Shape& shape, double voxelSize, const openvdb::BBoxd& domain = kEverywhere);
-  ShapeDistance(const TriangleMesh& mesh, double voxelSize);
+  ShapeDistance(const Shape& shape, double voxelSize, const openvdb::BBoxd& domain,
+                const openvdb::BBoxd& reach);
+  ShapeDistance(const TriangleMesh& mesh, double voxelSize, const openvdb::BBoxd& reach = kEverywhere);
   double operator()(const Vec3d& x) const;
 
   // Of what of the shape lies in a box, metres, not always the smallest; infinite where the box is and it has

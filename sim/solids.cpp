@@ -1,6 +1,7 @@
 #include "sim/solids.h"
 
 #include "sim/mac_grid.h"
+#include "sim/read_mesh.h"
 #include "sim/solid_field.h"
 #include "sim/walls.h"
 
@@ -26,6 +27,16 @@ bool isNoMirror(Side side) {
   return side != Side::symmetry;
 }
 
+// Of a mesh sequence as it is on the way from a file to the next.
+ShapeDistance distanceAt(const MovingMesh& mesh, int file, double part, const Solid& solid,
+                         const Options& options) {
+  try {
+    return ShapeDistance(mesh.at(file, part), options.voxelSize(), reachOf(solid, domainBox(options)));
+  } catch (const std::runtime_error& error) {
+    throw MeshError(std::get<MeshSequence>(solid.shape.kind).fileOf(file).string() + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 SolidField atRest(const SolidField& solid) {
@@ -46,10 +57,11 @@ Solids::Solids(const Options& options) : m_options(options), m_domain(domainCell
     m_sequences.emplace_back();
     if (const auto* sequence = std::get_if<MeshSequence>(&solid.shape.kind)) {
       MovingMesh mesh(*sequence);
-      const ShapeDistance first(mesh.at(0, 0.0), h);
+      const ShapeDistance first = distanceAt(mesh, 0, 0.0, solid, m_options);
       m_sequences.back() = {std::move(mesh), 0, 0.0, first};
     } else {
-      m_shapes.back().emplace(solid.shape, h, domainBox(m_options));
+      const openvdb::BBoxd domain = domainBox(m_options);
+      m_shapes.back().emplace(solid.shape, h, domain, reachOf(solid, domain));
     }
   }
   for (int side = 0; side < 6; ++side) {
@@ -92,7 +104,7 @@ Solids::Placed Solids::placed(std::size_t index, double t) const {
   const std::scoped_lock lock(m_sequencesInUse);
   Sequence& sequence = *m_sequences[index];
   if (sequence.file != pose.file || sequence.part != pose.part) {
-    sequence.shape = ShapeDistance(sequence.mesh.at(pose.file, pose.part), m_options.voxelSize());
+    sequence.shape = distanceAt(sequence.mesh, pose.file, pose.part, m_options.solids[index], m_options);
     sequence.file = pose.file;
     sequence.part = pose.part;
   }

@@ -236,7 +236,7 @@ TriangleMesh tube(const Cylinder& cylinder, double h) {
 TriangleMesh clipped(TriangleMesh mesh, const BBoxd& within, double h) {
   const auto inside = [&](const openvdb::Vec3f& x) { return within.isInside(Vec3d(x)); };
   if (std::all_of(mesh.positions.begin(), mesh.positions.end(), inside)) return mesh;
-  return meshDistance(ShapeDistance(mesh, h), within, h);
+  return meshDistance(ShapeDistance(mesh, h, within), within, h);
 }
 
 TriangleMesh meshAt(const MeshSequence& sequence, int file, double part) {

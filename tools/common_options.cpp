@@ -1,6 +1,8 @@
 #include "tools/common_options.h"
 
+#include "sim/mac_grid.h"
 #include "sim/moving_mesh.h"
+#include "sim/pose.h"
 #include "sim/shapes.h"
 #include "tools/errors.h"
 
@@ -21,12 +23,43 @@ int parseNumber(std::string_view text, const std::string& whole) {
   return number;
 }
 
-// Reads every mesh file and forgets it: one that is damaged is known before anything is done.
-void tryMeshes(const sim::Shape& shape) {
-  const auto tryParts = [](const std::vector<sim::Shape>& parts) {
-    for (const sim::Shape& part : parts) tryMeshes(part);
+std::string extentsText(const sim::Vec3d& extents) {
+  return fmt::format("{:.3g} x {:.3g} x {:.3g} m", extents.x(), extents.y(), extents.z());
+}
+
+// A sentence about a mesh that gets nowhere near the domain, as one in millimetres; empty of others. reach:
+// where it would have to be.
+std::string farAway(const std::filesystem::path& file, double scale, const sim::TriangleMesh& mesh,
+                    const openvdb::BBoxd& reach, const sim::Vec3d& size) {
+  openvdb::BBoxd bounds;
+  for (const openvdb::Vec3f& x : mesh.positions) bounds.expand(sim::Vec3d(x));
+  if (reach.hasOverlap(bounds)) return {};
+  std::string hint;
+  for (const double factor : {0.001, 0.01, 0.0254, 0.1, 10.0, 100.0, 1000.0}) {
+    const openvdb::BBoxd scaled(factor * bounds.min(), factor * bounds.max());
+    if (!hint.empty() || !openvdb::BBoxd(sim::Vec3d(0.0), size).isInside(scaled.getCenter()) ||
+        scaled.extents().length() < 0.01 * size.length() || scaled.extents().length() > 10.0 * size.length())
+      continue;
+    hint =
+        fmt::format("; with scale = {:g} it would measure {}", factor * scale, extentsText(scaled.extents()));
+  }
+  return fmt::format(
+      "{}: lies outside the domain: it measures {}, from ({:.3g}, {:.3g}, {:.3g}) on, the domain {}{}",
+      file.string(), extentsText(bounds.extents()), bounds.min().x(), bounds.min().y(), bounds.min().z(),
+      extentsText(size), hint);
+}
+
+// Reads every mesh file and forgets it: one that is damaged is known before anything is done. Says which are
+// far from the domain.
+void tryMeshes(const sim::Shape& shape, const openvdb::BBoxd& reach, const sim::Vec3d& size, bool quiet) {
+  const auto tryParts = [&](const std::vector<sim::Shape>& parts) {
+    for (const sim::Shape& part : parts) tryMeshes(part, reach, size, quiet);
   };
-  if (const auto* mesh = std::get_if<sim::MeshShape>(&shape.kind)) sim::readMesh(*mesh);
+  const auto warn = [&](const std::string& warning) {
+    if (!quiet && !warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
+  };
+  if (const auto* mesh = std::get_if<sim::MeshShape>(&shape.kind))
+    warn(farAway(mesh->file, mesh->scale, sim::readMesh(*mesh), reach, size));
   if (const auto* sequence = std::get_if<sim::MeshSequence>(&shape.kind)) sim::MovingMesh{*sequence};
   if (const auto* both = std::get_if<sim::Union>(&shape.kind)) tryParts(both->parts);
   if (const auto* rest = std::get_if<sim::Difference>(&shape.kind)) tryParts(rest->parts);
@@ -68,8 +101,11 @@ scenes::Scene loadScene(const CommonOptions& options) {
   overrides.set = options.set;
   overrides.exemplar = options.exemplar;
   scenes::Scene scene = scenes::loadScene(options.scene, overrides);
-  for (const sim::LiquidBody& body : scene.sim.liquid) tryMeshes(body.shape);
-  for (const sim::Solid& solid : scene.sim.solids) tryMeshes(solid.shape);
+  const openvdb::BBoxd domain = sim::domainBox(scene.sim);
+  for (const sim::LiquidBody& body : scene.sim.liquid)
+    tryMeshes(body.shape, domain, scene.sim.size, options.quiet);
+  for (const sim::Solid& solid : scene.sim.solids)
+    tryMeshes(solid.shape, sim::reachOf(solid, domain), scene.sim.size, options.quiet);
   return scene;
 }
 

@@ -4,6 +4,7 @@
 #include "tools/common_options.h"
 #include "tools/errors.h"
 #include "tools/frame_loop.h"
+#include "tools/stop_signal.h"
 
 #include <fmt/core.h>
 #include <spdlog/sinks/basic_file_sink.h>
@@ -11,22 +12,10 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include <atomic>
-#include <csignal>
 #include <memory>
 
 namespace fluidtex::tools {
 namespace {
-
-std::atomic<bool> stopRequested{false};
-
-// The first Ctrl-C stops at the next safe point; a second one ends the program at once, which loses nothing
-// either.
-void onInterrupt(int) {
-  stopRequested = true;
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
-}
 
 // Lines are added to what is there: a run that starts anew empties the file when it clears the earlier run.
 void logTo(const std::filesystem::path& file, bool verbose) {
@@ -55,9 +44,7 @@ void runInto(const std::filesystem::path& out, const scenes::Scene& scene, const
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(run.threads));
   logTo(run.out / "log.txt", options.verbose);
-  std::signal(SIGINT, onInterrupt);
-  std::signal(SIGTERM, onInterrupt);
-  runScene(scene, run, stopRequested);
+  runScene(scene, run, stopOnSignals());
 }
 
 void addRun(CLI::App& app, int& exitCode) {

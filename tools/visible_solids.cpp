@@ -35,9 +35,11 @@ const std::vector<render::Solid>& VisibleSolids::at(double time) {
   }
   if (visible == m_visible) return m_solids;
   if (m_bounds.empty()) {
+    const openvdb::BBoxd domain = sim::domainBox(m_options);
     for (const sim::Solid& solid : m_options.solids)
-      m_bounds.push_back(sim::ShapeDistance(solid.shape, m_options.voxelSize(), sim::domainBox(m_options))
-                             .boundsIn(sim::kEverywhere));
+      m_bounds.push_back(
+          sim::ShapeDistance(solid.shape, m_options.voxelSize(), domain, sim::reachOf(solid, domain))
+              .boundsIn(sim::kEverywhere));
   }
   m_solids.clear();
   for (const auto& [i, pose] : visible) {

@@ -1,0 +1,16 @@
+// Polygons in space as triangles.
+#pragma once
+
+#include "sim/options.h"
+
+#include <array>
+#include <vector>
+
+namespace fluidtex::sim {
+
+// The triangles of a polygon, turned as it is; their corners are among its own. It need be neither convex nor
+// flat. corners: three or more, numbers of points.
+std::vector<std::array<std::size_t, 3>> cutPolygon(const std::vector<Vec3d>& points,
+                                                   const std::vector<std::size_t>& corners);
+
+}  // namespace fluidtex::sim
