@@ -85,7 +85,7 @@ void writeBytes(const fs::path& file, std::string_view bytes) {
   std::ofstream out(file, std::ios::binary);
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.close();
-  if (!out) fail(file, "cannot be written");
+  if (!out) fail(file, "cannot write");
 }
 
 void writeTextAtomically(const fs::path& file, std::string_view text) {

@@ -4,6 +4,7 @@
 #include "texture/read_image.h"
 #include "tools/errors.h"
 #include "tools/journal.h"
+#include "tools/work.h"
 
 #include <fmt/core.h>
 
@@ -96,6 +97,7 @@ FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
                                  run.exemplar.string()));
   run.toroidal = texture.value("toroidal", false);
   run.color = texture::readImage(run.exemplar);
+  nowAt(kOnRun);
   run.frames = framesIn(out / "surface");
   return run;
 }

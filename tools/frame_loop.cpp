@@ -357,6 +357,8 @@ class FrameLoop {
   std::function<void(double)> reporter(const char* stage) {
     return [this, stage](double part) {
       if (m_stop) throw Interrupted();
+      // None while files of an earlier run are made again.
+      if (m_progress == nullptr) return;
       m_progress->update(sim::stateOf(*m_motion).frame + (std::string_view(stage) == "simulate" ? 1 : 0),
                          stage, part);
     };

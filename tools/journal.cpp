@@ -61,7 +61,7 @@ void addToJournal(const fs::path& out, const std::vector<JournalLine>& lines) {
   }
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t count = write(journal.number, text.data() + done, text.size() - done);
-    if (count < 0 && errno != EINTR) fail(file, "cannot be written");
+    if (count < 0 && errno != EINTR) fail(file, "cannot write");
     if (count > 0) done += static_cast<std::size_t>(count);
   }
   if (fsync(journal.number) != 0) fail(file, "cannot flush");
@@ -78,12 +78,14 @@ Journal readJournal(const fs::path& out) {
     Json content =
         Json::parse(line.begin() + static_cast<std::ptrdiff_t>(space) + 1, line.end(), nullptr, false);
     if (content.is_discarded()) continue;
-    if (content.contains("frame"))
-      journal.frames[content["frame"].get<int>()] = std::move(content);
-    else if (content.contains("file"))
+    if (content.contains("frame")) {
+      const int frame = content["frame"].get<int>();
+      journal.frames[frame] = std::move(content);
+    } else if (content.contains("file")) {
       journal.files.emplace(
           content["file"].get<std::string>(),
           Fingerprint{content["bytes"].get<std::uint64_t>(), content["hash"].get<std::string>()});
+    }
   }
   return journal;
 }

@@ -10,6 +10,7 @@
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <sstream>
 
 int main(int argc, char** argv) {
   using namespace fluidtex::tools;
@@ -51,9 +52,11 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const bool asked = app.exit(error) == 0;  // help, or the version
-    if (!asked) return kInputWrong;
-    return guarded([] {});
+    std::ostringstream out, err;
+    const bool asked = app.exit(error, out, err) == 0;  // help, or the version
+    sayText(err.str());
+    const int printed = guarded([&] { printText(out.str()); });
+    return asked ? printed : kInputWrong;
   }
   return exitCode;
 }

@@ -11,6 +11,7 @@
 #include "tools/out_folder.h"
 #include "tools/ply.h"
 #include "tools/visible_solids.h"
+#include "tools/work.h"
 
 #include <fmt/core.h>
 #include <tbb/global_control.h>
@@ -69,6 +70,7 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
       surface.spacing = spacingOf(from, surface, frame);
     }
     const double progress = scene.frames > 1 ? double(frame - 1) / (scene.frames - 1) : 0.0;
+    nowAt(kOnPicture, frame);
     const render::Picture picture = render::render(
         surface, solids.at((frame - 1) / scene.sim.frameRate), scene.render,
         {scene.sim.size, progress, frame, colorBetween(detail, surface), detail && detail->seeThrough});

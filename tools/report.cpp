@@ -105,7 +105,7 @@ std::string sceneDifference(const Json& before, const Json& now, const Json& inp
   };
   Json old = flat(before), current = flat(now);
   for (const auto& [dotted, content] : inputs.items()) {
-    const std::string key = "/" + replaced(dotted, '.', '/');
+    const std::string key = replaced("." + dotted, '.', '/');
     if (!old.value(key, Json()).is_string() || !current.value(key, Json()).is_string()) continue;
     old.erase(key);
     current.erase(key);

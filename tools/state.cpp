@@ -181,7 +181,7 @@ void writeSurface(const texture::TexturedSurface& surface, const fs::path& file)
   out.write(kMagic, sizeof kMagic);
   eachPart(surface, write);
   out.close();
-  if (!out) throw std::system_error(errno, std::generic_category(), file.string() + ": cannot be written");
+  if (!out) throw std::system_error(errno, std::generic_category(), file.string() + ": cannot write");
 }
 
 texture::TexturedSurface readSurface(const fs::path& file) {

@@ -6,6 +6,7 @@
 #include "tools/errors.h"
 #include "tools/plot.h"
 #include "tools/progress.h"
+#include "tools/work.h"
 
 #include <fmt/core.h>
 #include <tbb/global_control.h>
@@ -163,6 +164,7 @@ int validate(const ValidateOptions& options) {
     limit =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, options.threads);
   const std::vector<Job> jobs = planJobs(options);
+  nowAt(kOnMotion);
 
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   bool holds = true;

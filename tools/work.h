@@ -18,6 +18,7 @@ inline constexpr Work kOnSurface{"the points of the surface",
                                  "texture.points (or give a larger texture.spacing)"};
 inline constexpr Work kOnTexture{"the texture", "texture.points (or give a larger texture.spacing)"};
 inline constexpr Work kOnPicture{"the picture", "render.size or texture.points"};
+inline constexpr Work kOnRun{"the surfaces of the run", "their number of points"};
 inline constexpr Work kOnFrameFiles{"the frame's files", "texture.points or domain.resolution"};
 
 // From now on; `frame` 0: none. The work must live for ever.

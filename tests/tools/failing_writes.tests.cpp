@@ -169,7 +169,7 @@ TEST_CASE("failing writes: a text that does not fit is none", "[tools]") {
   } catch (const std::system_error& error) {
     what = error.what();
   }
-  CHECK_THAT(what, Catch::Contains("cannot be written: File too large"));
+  CHECK_THAT(what, Catch::Contains("cannot write: File too large"));
   CHECK(readBytes(file) == "old");
   CHECK(filesIn(scratch.path) == Words{"text"});
 }
