@@ -28,7 +28,7 @@ Json readReport(const fs::path& out) {
       !report.contains("frames") || !report["frames"].is_array())
     throw UsageError(file.string() + ": is no report of a run; give the folder of a run of fluidtex run");
   Json& frames = report["frames"];
-  const int last = frames.empty() ? 0 : frames.back().value("frame", 0);
+  const int last = !frames.empty() && frames.back().is_object() ? frames.back().value("frame", 0) : 0;
   for (auto& [frame, record] : readJournal(out).frames)
     if (frame > last) frames.push_back(std::move(record));
   return report;

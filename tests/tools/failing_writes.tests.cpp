@@ -36,7 +36,7 @@ void limitFiles(rlim_t bytes) {
 class TinyRun {
  public:
   TinyRun() {
-    const Finished run = runProgram(tinyRun(m_whole));
+    const Finished run = started([] {}, tinyRun(m_whole));
     INFO(run.all());
     REQUIRE(run.exitCode == 0);
     m_expected = resultsIn(m_whole);
@@ -47,7 +47,7 @@ class TinyRun {
   void failsWell(const std::function<void(const fs::path& out)>& setUp) const {
     const Scratch scratch;
     const fs::path out = scratch.path / "out";
-    const Finished run = runProgramWith([&] { setUp(out); }, tinyRun(out));
+    const Finished run = started([&] { setUp(out); }, tinyRun(out));
     INFO(run.exitCode << ": " << run.all());
     CHECK((run.exitCode == 0 || run.exitCode == 1 || run.exitCode == 2));
     if (run.exitCode != 0) {
@@ -59,13 +59,23 @@ class TinyRun {
     isWhole(out, run.exitCode == 0);
     Words again = tinyRun(out);
     again.emplace_back("--resume");
-    const Finished resumed = runProgram(again);
+    const Finished resumed = started([] {}, again);
     INFO(resumed.all());
     REQUIRE(resumed.exitCode == 0);
     isWhole(out, true);
   }
 
  private:
+  // All share what the first has kept of the exemplar.
+  Finished started(const std::function<void()>& setUp, const Words& args) const {
+    return runProgramWith(
+        [&] {
+          setenv("XDG_CACHE_HOME", (m_scratch.path / "cache").c_str(), 1);
+          setUp();
+        },
+        args);
+  }
+
   // Every file that there is, and, where the run is `done`, that there is every file.
   void isWhole(const fs::path& out, bool done) const {
     Results results;
