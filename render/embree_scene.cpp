@@ -8,6 +8,7 @@
 
 #include <cstring>
 #include <limits>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -31,9 +32,8 @@ constexpr std::size_t kPacket = 8;
 void check(RTCDevice device, const char* doing) {
   const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_NONE) return;
-  const std::string what =
-      error == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "error " + std::to_string(error);
-  throw std::runtime_error(std::string("ray tracing: ") + what + " while " + doing);
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  throw std::runtime_error("ray tracing: error " + std::to_string(error) + " while " + doing);
 }
 
 RTCIntersectContext makeContext(Coherence coherence) {
@@ -83,7 +83,10 @@ void forPackets(std::size_t count, const Body& body) {
 
 EmbreeScene::EmbreeScene() : m_handles(std::make_unique<Handles>()) {
   m_handles->device = rtcNewDevice(nullptr);
-  if (!m_handles->device) throw std::runtime_error("ray tracing: no device could be opened");
+  if (!m_handles->device) {
+    check(nullptr, "opening a device");
+    throw std::runtime_error("ray tracing: no device could be opened");
+  }
   m_handles->scene = rtcNewScene(m_handles->device);
   rtcSetSceneFlags(m_handles->scene, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(m_handles->scene, RTC_BUILD_QUALITY_MEDIUM);

@@ -1,12 +1,16 @@
 #include "render/render.h"
 #include "texture/srgb.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
+#include <fstream>
 #include <stdexcept>
 
 namespace fluidtex::render {
@@ -34,9 +38,18 @@ void writePng(const Picture& picture, const std::filesystem::path& file) {
   spec.attribute("oiio:ColorSpace", "sRGB");
   // Noise hardly packs: the low levels are nearly as small as the high ones and several times as fast.
   spec.attribute("png:compressionLevel", 3);
+  // Into memory: the library does not say when the disk refuses the last bytes.
+  std::vector<unsigned char> encodedFile;
+  OIIO::Filesystem::IOVecOutput memory(encodedFile);
+  if (!output->set_ioproxy(&memory)) fail(output->geterror());
   if (!output->open(file.string(), spec)) fail(output->geterror());
   if (!output->write_image(OIIO::TypeDesc::UINT8, bytes.data())) fail(output->geterror());
   if (!output->close()) fail(output->geterror());
+  std::ofstream out(file, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(encodedFile.data()),
+            static_cast<std::streamsize>(encodedFile.size()));
+  out.close();
+  if (!out) fail(std::strerror(errno));
 }
 
 }  // namespace fluidtex::render

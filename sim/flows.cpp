@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace fluidtex::sim {
 namespace {
@@ -274,46 +273,6 @@ std::vector<const FloatGrid*> Flows::places() const {
   std::vector<const FloatGrid*> grids;
   for (const SourceGrids& source : m_sourceGrids) grids.push_back(source.phi.get());
   return grids;
-}
-
-std::vector<std::string> Flows::warnings(const std::vector<LiquidBody>& bodies, const Solids& solids) const {
-  std::vector<std::string> warnings;
-  enum class Found { nothing, inSolid, open };
-  const auto look = [&](const FloatGrid& shape, double t) {
-    Found found = Found::nothing;
-    for (const Coord& origin : wetLeaves(shape, m_domain)) {
-      float scratch[kLeafSize];
-      const float* values = leafValues(shape.constTree(), origin, scratch);
-      for (int c = 0; c < kLeafSize; ++c) {
-        if (values[c] >= 0.0f) continue;
-        const Coord cell = origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
-        if (solids.distance(shape.indexToWorld(cell), t) > 0.0) return Found::open;
-        found = Found::inSolid;
-      }
-    }
-    return found;
-  };
-  const auto tell = [&](const std::string& name, const std::string& does, const FloatGrid& shape, double t) {
-    const Found found = look(shape, t);
-    if (found == Found::open) return;
-    std::ostringstream text;
-    if (found == Found::inSolid)
-      text << name << " lies wholly inside solids or walls: " << does << "; put a part of it into the open";
-    else
-      text << name << " holds no cell's middle: " << does << "; make it larger than a cell, " << m_h
-           << " m, or give a higher domain.resolution";
-    warnings.push_back(text.str());
-  };
-  if (bodies.empty() && m_sources.empty()) {
-    warnings.push_back("the scene has no liquid: give it a [[liquid]] or a [[source]]");
-  }
-  for (std::size_t n = 0; n < bodies.size(); ++n)
-    tell("liquid " + std::to_string(n), "nothing is poured", *gridOf(bodies[n].shape), bodies[n].from);
-  for (std::size_t n = 0; n < m_sources.size(); ++n)
-    tell("source " + std::to_string(n), "nothing comes from it", *m_sourceGrids[n].phi, m_sources[n].from);
-  for (std::size_t n = 0; n < m_drains.size(); ++n)
-    tell("drain " + std::to_string(n), "it takes nothing away", *m_drainGrids[n], m_drains[n].from);
-  return warnings;
 }
 
 void applyFlows(FloatGrid& phi, Markers& markers, const RunningFlows& flows) {

@@ -44,9 +44,6 @@ class Flows {
   // Where liquid can come from: the phi of each source.
   std::vector<const FloatGrid*> places() const;
 
-  // One sentence for each body of liquid, source or drain that cannot do anything.
-  std::vector<std::string> warnings(const std::vector<LiquidBody>& bodies, const Solids& solids) const;
-
  private:
   FloatGrid::Ptr gridOf(const Shape& shape) const;
 
@@ -59,6 +56,10 @@ class Flows {
   std::vector<SourceGrids> m_sourceGrids;
   std::vector<FloatGrid::Ptr> m_drainGrids;
 };
+
+// One sentence for each body of liquid, source or drain that cannot do anything. Looks only where surfaces
+// are, and keeps nothing.
+std::vector<std::string> flowWarnings(const Options& options, const Solids& solids);
 
 // Fills the sources and empties the drains: changes phi, which must be reinitialised afterwards, and drops
 // the markers of the air in sources and those of the liquid in drains.

@@ -1,5 +1,8 @@
 #include "sim/motion.h"
 
+#include "sim/flows.h"
+#include "sim/solids.h"
+
 #include <utility>
 
 namespace fluidtex::sim {
@@ -21,6 +24,14 @@ const State& stateOf(const Motion& motion) {
 std::vector<std::string> warningsOf(const Motion& motion) {
   const auto* solver = std::get_if<Solver>(&motion);
   return solver != nullptr ? solver->warnings() : std::vector<std::string>{};
+}
+
+std::vector<std::string> warningsOf(const Options& options, const MotionOptions& motion) {
+  if (motion.flow != MotionKind::solver) return {};
+  const Solids solids(options);
+  std::vector<std::string> warnings = solids.warnings();
+  for (std::string& warning : flowWarnings(options, solids)) warnings.push_back(std::move(warning));
+  return warnings;
 }
 
 }  // namespace fluidtex::sim

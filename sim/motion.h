@@ -19,5 +19,7 @@ Motion makeMotion(const Options& options, const MotionOptions& motion, std::opti
 Frame nextFrame(Motion& motion, const std::function<void(double)>& progress = {});
 const State& stateOf(const Motion& motion);
 std::vector<std::string> warningsOf(const Motion& motion);
+// The same before there is one: nothing is put on a grid but the solids' meshes and ground.
+std::vector<std::string> warningsOf(const Options& options, const MotionOptions& motion);
 
 }  // namespace fluidtex::sim

@@ -223,8 +223,7 @@ void Solver::prepare() {
   m_active = m_solids->active(m_state.time);
   m_solid = solidsAround(m_state.time, *m_state.phi);
   m_warnings = m_solids->warnings();
-  for (std::string& warning : m_flows->warnings(m_options.liquid, *m_solids))
-    m_warnings.push_back(std::move(warning));
+  for (std::string& warning : flowWarnings(m_options, *m_solids)) m_warnings.push_back(std::move(warning));
 }
 
 std::shared_ptr<const SolidField> Solver::solidsAround(double time, const FloatGrid& phi,

@@ -2,9 +2,12 @@
 
 #include <openvdb/io/File.h>
 
+#include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace fluidtex::sim {
 namespace {
@@ -15,6 +18,15 @@ constexpr std::pair<const char*, FloatGrid::Ptr State::*> kGrids[] = {
     {"phi", &State::phi},   {"u", &State::u},   {"v", &State::v},   {"w", &State::w},
     {"au", &State::au},     {"av", &State::av}, {"aw", &State::aw}, {"temperature", &State::temperature},
     {"owed", &State::owed}, {"su", &State::su}, {"sv", &State::sv}, {"sw", &State::sw}};
+
+// What openvdb::io::File writes, to a stream of ours: File looks at its own no more once it is open, and says
+// nothing where the disk refuses.
+class Archive : public openvdb::io::Archive {
+ public:
+  void put(std::ostream& out, const openvdb::GridCPtrVec& grids, const openvdb::MetaMap& metadata) const {
+    openvdb::io::Archive::write(out, grids, true, metadata);
+  }
+};
 
 // A block as bytes: origin, number of markers, markers.
 void append(std::string& bytes, const MarkerBlock& block) {
@@ -79,10 +91,15 @@ void writeState(const State& state, const std::filesystem::path& file) {
   writeMarkers(state.markers, metadata);
 
   openvdb::initialize();
-  openvdb::io::File vdb(file.string());
-  vdb.setCompression(openvdb::io::COMPRESS_NONE);
-  vdb.write(out, metadata);
-  vdb.close();
+  std::vector<char> buffer(std::size_t{1} << 20);
+  std::ofstream stream;
+  stream.rdbuf()->pubsetbuf(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+  stream.open(file, std::ios::binary | std::ios::trunc);
+  Archive archive;
+  archive.setCompression(openvdb::io::COMPRESS_NONE);
+  if (stream) archive.put(stream, out, metadata);
+  stream.close();
+  if (!stream) throw openvdb::IoError(file.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 State readState(const std::filesystem::path& file) {

@@ -44,7 +44,7 @@ int bandWidth(double cfl);
 // eq. 61, with no liquid on the other side.
 double capillaryStep(const Options& options);
 
-// Whether there is any.
+// Whether there is none.
 bool isEmpty(const Liquid& liquid);
 
 struct StepReport {

@@ -126,11 +126,8 @@ void makeMatch(Exemplar& exemplar, Image guidance, const SynthesisOptions& synth
 // All that makeMatch() depends on, as a file's name.
 std::string nameOfMatch(const Exemplar& exemplar, const Image& guidance, const SynthesisOptions& synthesis,
                         int levels) {
-  // To be raised whenever the images are made in another way.
-  constexpr std::int64_t kVersion = 2;
   const auto bits = [](double value) { return std::bit_cast<std::int64_t>(value); };
-  std::vector<std::int64_t> settings{kVersion,
-                                     exemplar.color.width,
+  std::vector<std::int64_t> settings{exemplar.color.width,
                                      exemplar.color.height,
                                      exemplar.colorChannels,
                                      exemplar.toroidal,

@@ -1,5 +1,7 @@
 #include "texture/kept.h"
 
+#include "texture/build_id.h"
+
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
@@ -9,6 +11,7 @@
 #include <atomic>
 #include <cstdio>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 
 namespace fluidtex::texture {
@@ -48,6 +51,8 @@ std::string keptName(const std::string& kind, std::span<const std::int64_t> sett
                      std::span<const std::span<const float>> data) {
   XXH3_state_t state;
   XXH3_128bits_reset_withSeed(&state, XXH3_64bits(settings.data(), settings.size_bytes()));
+  const std::string_view build = buildId();
+  XXH3_128bits_update(&state, build.data(), build.size());
   for (const std::span<const float>& part : data) {
     const std::uint64_t size = part.size();
     XXH3_128bits_update(&state, &size, sizeof size);

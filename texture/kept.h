@@ -23,7 +23,7 @@ struct CacheFolder {
   std::function<void(const std::string&)> warn;
 };
 
-// A file's name: the hash of settings and data (128 bits, hexadecimal), then `kind`, its ending.
+// A file's name: the hash of this build, settings and data (128 bits, hexadecimal), then `kind`, its ending.
 std::string keptName(const std::string& kind, std::span<const std::int64_t> settings,
                      std::span<const std::span<const float>> data);
 

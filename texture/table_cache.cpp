@@ -3,9 +3,6 @@
 namespace fluidtex::texture {
 namespace {
 
-// To be raised whenever tables are built in another way or laid out differently.
-constexpr std::int64_t kVersion = 2;
-
 // Visits every part of a table in the one order that both directions share; padded is left out, and so are
 // coarse codes, which are the upper bits of the fine ones.
 template <typename Table, typename Visit>
@@ -27,8 +24,8 @@ SearchTable cachedSearchTable(const Image& match, bool toroidal, int window, std
   SearchTable table;
   std::string name;
   if (!folder.path.empty()) {
-    const std::int64_t settings[] = {kVersion, match.width, match.height,    match.channels,    toroidal,
-                                     window,   similar,     kDescriptorSize, std::int64_t(seed)};
+    const std::int64_t settings[] = {match.width, match.height, match.channels,  toroidal,
+                                     window,      similar,      kDescriptorSize, std::int64_t(seed)};
     const std::span<const float> pixels[] = {match.data};
     name = keptName(".table", settings, pixels);
     if (const auto kept = readKept(folder, name)) {

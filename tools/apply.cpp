@@ -6,8 +6,11 @@
 #include "texture/vector_maps.h"
 #include "tools/atomic_file.h"
 #include "tools/commands.h"
+#include "tools/console.h"
 #include "tools/errors.h"
 #include "tools/finished_run.h"
+#include "tools/journal.h"
+#include "tools/out_folder.h"
 #include "tools/ply.h"
 
 #include <fmt/core.h>
@@ -67,6 +70,7 @@ void applyMaps(const ApplyWishes& wishes) {
             fmt::format("{}: is the name of an earlier map too; give each a name of its own", name));
     }
   }
+  const OutFolder folder(existing(wishes.out));
   const FinishedRun run = openRun(wishes.out, wishes.exemplar);
   const int width = run.color.width, height = run.color.height;
   std::vector<std::pair<std::string, texture::ExemplarMap>> maps;
@@ -89,10 +93,16 @@ void applyMaps(const ApplyWishes& wishes) {
       else
         texture::lookUp(name, map, run.toroidal, surface);
     }
-    writeAtomically(run.surfaceOf(frame), [&](const fs::path& file) { writePly(surface, file); });
+    writeAtomically(run.surfaceOf(frame), [&](const fs::path& file) {
+      writePly(surface, file);
+      // What a run that goes on finds is as good as what it wrote.
+      if (hasJournal(wishes.out))
+        addToJournal(wishes.out, {lineOfFile(fs::relative(run.surfaceOf(frame), wishes.out).generic_string(),
+                                             fingerprintOf(file))});
+    });
   }
   for (const auto& [name, map] : maps)
-    fmt::print("{} {} in {} surfaces\n", name, name == kColor ? "replaced" : "written", run.frames.size());
+    print("{} {} in {} surfaces\n", name, name == kColor ? "replaced" : "written", run.frames.size());
 }
 
 void addApply(CLI::App& app, int& exitCode) {

@@ -22,7 +22,7 @@ fs::path temporaryName(const fs::path& file) {
 }
 
 void flush(const fs::path& path) {
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
   if (descriptor < 0) fail(path, "cannot open to flush");
   const bool flushed = fsync(descriptor) == 0;
   close(descriptor);
@@ -33,10 +33,11 @@ fs::path folderOf(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-// Runs `write` on the temporary path, and removes that path again if it throws.
-void guarded(const fs::path& temporary, const std::function<void(const fs::path&)>& write) {
+// Does the work that makes the temporary path and takes it away, and removes what is left of it if that
+// throws.
+void guarded(const fs::path& temporary, const std::function<void()>& work) {
   try {
-    write(temporary);
+    work();
   } catch (...) {
     std::error_code ignored;
     fs::remove_all(temporary, ignored);
@@ -49,9 +50,12 @@ void guarded(const fs::path& temporary, const std::function<void(const fs::path&
 void writeAtomically(const fs::path& file, const std::function<void(const fs::path&)>& write) {
   fs::create_directories(folderOf(file));
   const fs::path temporary = temporaryName(file);
-  guarded(temporary, write);
-  flush(temporary);
-  fs::rename(temporary, file);
+  fs::remove_all(temporary);
+  guarded(temporary, [&] {
+    write(temporary);
+    flush(temporary);
+    fs::rename(temporary, file);
+  });
   flush(folderOf(file));
 }
 
@@ -59,11 +63,13 @@ void writeFolderAtomically(const fs::path& folder, const std::function<void(cons
   const fs::path temporary = temporaryName(folder);
   fs::remove_all(temporary);
   fs::create_directories(temporary);
-  guarded(temporary, write);
-  for (const auto& entry : fs::directory_iterator(temporary)) flush(entry.path());
-  flush(temporary);
-  removeFolderAtomically(folder);
-  fs::rename(temporary, folder);
+  guarded(temporary, [&] {
+    write(temporary);
+    for (const auto& entry : fs::directory_iterator(temporary)) flush(entry.path());
+    flush(temporary);
+    removeFolderAtomically(folder);
+    fs::rename(temporary, folder);
+  });
   flush(folderOf(folder));
 }
 
@@ -75,13 +81,15 @@ void removeFolderAtomically(const fs::path& folder) {
   fs::remove_all(removed);
 }
 
+void writeBytes(const fs::path& file, std::string_view bytes) {
+  std::ofstream out(file, std::ios::binary);
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out) fail(file, "cannot write");
+}
+
 void writeTextAtomically(const fs::path& file, std::string_view text) {
-  writeAtomically(file, [&](const fs::path& temporary) {
-    std::ofstream out(temporary, std::ios::binary);
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    out.close();
-    if (!out) fail(temporary, "cannot write");
-  });
+  writeAtomically(file, [&](const fs::path& temporary) { writeBytes(temporary, text); });
 }
 
 void removeTemporaries(const fs::path& folder) {

@@ -8,8 +8,10 @@
 namespace fluidtex::tools {
 
 // Calls write(TEMPORARY) with a name in the same folder and the same extension, flushes what it wrote and
-// renames it to `file`. The folder is made where missing. If write throws, the temporary file is removed and
-// the exception goes on. Throws std::system_error when the file cannot be flushed or renamed.
+// renames it to `file`. The folder is made where missing. Whatever bore the temporary name before is removed;
+// a link, not what it leads to. If write throws, or the file cannot be flushed or renamed
+// (std::system_error), the temporary file is removed and the exception goes on. It is for `write` to throw
+// where the disk took less than it was given: writeBytes() does.
 void writeAtomically(const std::filesystem::path& file,
                      const std::function<void(const std::filesystem::path&)>& write);
 
@@ -18,6 +20,9 @@ void writeAtomically(const std::filesystem::path& file,
 // one.
 void writeFolderAtomically(const std::filesystem::path& folder,
                            const std::function<void(const std::filesystem::path&)>& write);
+
+// Puts the bytes into a new file. Throws std::system_error that names it where not every one got there.
+void writeBytes(const std::filesystem::path& file, std::string_view bytes);
 
 void writeTextAtomically(const std::filesystem::path& file, std::string_view text);
 

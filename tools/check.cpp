@@ -5,9 +5,12 @@
 #include "tools/check_relief.h"
 #include "tools/color_between.h"
 #include "tools/common_options.h"
+#include "tools/console.h"
 #include "tools/errors.h"
 #include "tools/foreseen_surface.h"
 #include "tools/liquid_plan.h"
+#include "tools/memory_plan.h"
+#include "tools/work.h"
 
 #include <fmt/core.h>
 
@@ -16,11 +19,6 @@
 namespace fluidtex::tools {
 namespace {
 
-// Near the dam break's measured peaks: 0.28 GB at 8,000 points, 0.57 GB at 58,000. What a cell takes is
-// mostly the velocities of a frame's substeps, a dozen at a CFL number of 1. Leads, not promises.
-constexpr double kBytesPerLiquidCell = 5000.0;
-constexpr double kBytesPerPoint = 1000.0;
-constexpr double kBytesProgram = 250e6;
 // Of an exemplar that cover the surface: with less, no feature of a usual one is seen whole.
 constexpr double kFewExemplars = 0.25;
 
@@ -28,80 +26,72 @@ void check(const CommonOptions& options) {
   const scenes::Scene scene = loadScene(options);
   int first = 1, last = 0;
   parseFrames(options.frames, scene.frames, first, last);
+  nowAt(kOnExemplar);
   const texture::Exemplar exemplar =
       texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis, scene.texture.surface.levels);
   const std::optional<texture::Detail> detail = detailOf(scene.texture);
   checkRelief(scene.render.bump, exemplar);
   if (options.quiet) return;
+  nowAt(kOnMotion);
   const double h = scene.sim.voxelSize();
   const LiquidPlan liquid = planLiquid(scene.sim);
   const openvdb::Coord cells = sim::cellCount(scene.sim.size, h);
-  fmt::print("{}: valid\n", scene.file.string());
-  fmt::print("frames    {} to {} of {}, {:g} a second, {:.3g} s in all\n", first, last, scene.frames,
-             scene.sim.frameRate, (scene.frames - 1) / scene.sim.frameRate);
+  print("{}: valid\n", scene.file.string());
+  print("frames    {} to {} of {}, {:g} a second, {:.3g} s in all\n", first, last, scene.frames,
+        scene.sim.frameRate, (scene.frames - 1) / scene.sim.frameRate);
   const bool endless = sim::isEndless(sim::domainCells(scene.sim));
-  fmt::print("grid      {} x {} x {} cells of {:.4g} m{}\n", cells.x(), cells.y(), cells.z(), h,
-             endless ? ", and on without bounds where liquid gets to" : "");
-  fmt::print("liquid    {} cells at the start, {:.4g} m3", liquid.atStart,
-             static_cast<double>(liquid.atStart) * h * h * h);
-  if (liquid.cells != liquid.atStart) fmt::print("; {} cells once all is poured", liquid.cells);
-  fmt::print("\n");
-  // How much sources bring can be told roughly only.
-  const bool fed = !scene.sim.sources.empty();
+  print("grid      {} x {} x {} cells of {:.4g} m{}\n", cells.x(), cells.y(), cells.z(), h,
+        endless ? ", and on without bounds where liquid gets to" : "");
+  print("liquid    {} cells at the start, {:.4g} m3", liquid.atStart,
+        static_cast<double>(liquid.atStart) * h * h * h);
+  if (liquid.cells != liquid.atStart) print("; {} cells once all is poured", liquid.cells);
+  print("\n");
   const double spacing = scene.texture.spacing, foreseen = foreseenSurface(scene);
-  const bool counted = spacing <= 0.0 || !fed;
-  double points = scene.texture.points;
-  if (!counted) {
-    points = 0.0;
-    fmt::print("points    one every {:.4g} m, as many as what flows in needs\n", spacing);
+  const std::optional<double> points = plannedPoints(scene, liquid);
+  if (!points) {
+    print("points    one every {:.4g} m, as many as what flows in needs\n", spacing);
   } else if (spacing > 0.0) {
-    points = static_cast<double>(liquid.surfaceCells) * (h / spacing) * (h / spacing);
-    fmt::print("points    one every {:.4g} m, about {:.2g}\n", spacing, points);
+    print("points    one every {:.4g} m, about {:.2g}\n", spacing, *points);
   } else if (foreseen > 0.0) {
-    fmt::print("points    {} on the {:.2g} m2 that the liquid may come to, one every {:.4g} m or more\n",
-               scene.texture.points, foreseen, foreseenSpacing(scene));
+    print("points    {} on the {:.2g} m2 that the liquid may come to, one every {:.4g} m or more\n",
+          scene.texture.points, foreseen, foreseenSpacing(scene));
   } else {
-    fmt::print("points    {} on the first surface; the spacing then stays\n", scene.texture.points);
+    print("points    {} on the first surface; the spacing then stays\n", scene.texture.points);
   }
-  fmt::print("exemplar  {}, {} x {} pixels{}\n", scene.texture.exemplar.file.string(), exemplar.color.width,
-             exemplar.color.height, scene.texture.exemplar.toroidal ? ", toroidal" : "");
+  print("exemplar  {}, {} x {} pixels{}\n", scene.texture.exemplar.file.string(), exemplar.color.width,
+        exemplar.color.height, scene.texture.exemplar.toroidal ? ", toroidal" : "");
   const double pixels = double(exemplar.color.width) * exemplar.color.height;
-  fmt::print("texture   one point shows one pixel: ");
+  print("texture   one point shows one pixel: ");
   if (spacing > 0.0)
-    fmt::print("the exemplar is {:.3g} x {:.3g} m", spacing * exemplar.color.width,
-               spacing * exemplar.color.height);
-  if (counted)
-    fmt::print(
-        "{}{:.2g} exemplars cover the surface{}", spacing > 0.0 ? ", and " : "", points / pixels,
-        points < kFewExemplars * pixels ? "; more points, or a smaller image, would show more of it" : "");
-  fmt::print("\n");
-  fmt::print("guidance  {}\n",
-             exemplar.guided ? scene.texture.exemplar.guidance.string() : std::string("none"));
+    print("the exemplar is {:.3g} x {:.3g} m", spacing * exemplar.color.width,
+          spacing * exemplar.color.height);
+  if (points)
+    print("{}{:.2g} exemplars cover the surface{}", spacing > 0.0 ? ", and " : "", *points / pixels,
+          *points < kFewExemplars * pixels ? "; more points, or a smaller image, would show more of it" : "");
+  print("\n");
+  print("guidance  {}\n", exemplar.guided ? scene.texture.exemplar.guidance.string() : std::string("none"));
   for (const texture::MapOptions& map : scene.texture.exemplar.maps) {
     const bool matched = map.weight > 0.0 && exemplar.mapChannels > 0;
-    fmt::print("map       {}, {}\n", map.name,
-               matched ? fmt::format("matched with weight {:g}", map.weight)
-               : map.weight > 0.0
-                   ? "looked up: matched it would be by method = \"coordinates\", if it were not "
-                     "the same everywhere"
-                   : "looked up");
+    print("map       {}, {}\n", map.name,
+          matched            ? fmt::format("matched with weight {:g}", map.weight)
+          : map.weight > 0.0 ? "looked up: matched it would be by method = \"coordinates\", if it were not "
+                               "the same everywhere"
+                             : "looked up");
   }
   if (exemplar.mapChannels > 0)
-    fmt::print("matching  maps take {} channel{}, which hold{} {:.0f}% of their differences\n",
-               exemplar.mapChannels, exemplar.mapChannels > 1 ? "s" : "", exemplar.mapChannels > 1 ? "" : "s",
-               100.0 * exemplar.mapShare);
+    print("matching  maps take {} channel{}, which hold{} {:.0f}% of their differences\n",
+          exemplar.mapChannels, exemplar.mapChannels > 1 ? "s" : "", exemplar.mapChannels > 1 ? "" : "s",
+          100.0 * exemplar.mapShare);
   if (detail)
-    fmt::print("between   the points, a picture of {} x {} pixels is looked up\n", detail->color.width,
-               detail->color.height);
-  fmt::print("pictures  {} x {}, {} paths a pixel\n", scene.render.width, scene.render.height,
-             scene.render.samples);
-  const double bytes =
-      kBytesProgram + kBytesPerLiquidCell * static_cast<double>(liquid.cells) + kBytesPerPoint * points;
-  fmt::print("memory    about {:.2g} GB", bytes / 1e9);
-  if (fed) fmt::print(", and {:.0f} kB a cell of what flows in", kBytesPerLiquidCell / 1e3);
-  fmt::print("\n");
-  for (const std::string& warning : sim::warningsOf(sim::makeMotion(scene.sim, scene.motion)))
-    fmt::print(stderr, "warning: {}\n", warning);
+    print("between   the points, a picture of {} x {} pixels is looked up\n", detail->color.width,
+          detail->color.height);
+  print("pictures  {} x {}, {} paths a pixel\n", scene.render.width, scene.render.height,
+        scene.render.samples);
+  print("memory    about {:.2g} GB", plannedMemory(scene, liquid) / 1e9);
+  // How much sources bring cannot be told beforehand.
+  if (!scene.sim.sources.empty()) print(", and {:.0f} kB a cell of what flows in", kBytesPerLiquidCell / 1e3);
+  print("\n");
+  for (const std::string& warning : sim::warningsOf(scene.sim, scene.motion)) say("warning: {}\n", warning);
 }
 
 }  // namespace

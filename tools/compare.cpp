@@ -4,9 +4,11 @@
 #include "tools/atomic_file.h"
 #include "tools/common_options.h"
 #include "tools/compare_table.h"
+#include "tools/console.h"
 #include "tools/contact_sheet.h"
 #include "tools/errors.h"
 #include "tools/measure.h"
+#include "tools/out_folder.h"
 #include "tools/run.h"
 
 #include <fmt/core.h>
@@ -71,9 +73,10 @@ void compare(CommonOptions options) {
   const scenes::Scene plain = loadScene(options);
   parseFrames(options.frames, plain.frames, first, last);
   const fs::path out = options.out.empty() ? fs::path("out") / (plain.name + "_compare") : options.out;
+  const OutFolder folder(out);
   std::vector<Compared> rows;
   for (const Variant& variant : kVariants) {
-    if (!options.quiet) fmt::print(stderr, "{}\n", variant.label);
+    if (!options.quiet) say("{}\n", variant.label);
     runInto(out / variant.folder, sceneOf(variant, options), options);
     // What has no texture has nothing to be measured.
     if (variant.textured)
@@ -85,7 +88,7 @@ void compare(CommonOptions options) {
   }
   writeTextAtomically(out / "compare.json", toJson(rows));
   writeTextAtomically(out / "compare.md", toMarkdown(rows));
-  if (!options.quiet) fmt::print("{}", toMarkdown(rows));
+  if (!options.quiet) print("{}", toMarkdown(rows));
   if (options.noRender) return;
   writeSheet(out, first, last);
   writeVideo(out, first, last, plain.sim.frameRate);

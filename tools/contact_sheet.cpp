@@ -2,6 +2,7 @@
 
 #include "tools/atomic_file.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 
@@ -58,9 +59,12 @@ void writeContactSheet(const std::vector<LabelledPicture>& pictures, int columns
   }
   sheet.specmod().attribute("oiio:ColorSpace", "sRGB");
   sheet.specmod().attribute("CompressionQuality", 88);
-  writeAtomically(file, [&](const std::filesystem::path& temporary) {
-    demand(sheet.write(temporary.string(), OIIO::TypeDesc::UINT8), file, sheet);
-  });
+  // Into memory: the library does not say when the disk refuses the last bytes.
+  std::vector<unsigned char> encoded;
+  OIIO::Filesystem::IOVecOutput memory(encoded);
+  sheet.set_write_ioproxy(&memory);
+  demand(sheet.write(file.string(), OIIO::TypeDesc::UINT8), file, sheet);
+  writeTextAtomically(file, {reinterpret_cast<const char*>(encoded.data()), encoded.size()});
 }
 
 }  // namespace fluidtex::tools

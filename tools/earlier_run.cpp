@@ -34,15 +34,22 @@ void clearEarlierRun(const fs::path& out, const std::string& sceneName) {
   if (fs::exists(out / "log.txt")) fs::resize_file(out / "log.txt", 0);
 }
 
-fs::path missingResult(const fs::path& out, int first, int last, bool rendered) {
-  for (int frame = first; frame <= last; ++frame) {
-    const std::string name = render::frameName(frame);
-    const fs::path picture = fs::path("frames") / (name + ".png"),
-                   surface = fs::path("surface") / (name + ".ply");
-    if (rendered && !fs::exists(out / picture)) return picture;
-    if (!fs::exists(out / surface)) return surface;
-  }
-  return {};
+std::vector<std::string> resultsOf(int frame, bool rendered, bool onto) {
+  const std::string name = render::frameName(frame);
+  std::vector<std::string> results;
+  if (rendered) results.push_back("frames/" + name + ".png");
+  results.push_back("surface/" + name + ".ply");
+  if (onto) results.push_back("onto/" + name + ".ply");
+  return results;
+}
+
+std::optional<Broken> firstBroken(const fs::path& out, const Journal& journal, int first, int last,
+                                  bool rendered, bool onto) {
+  for (int frame = first; frame <= last; ++frame)
+    for (const std::string& name : resultsOf(frame, rendered, onto))
+      if (!isWhole(journal, out, name))
+        return Broken{frame, name, fs::exists(out / name), journal.files.contains(name)};
+  return std::nullopt;
 }
 
 }  // namespace fluidtex::tools

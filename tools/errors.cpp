@@ -4,18 +4,29 @@
 #include "sim/read_heights.h"
 #include "sim/read_mesh.h"
 #include "texture/exemplar.h"
+#include "tools/console.h"
+#include "tools/work.h"
 
-#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
-#include <cstdio>
+#include <new>
 #include <string>
 
 namespace fluidtex::tools {
 namespace {
 
-int fault(const std::string& sentence, ExitCode code) {
-  fmt::print(stderr, "error: {}\n", sentence);
+// One line that can be read, whatever a library has put into its message: a damaged file's bytes, for one.
+std::string readable(std::string text) {
+  constexpr std::size_t kLongest = 2000;
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return text;
+}
+
+int fault(const std::string& message, ExitCode code) {
+  const std::string sentence = readable(message);
+  say("error: {}\n", sentence);
   spdlog::error("{}", sentence);
   return code;
 }
@@ -25,9 +36,10 @@ int fault(const std::string& sentence, ExitCode code) {
 int guarded(const std::function<void()>& body) {
   try {
     body();
+    finishPrinting();
     return kDone;
   } catch (const scenes::SceneError& error) {
-    for (const std::string& line : error.faults) fmt::print(stderr, "{}\n", line);
+    for (const std::string& line : error.faults) say("{}\n", line);
     return kInputWrong;
   } catch (const texture::ExemplarError& error) {
     return fault(error.what(), kInputWrong);
@@ -38,10 +50,14 @@ int guarded(const std::function<void()>& body) {
   } catch (const UsageError& error) {
     return fault(error.what(), kInputWrong);
   } catch (const Interrupted& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    say("{}\n", error.what());
     return kInterrupted;
+  } catch (const std::bad_alloc&) {
+    return fault(outOfMemory(), kFailed);
+  } catch (const std::length_error&) {  // more than any memory holds
+    return fault(outOfMemory(), kFailed);
   } catch (const std::exception& error) {
-    return fault(error.what(), kFailed);
+    return fault(std::string(error.what()) + threadAdvice(error), kFailed);
   }
 }
 

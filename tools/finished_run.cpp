@@ -3,6 +3,8 @@
 #include "render/frame_name.h"
 #include "texture/read_image.h"
 #include "tools/errors.h"
+#include "tools/journal.h"
+#include "tools/work.h"
 
 #include <fmt/core.h>
 
@@ -16,13 +18,19 @@ namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
 
-Json readReport(const fs::path& file) {
+// run.json, and what it lacks of a run that was killed or goes on.
+Json readReport(const fs::path& out) {
+  const fs::path file = out / "run.json";
   std::ifstream in(file, std::ios::binary);
   if (!in) throw UsageError(file.string() + ": cannot be read; give the folder of a run of fluidtex run");
   Json report = Json::parse(std::string{std::istreambuf_iterator<char>(in), {}}, nullptr, false);
   if (report.is_discarded() || !report.contains("/scene/texture"_json_pointer) ||
       !report.contains("frames") || !report["frames"].is_array())
     throw UsageError(file.string() + ": is no report of a run; give the folder of a run of fluidtex run");
+  Json& frames = report["frames"];
+  const int last = !frames.empty() && frames.back().is_object() ? frames.back().value("frame", 0) : 0;
+  for (auto& [frame, record] : readJournal(out).frames)
+    if (frame > last) frames.push_back(std::move(record));
   return report;
 }
 
@@ -68,14 +76,20 @@ double spacingOf(const FinishedRun& run, const texture::TexturedSurface& surface
 }
 
 double spacingOf(const fs::path& out, const texture::TexturedSurface& surface, int frame) {
-  const fs::path report = out / "run.json";
   const Json none{{"frames", Json::array()}};
-  return spacingOf(FinishedRun{out, fs::exists(report) ? readReport(report) : none, {}, {}, false, {}},
+  return spacingOf(FinishedRun{out, fs::exists(out / "run.json") ? readReport(out) : none, {}, {}, false, {}},
                    surface, frame);
 }
 
+const fs::path& existing(const fs::path& out) {
+  if (!fs::is_directory(out))
+    throw UsageError((out / "run.json").string() +
+                     ": cannot be read; give the folder of a run of fluidtex run");
+  return out;
+}
+
 FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
-  FinishedRun run{out, readReport(out / "run.json"), exemplar, {}, false, {}};
+  FinishedRun run{out, readReport(out), exemplar, {}, false, {}};
   const Json& texture = run.report["scene"]["texture"];
   if (exemplar.empty()) run.exemplar = fs::path(texture.value("exemplar", ""));
   if (!fs::exists(run.exemplar))
@@ -83,6 +97,7 @@ FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
                                  run.exemplar.string()));
   run.toroidal = texture.value("toroidal", false);
   run.color = texture::readImage(run.exemplar);
+  nowAt(kOnRun);
   run.frames = framesIn(out / "surface");
   return run;
 }

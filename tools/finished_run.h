@@ -30,6 +30,9 @@ double spacingOf(const FinishedRun& run, const texture::TexturedSurface& surface
 // The same for a surface in the folder of a run whose report may be gone.
 double spacingOf(const std::filesystem::path& out, const texture::TexturedSurface& surface, int frame);
 
+// The folder as it is given, if it is one: what works on a run makes none. Throws UsageError.
+const std::filesystem::path& existing(const std::filesystem::path& out);
+
 // `exemplar`: instead of the run's own, where that is no longer at its place; else empty. Throws UsageError
 // where the folder holds no run, or its exemplar is gone.
 FinishedRun openRun(const std::filesystem::path& out, const std::filesystem::path& exemplar);

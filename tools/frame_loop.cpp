@@ -10,9 +10,13 @@
 #include "tools/cache_folder.h"
 #include "tools/check_relief.h"
 #include "tools/color_between.h"
+#include "tools/console.h"
 #include "tools/earlier_run.h"
 #include "tools/errors.h"
 #include "tools/foreseen_surface.h"
+#include "tools/fingerprint.h"
+#include "tools/input_files.h"
+#include "tools/journal.h"
 #include "tools/onto_mesh.h"
 #include "tools/orientation_guide.h"
 #include "tools/ply.h"
@@ -23,6 +27,7 @@
 #include "tools/texture_scale.h"
 #include "tools/textured.h"
 #include "tools/visible_solids.h"
+#include "tools/work.h"
 #include "transport/carry.h"
 
 #include <fmt/core.h>
@@ -32,6 +37,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
 namespace fluidtex::tools {
 namespace fs = std::filesystem;
@@ -74,6 +80,7 @@ class FrameLoop {
         m_options(options),
         m_stop(stop),
         m_last(options.lastFrame > 0 ? options.lastFrame : scene.frames),
+        m_inputs(contentsOf(scene)),
         m_detail(options.render ? detailOf(scene.texture) : std::nullopt),
         m_synthesizer(
             texture::makeSynthesizer(texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis,
@@ -82,16 +89,19 @@ class FrameLoop {
         m_guide(orientationGuide(scene)),
         m_scale(textureScale(scene)),
         m_guidance(textureGuidance(scene)),
-        m_solids(scene.sim) {
+        m_solids(scene.sim),
+        m_reportFile(options.out) {
     if (options.render) checkRelief(scene.render.bump, m_synthesizer.exemplar);
     m_surface.spacing = scene.texture.spacing;
     m_report.scene = Json::parse(scene.resolved);
     m_report.seed = scene.seed;
     m_report.threads = options.threads;
+    m_report.inputs = m_inputs;
   }
 
   void run() {
     if (!m_options.resume || !continueFromState()) {
+      nowAt(kOnMotion);
       m_motion = sim::makeMotion(m_scene.sim, m_scene.motion);
       clearEarlierRun(m_options.out, m_scene.name);
     }
@@ -100,7 +110,12 @@ class FrameLoop {
     spdlog::info("{}: frames {} to {}, {} threads", m_scene.name, first, m_last, m_options.threads);
     Progress progress(first, m_last, m_options.quiet);
     m_progress = &progress;
-    for (int frame = first; frame <= m_last; ++frame) oneFrame();
+    try {
+      for (int frame = first; frame <= m_last; ++frame) oneFrame();
+    } catch (...) {
+      tellSoFar();
+      throw;
+    }
     m_progress = nullptr;
     finish();
   }
@@ -108,7 +123,7 @@ class FrameLoop {
  private:
   void warn(const std::string& warning) const {
     spdlog::warn("{}", warning);
-    if (!m_options.quiet) fmt::print(stderr, "warning: {}\n", warning);
+    if (!m_options.quiet) say("warning: {}\n", warning);
   }
 
   texture::CacheFolder kept() const {
@@ -120,17 +135,20 @@ class FrameLoop {
     sim::Frame& motion = result.motion;
     StageSeconds& seconds = result.seconds;
     m_surface = std::move(result.surface);
-    m_report.frames.push_back(frameRecord(motion, m_surface, result.singularities, result.synthesis));
+    Json record = frameRecord(motion, m_surface, result.singularities, result.synthesis);
     const std::size_t substeps = motion.substeps.size();
     motion.substeps.clear();  // their grids would stay in memory while the picture is drawn
-    if (motion.index >= m_options.firstFrame) writeResults(motion, seconds);
+    if (motion.index >= m_options.firstFrame) writeResults(motion.index, motion.time, seconds);
+    nowAt(kOnFrameFiles, motion.index);
     {
       Stopwatch watch(seconds.write);
-      recordCost(m_report.frames.back(), seconds);
-      saveState(sim::stateOf(*m_motion), m_surface, toJson(m_report), m_options.out / "state");
+      recordCost(record, seconds);
+      saveState(sim::stateOf(*m_motion), m_surface, toJson(reportOf(record)), m_options.out / "state");
     }
-    recordCost(m_report.frames.back(), seconds);
-    writeTextAtomically(m_options.out / "run.json", toJson(m_report));
+    recordCost(record, seconds);
+    addToJournal(m_options.out, {lineOfFrame(record)});
+    m_report.frames.push_back(std::move(record));
+    m_reportFile.frameDone(m_report);
     const std::string summary = fmt::format(
         "{} substeps, {:.4g} m3, {} points; simulate {:.2f} s, prepare {:.2f}, transport {:.2f}, synthesize "
         "{:.2f}, render {:.2f}, write {:.2f}",
@@ -153,6 +171,7 @@ class FrameLoop {
     StageSeconds& seconds = result.seconds;
     {
       Stopwatch watch(seconds.simulate);
+      nowAt(kOnMotion, sim::stateOf(*m_motion).frame + 1);
       result.motion = sim::nextFrame(*m_motion, reporter("simulate"));
     }
     const sim::Frame& motion = result.motion;
@@ -160,6 +179,7 @@ class FrameLoop {
     texture::Surface surface;
     {
       Stopwatch watch(seconds.prepare);
+      nowAt(kOnSurface, motion.index);
       reporter("prepare")(0.0);
       const texture::PointScale scale = scaleIn(m_scale, motion);
       if (m_surface.spacing <= 0.0) m_surface.spacing = firstSpacing(motion, scale);
@@ -197,6 +217,7 @@ class FrameLoop {
     }
     {
       Stopwatch watch(seconds.synthesize);
+      nowAt(kOnTexture, motion.index);
       result.surface = textured(m_scene, m_synthesizer, std::move(surface), carried, motion.index,
                                 result.synthesis, reporter("synthesize"));
     }
@@ -219,15 +240,18 @@ class FrameLoop {
     return spacing;
   }
 
-  void writeResults(const sim::Frame& motion, StageSeconds& seconds) {
-    const std::string name = render::frameName(motion.index);
+  // The picture and the surfaces of the frame that m_surface is of, and lines of the journal that tell of
+  // them.
+  void writeResults(int frame, double time, StageSeconds& seconds) {
+    const std::string name = render::frameName(frame);
     if (m_options.render) {
+      nowAt(kOnPicture, frame);
       render::Picture picture;
       {
         Stopwatch watch(seconds.render);
-        const double progress = m_scene.frames > 1 ? double(motion.index - 1) / (m_scene.frames - 1) : 0.0;
-        picture = render::render(m_surface, m_solids.at(motion.time), m_scene.render,
-                                 {m_scene.sim.size, progress, motion.index, colorBetween(m_detail, m_surface),
+        const double progress = m_scene.frames > 1 ? double(frame - 1) / (m_scene.frames - 1) : 0.0;
+        picture = render::render(m_surface, m_solids.at(time), m_scene.render,
+                                 {m_scene.sim.size, progress, frame, colorBetween(m_detail, m_surface),
                                   m_detail && m_detail->seeThrough},
                                  reporter("render"));
       }
@@ -235,19 +259,42 @@ class FrameLoop {
       writeAtomically(m_options.out / "frames" / (name + ".png"),
                       [&](const fs::path& file) { writePng(picture, file); });
     }
+    nowAt(kOnFrameFiles, frame);
     Stopwatch watch(seconds.write);
     writeAtomically(m_options.out / "surface" / (name + ".ply"),
                     [&](const fs::path& file) { writePly(m_surface, file); });
-    if (m_scene.onto.files.empty()) return;
-    const texture::TexturedSurface other =
-        ontoMesh(m_surface, m_scene.onto, motion.index, m_guide.options.symmetry);
-    writeAtomically(m_options.out / "onto" / (name + ".ply"),
-                    [&](const fs::path& file) { writePly(other, file); });
+    if (putsOnto()) {
+      const texture::TexturedSurface other =
+          ontoMesh(m_surface, m_scene.onto, frame, m_guide.options.symmetry);
+      writeAtomically(m_options.out / "onto" / (name + ".ply"),
+                      [&](const fs::path& file) { writePly(other, file); });
+    }
+    std::vector<JournalLine> lines;
+    for (const std::string& file : resultsOf(frame, m_options.render, putsOnto()))
+      lines.push_back(lineOfFile(file, fingerprintOf(m_options.out / file)));
+    addToJournal(m_options.out, lines);
+  }
+
+  bool putsOnto() const { return !m_scene.onto.files.empty(); }
+
+  // The report of one frame.
+  Report reportOf(const Json& record) const {
+    return {m_report.scene, m_report.seed, m_report.threads, m_report.inputs, {record}};
+  }
+
+  // So that run.json has every frame that is done, however the run ends but by a kill. What ends it is worse
+  // than what may go wrong here.
+  void tellSoFar() {
+    try {
+      m_reportFile.write(m_report);
+    } catch (const std::exception&) {
+    }
   }
 
   void finish() {
+    m_reportFile.write(m_report);
     if (m_options.render && m_last >= m_options.firstFrame) writeVideo();
-    if (!m_options.quiet) fmt::print(stderr, "done: {}\n", m_options.out.string());
+    if (!m_options.quiet) say("done: {}\n", m_options.out.string());
   }
 
   void writeVideo() {
@@ -269,28 +316,60 @@ class FrameLoop {
     std::optional<RunState> state = loadState(m_options.out / "state");
     if (!state) return false;
     Report report = parseReport(state->report);
+    if (report.frames.empty())
+      throw std::runtime_error("run.json of the state is damaged: it holds no frame");
     const auto refuse = [&](const std::string& why) {
       throw UsageError(
           fmt::format("{}: {}; run without --resume to start anew", m_options.out.string(), why));
     };
-    const std::string difference = sceneDifference(report.scene, m_report.scene);
+    const std::string difference = sceneDifference(report.scene, m_report.scene, report.inputs);
     if (!difference.empty()) refuse("was made by other settings: " + difference);
-    const int done = state->solver.frame;
-    const fs::path missing =
-        missingResult(m_options.out, m_options.firstFrame, std::min(done, m_last), m_options.render);
-    if (!missing.empty())
-      refuse(fmt::format("frames 1 to {} are done, but {} is not there", done, missing.generic_string()));
+    const std::string changed = contentDifference(report.inputs, m_report.inputs, m_scene);
+    if (!changed.empty()) refuse(changed);
+    const int done = state->solver.frame, last = std::min(done, m_last);
+    const Journal journal = readJournal(m_options.out);
+    const std::optional<Broken> broken =
+        firstBroken(m_options.out, journal, m_options.firstFrame, last, m_options.render, putsOnto());
+    // Of the last frame all is there that its files are made of.
+    const bool again = broken && broken->written && broken->frame == done;
+    if (broken && !again)
+      refuse(fmt::format("frames 1 to {} are done, but {} is not {}", done, broken->name,
+                         broken->there ? "as the run wrote it" : "there"));
+    m_report.frames = framesUpTo(done, std::move(report.frames.back()), journal);
     m_motion = sim::makeMotion(m_scene.sim, m_scene.motion, std::move(state->solver));
     m_surface = std::move(state->surface);
-    m_report.frames = std::move(report.frames);
-    // Killed right after the state was saved, run.json lacks that state's frame.
-    writeTextAtomically(m_options.out / "run.json", toJson(m_report));
+    if (again) {
+      StageSeconds seconds;
+      writeResults(done, m_report.frames.back().at("time").get<double>(), seconds);
+    }
+    m_reportFile.write(m_report);
     return true;
+  }
+
+  // The records of all frames that are done. That of the last is in the state; the journal lacks it after a
+  // kill right behind that.
+  std::vector<Json> framesUpTo(int done, Json last, const Journal& journal) const {
+    std::vector<Json> frames;
+    for (int frame = 1; frame < done; ++frame) {
+      const auto record = journal.frames.find(frame);
+      if (record == journal.frames.end())
+        throw std::runtime_error(fmt::format("{}: lacks frame {}; remove the state folder to start anew",
+                                             (m_options.out / "state" / "journal.txt").string(), frame));
+      frames.push_back(record->second);
+    }
+    if (const auto record = journal.frames.find(done); record != journal.frames.end())
+      last = record->second;
+    else
+      addToJournal(m_options.out, {lineOfFrame(last)});
+    frames.push_back(std::move(last));
+    return frames;
   }
 
   std::function<void(double)> reporter(const char* stage) {
     return [this, stage](double part) {
       if (m_stop) throw Interrupted();
+      // None while files of an earlier run are made again.
+      if (m_progress == nullptr) return;
       m_progress->update(sim::stateOf(*m_motion).frame + (std::string_view(stage) == "simulate" ? 1 : 0),
                          stage, part);
     };
@@ -300,6 +379,7 @@ class FrameLoop {
   const RunOptions& m_options;
   const std::atomic<bool>& m_stop;
   int m_last;
+  Json m_inputs;  // known before anything is read of them
   // What pictures show between the points, where it is not their colours.
   std::optional<texture::Detail> m_detail;
   texture::Synthesizer m_synthesizer;
@@ -310,6 +390,7 @@ class FrameLoop {
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
   VisibleSolids m_solids;
   Report m_report;
+  ReportFile m_reportFile;
   Progress* m_progress = nullptr;
 };
 

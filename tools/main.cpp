@@ -1,18 +1,22 @@
 // The fluidtex program: one small file per subcommand.
 #include "tools/commands.h"
+#include "tools/console.h"
 #include "tools/errors.h"
 #include "tools/keep_memory.h"
+#include "tools/work.h"
 
 #include <openvdb/openvdb.h>
 #include <spdlog/sinks/null_sink.h>
 #include <spdlog/spdlog.h>
 
-#include <cstdio>
 #include <memory>
+#include <sstream>
 
 int main(int argc, char** argv) {
   using namespace fluidtex::tools;
   keepMemory();
+  openStandardStreams();
+  endWithSentence();
   openvdb::initialize();
   // Until a run opens its log file, what is logged goes nowhere; by default it would go to stdout.
   spdlog::set_default_logger(
@@ -41,14 +45,18 @@ int main(int argc, char** argv) {
       known += (known.empty() ? "" : ", ") + command->get_name();
     }
     if (!found) {
-      std::fprintf(stderr, "error: %s: no such command; there are: %s\n", argv[1], known.c_str());
+      say("error: {}: no such command; there are: {}\n", argv[1], known);
       return kInputWrong;
     }
   }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kInputWrong;
+    std::ostringstream out, err;
+    const bool asked = app.exit(error, out, err) == 0;  // help, or the version
+    sayText(err.str());
+    const int printed = guarded([&] { printText(out.str()); });
+    return asked ? printed : kInputWrong;
   }
   return exitCode;
 }

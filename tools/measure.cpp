@@ -4,8 +4,10 @@
 #include "texture/measure.h"
 #include "tools/atomic_file.h"
 #include "tools/commands.h"
+#include "tools/console.h"
 #include "tools/errors.h"
 #include "tools/finished_run.h"
+#include "tools/out_folder.h"
 #include "tools/ply.h"
 
 #include <fmt/core.h>
@@ -37,7 +39,7 @@ constexpr std::pair<const char*, const char*> kColumns[] = {{"likeness", "likene
 class Measurer {
  public:
   explicit Measurer(const MeasureWishes& wishes)
-      : m_wishes(wishes), m_run(openRun(wishes.out, wishes.exemplar)) {}
+      : m_wishes(wishes), m_folder(existing(wishes.out)), m_run(openRun(wishes.out, wishes.exemplar)) {}
 
   void run() {
     const std::vector<int>& frames = m_run.frames;
@@ -134,15 +136,15 @@ class Measurer {
   }
 
   static void printHead() {
-    fmt::print("{:>6}", "frame");
-    for (const auto& [key, head] : kColumns) fmt::print(" {:>10}", head);
-    fmt::print("\n");
+    print("{:>6}", "frame");
+    for (const auto& [key, head] : kColumns) print(" {:>10}", head);
+    print("\n");
   }
   static void printRow(const std::string& name, const Json& row) {
-    fmt::print("{:>6}", name);
+    print("{:>6}", name);
     for (const auto& [key, head] : kColumns)
-      fmt::print(" {:>10}", row.contains(key) ? fmt::format("{:.4f}", row[key].get<double>()) : "");
-    fmt::print("\n");
+      print(" {:>10}", row.contains(key) ? fmt::format("{:.4f}", row[key].get<double>()) : "");
+    print("\n");
   }
 
   void fillReport(const Json& rows) {
@@ -156,6 +158,7 @@ class Measurer {
   }
 
   const MeasureWishes& m_wishes;
+  const OutFolder m_folder;
   FinishedRun m_run;
   double m_spacing = 0.0;
 };
@@ -175,10 +178,10 @@ void addMeasure(CLI::App& app, int& exitCode) {
       ->type_name("IMAGE");
   command->add_option("--json", wishes->json, "Write all figures to this file")->type_name("FILE");
   command
-      ->add_option(
-          "--every", wishes->every,
-          "Likeness, contrast and pieces on every K-th frame and the last (default: 8); repeats on the first and the "
-          "last; change on all")
+      ->add_option("--every", wishes->every,
+                   "Likeness, contrast and pieces on every K-th frame and the last (default: 8); repeats on "
+                   "the first and the "
+                   "last; change on all")
       ->check(CLI::Range(1, 9999))
       ->type_name("K");
   command->add_flag("--quiet", wishes->quiet, "No table, only files");

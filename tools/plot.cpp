@@ -1,10 +1,10 @@
 #include "tools/plot.h"
 
+#include "render/other_program.h"
 #include "tools/atomic_file.h"
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <stdexcept>
 
 namespace fluidtex::tools {
@@ -23,13 +23,13 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-std::string script(const Plot& plot, const std::filesystem::path& file) {
+// The picture goes to gnuplot's stdout.
+std::string script(const Plot& plot) {
   std::string text = fmt::format(
       "set terminal svg size 640,{} font 'sans,12' background 'white' noenhanced\n"
-      "set output {}\nset title {}\nset xlabel {}\nset ylabel {}\nset grid lc rgb '#dddddd'\n"
+      "set title {}\nset xlabel {}\nset ylabel {}\nset grid lc rgb '#dddddd'\n"
       "set key outside bottom center horizontal\n",
-      plot.sameScale ? 640 : 440, quoted(file.string()), quoted(plot.title), quoted(plot.xLabel),
-      quoted(plot.yLabel));
+      plot.sameScale ? 640 : 440, quoted(plot.title), quoted(plot.xLabel), quoted(plot.yLabel));
   if (plot.logarithmic) text += "set logscale xy\nset format y '%.0e'\n";
   if (plot.sameScale) text += "set size ratio -1\n";
   for (std::size_t n = 0; n < plot.curves.size(); ++n) {
@@ -61,15 +61,19 @@ void writePlot(const Plot& whole, const std::filesystem::path& file) {
   // A surface that is gone has no outline.
   std::erase_if(plot.curves, [](const Curve& curve) { return curve.points.empty(); });
   if (plot.curves.empty()) return;
-  writeAtomically(file, [&](const std::filesystem::path& temporary) {
-    FILE* gnuplot = popen("gnuplot", "w");
-    if (gnuplot == nullptr) throw std::runtime_error("gnuplot could not be started");
-    const std::string text = script(plot, temporary);
-    std::fwrite(text.data(), 1, text.size(), gnuplot);
-    if (pclose(gnuplot) != 0 || !std::filesystem::exists(temporary))
-      throw std::runtime_error("gnuplot did not draw " + file.string() +
-                               "; is the package gnuplot-nox installed?");
-  });
+  const auto fail = [&](const std::string& why) {
+    throw std::runtime_error(file.string() + ": the plot could not be drawn: " + why +
+                             "; is the package gnuplot-nox installed?");
+  };
+  render::Outcome drawn;
+  try {
+    drawn = render::runOther({"gnuplot"}, script(plot));
+  } catch (const std::runtime_error& error) {
+    fail(error.what());
+  }
+  if (drawn.exitCode != 0 || drawn.output.find("</svg>") == std::string::npos)
+    fail("gnuplot: " + render::lastLine(drawn.complaints));
+  writeTextAtomically(file, drawn.output);
 }
 
 }  // namespace fluidtex::tools

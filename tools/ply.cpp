@@ -2,14 +2,12 @@
 
 #include "texture/srgb.h"
 #include "texture/vector_maps.h"
+#include "tools/atomic_file.h"
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <system_error>
 
 namespace fluidtex::tools {
 namespace {
@@ -76,9 +74,12 @@ float share(float x, float size) {
 }  // namespace
 
 void writePly(const texture::TexturedSurface& surface, const std::filesystem::path& file) {
-  Bytes bytes(surface.positions.size() * (kVertexBytes + (surface.scale.empty() ? 0 : 4) +
+  const std::string head = header(surface);
+  Bytes bytes(head.size() +
+              surface.positions.size() * (kVertexBytes + (surface.scale.empty() ? 0 : 4) +
                                           4 * surface.maps.size() + 12 * surface.vectors.size()) +
               surface.triangles.size() * kFaceBytes);
+  for (const char c : head) bytes.put(c);
   const float width = static_cast<float>(std::max(surface.exemplarWidth, 1));
   const float height = static_cast<float>(std::max(surface.exemplarHeight, 1));
   for (std::size_t v = 0; v < surface.positions.size(); ++v) {
@@ -108,12 +109,7 @@ void writePly(const texture::TexturedSurface& surface, const std::filesystem::pa
     bytes.put(std::uint8_t{3});
     for (int c = 0; c < 3; ++c) bytes.put(static_cast<std::int32_t>(triangle[c]));
   }
-  const std::string head = header(surface);
-  std::ofstream out(file, std::ios::binary);
-  out.write(head.data(), static_cast<std::streamsize>(head.size()));
-  out.write(bytes.data().data(), static_cast<std::streamsize>(bytes.data().size()));
-  out.close();
-  if (!out) throw std::system_error(errno, std::generic_category(), file.string() + ": cannot write");
+  writeBytes(file, {bytes.data().data(), bytes.data().size()});
 }
 
 }  // namespace fluidtex::tools

@@ -1,5 +1,7 @@
 #include "tools/progress.h"
 
+#include "tools/console.h"
+
 #include <fmt/core.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -45,7 +47,7 @@ Progress::~Progress() {
 }
 
 void Progress::clearLine() {
-  if (!m_quiet && m_terminal) std::fputs("\r\033[K", stderr);
+  if (!m_quiet && m_terminal) say("\r\033[K");
 }
 
 std::string Progress::timeLeft() const {
@@ -62,8 +64,7 @@ void Progress::update(int frame, const std::string& stage, double part) {
       fmt::format("frame {}/{}  {:<10} {:3.0f}%  {}", frame, m_last, stage, 100.0 * part, timeLeft());
   const int cells = std::clamp(terminalWidth() - static_cast<int>(words.size()) - 5, 0, 40);
   clearLine();
-  fmt::print(stderr, "{} {}", bar(share, cells), words);
-  std::fflush(stderr);
+  say("{} {}", bar(share, cells), words);
 }
 
 void Progress::frameDone(int frame, const std::string& summary) {
@@ -71,7 +72,7 @@ void Progress::frameDone(int frame, const std::string& summary) {
   if (m_quiet) return;
   clearLine();
   const std::string left = timeLeft();
-  if (!m_terminal) fmt::print(stderr, "frame {}/{}: {}; {}\n", frame, m_last, summary, left);
+  if (!m_terminal) say("frame {}/{}: {}; {}\n", frame, m_last, summary, left);
 }
 
 }  // namespace fluidtex::tools

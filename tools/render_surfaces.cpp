@@ -5,10 +5,13 @@
 #include "tools/atomic_file.h"
 #include "tools/color_between.h"
 #include "tools/common_options.h"
+#include "tools/console.h"
 #include "tools/errors.h"
 #include "tools/finished_run.h"
+#include "tools/out_folder.h"
 #include "tools/ply.h"
 #include "tools/visible_solids.h"
+#include "tools/work.h"
 
 #include <fmt/core.h>
 #include <tbb/global_control.h>
@@ -43,6 +46,7 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
       throw UsageError(fmt::format("{}: is not there; give --frames of which there are surfaces",
                                    surfaceOf(frame).string()));
   const fs::path out = options.out.empty() ? fs::path("out") / scene.name : options.out;
+  const OutFolder folder(out);
   const tbb::global_control threads(
       tbb::global_control::max_allowed_parallelism,
       std::size_t(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()));
@@ -66,12 +70,13 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
       surface.spacing = spacingOf(from, surface, frame);
     }
     const double progress = scene.frames > 1 ? double(frame - 1) / (scene.frames - 1) : 0.0;
+    nowAt(kOnPicture, frame);
     const render::Picture picture = render::render(
         surface, solids.at((frame - 1) / scene.sim.frameRate), scene.render,
         {scene.sim.size, progress, frame, colorBetween(detail, surface), detail && detail->seeThrough});
     writeAtomically(out / "frames" / (render::frameName(frame) + ".png"),
                     [&](const fs::path& file) { writePng(picture, file); });
-    if (!options.quiet) fmt::print(stderr, "frame {}\n", frame);
+    if (!options.quiet) say("frame {}\n", frame);
   }
   writeAtomically(out / (scene.name + ".mp4"), [&](const fs::path& file) {
     render::writeVideo(out / "frames", first, last, scene.sim.frameRate, file);

@@ -1,9 +1,11 @@
 #include "tools/report.h"
 
 #include "texture/mesh_stats.h"
+#include "tools/atomic_file.h"
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace fluidtex::tools {
@@ -19,6 +21,11 @@ std::int64_t peakMemory() {
 template <typename T>
 Json orNull(bool known, T value) {
   return known ? Json(value) : Json(nullptr);
+}
+
+std::string replaced(std::string text, char from, char to) {
+  std::replace(text.begin(), text.end(), from, to);
+  return text;
 }
 
 // One [x, y, z, turns] each, metres.
@@ -75,26 +82,34 @@ std::string toJson(const Report& report) {
   json["scene"] = report.scene;
   json["seed"] = report.seed;
   json["threads"] = report.threads;
+  json["inputs"] = report.inputs;
   json["frames"] = report.frames;
-  return json.dump(2) + "\n";
+  // A file's name may hold bytes that are no UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Report parseReport(const std::string& text) {
   try {
     const Json json = Json::parse(text);
     return {json.at("scene"), json.at("seed").get<std::uint64_t>(), json.at("threads").get<int>(),
-            json.at("frames").get<std::vector<Json>>()};
+            json.value("inputs", Json::object()), json.at("frames").get<std::vector<Json>>()};
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(std::string("run.json of the state is damaged: ") + error.what());
   }
 }
 
-std::string sceneDifference(const Json& before, const Json& now) {
+std::string sceneDifference(const Json& before, const Json& now, const Json& inputs) {
   const auto flat = [](Json scene) {
     if (scene.value("/camera/turn"_json_pointer, 0.0) == 0.0) scene.erase("frames");
     return scene.flatten();
   };
-  const Json old = flat(before), current = flat(now);
+  Json old = flat(before), current = flat(now);
+  for (const auto& [dotted, content] : inputs.items()) {
+    const std::string key = replaced("." + dotted, '.', '/');
+    if (!old.value(key, Json()).is_string() || !current.value(key, Json()).is_string()) continue;
+    old.erase(key);
+    current.erase(key);
+  }
   const auto shown = [](const Json& json, const std::string& key) {
     return json.contains(key) ? json.at(key).dump() : std::string("not there");
   };
@@ -102,12 +117,18 @@ std::string sceneDifference(const Json& before, const Json& now) {
     for (const auto& [key, value] : side->items()) {
       const std::string a = shown(old, key), b = shown(current, key);
       if (a == b) continue;
-      std::string dotted = key.substr(1);
-      for (char& c : dotted)
-        if (c == '/') c = '.';
-      return dotted + " was " + a + " and is " + b;
+      return replaced(key.substr(1), '/', '.') + " was " + a + " and is " + b;
     }
   return {};
+}
+
+void ReportFile::frameDone(const Report& report) {
+  if (report.frames.size() >= m_written + std::max<std::size_t>(1, m_written / 8)) write(report);
+}
+
+void ReportFile::write(const Report& report) {
+  writeTextAtomically(m_file, toJson(report));
+  m_written = report.frames.size();
 }
 
 }  // namespace fluidtex::tools

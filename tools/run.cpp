@@ -5,6 +5,9 @@
 #include "tools/errors.h"
 #include "tools/frame_loop.h"
 #include "tools/stop_signal.h"
+#include "tools/memory_plan.h"
+#include "tools/out_folder.h"
+#include "tools/work.h"
 
 #include <fmt/core.h>
 #include <spdlog/sinks/basic_file_sink.h>
@@ -13,22 +16,31 @@
 #include <tbb/task_arena.h>
 
 #include <memory>
+#include <new>
+#include <stdexcept>
 
 namespace fluidtex::tools {
 namespace {
 
 // Lines are added to what is there: a run that starts anew empties the file when it clears the earlier run.
 void logTo(const std::filesystem::path& file, bool verbose) {
-  std::error_code error;
-  std::filesystem::create_directories(file.parent_path(), error);
-  if (error)
-    throw UsageError(fmt::format("--out {}: is no folder and none can be made there: {}",
-                                 file.parent_path().string(), error.message()));
   auto logger = std::make_shared<spdlog::logger>(
       "fluidtex", std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string()));
   logger->set_level(verbose ? spdlog::level::debug : spdlog::level::info);
   logger->flush_on(spdlog::level::info);
+  // A disk that is full is told of by what it keeps from being written.
+  logger->set_error_handler([](const std::string&) {});
   spdlog::set_default_logger(logger);
+}
+
+// What is known of it; the run's own memory is free again.
+std::string neededBy(const scenes::Scene& scene) {
+  try {
+    return fmt::format(" (the scene needs about {:.2g} GB in all)",
+                       plannedMemory(scene, planLiquid(scene.sim)) / 1e9);
+  } catch (const std::exception&) {
+    return {};
+  }
 }
 
 }  // namespace
@@ -43,8 +55,14 @@ void runInto(const std::filesystem::path& out, const scenes::Scene& scene, const
   run.threads = options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(run.threads));
+  const OutFolder folder(run.out);
   logTo(run.out / "log.txt", options.verbose);
-  runScene(scene, run, stopOnSignals());
+  nowAt(kOnExemplar);
+  try {
+    runScene(scene, run, stopOnSignals());
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error(outOfMemory() + neededBy(scene));
+  }
 }
 
 void addRun(CLI::App& app, int& exitCode) {

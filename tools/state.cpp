@@ -2,6 +2,8 @@
 
 #include "render/frame_name.h"
 #include "tools/atomic_file.h"
+#include "tools/fingerprint.h"
+#include "tools/journal.h"
 
 #include <fmt/core.h>
 
@@ -10,6 +12,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <system_error>
 #include <type_traits>
 #include <vector>
@@ -18,7 +21,7 @@ namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr char kMagic[8] = {'f', 't', 'x', 's', 'u', 'r', 'f', '3'};
+constexpr char kMagic[8] = {'f', 't', 'x', 's', 'u', 'r', 'f', '4'};
 
 constexpr const char* kSolver = "solver.vdb";
 constexpr const char* kSurface = "surface.bin";
@@ -29,29 +32,17 @@ constexpr const char* kManifest = "manifest.txt";
   throw std::runtime_error(file.string() + ": " + what + "; remove the state folder to start anew");
 }
 
-// Visits every part of a surface in the one order that both directions share.
+// Visits every part of a surface in the one order that both directions share. That it is every part, the
+// compiler sees: the names must be as many as the members.
 template <typename Surface, typename Visit>
 void eachPart(Surface& surface, Visit&& visit) {
-  visit(surface.spacing);
-  visit(surface.exemplarWidth);
-  visit(surface.exemplarHeight);
-  visit(surface.positions);
-  visit(surface.normals);
-  visit(surface.orientation);
-  visit(surface.triangles);
-  visit(surface.color);
-  visit(surface.coordinate);
-  visit(surface.gradient);
-  visit(surface.fading.coordinate);
-  visit(surface.fading.gradient);
-  visit(surface.fading.weight);
-  visit(surface.fading.speed);
-  visit(surface.age);
-  visit(surface.trust);
-  visit(surface.previousPosition);
-  visit(surface.velocity);
-  visit(surface.contact);
-  visit(surface.scale);
+  auto& [spacing, positions, normals, orientation, triangles, color, coordinate, gradient, fading, age, trust,
+         previousPosition, velocity, contact, maps, vectors, exemplarWidth, exemplarHeight, scale] = surface;
+  auto& [fadingCoordinate, fadingGradient, weight, speed] = fading;
+  const auto each = [&](auto&... parts) { (visit(parts), ...); };
+  each(spacing, exemplarWidth, exemplarHeight, positions, normals, orientation, triangles, color, coordinate,
+       gradient, fadingCoordinate, fadingGradient, weight, speed, age, trust, previousPosition, velocity,
+       contact, scale, maps, vectors);
 }
 
 struct Writer {
@@ -68,6 +59,14 @@ struct Writer {
               static_cast<std::streamsize>(values.size() * sizeof(T)));
   }
   void operator()(const std::string& text) { (*this)(std::vector<char>(text.begin(), text.end())); }
+  template <typename T>
+  void operator()(const std::map<std::string, T>& named) {
+    (*this)(std::uint64_t{named.size()});
+    for (const auto& [name, values] : named) {
+      (*this)(name);
+      (*this)(values);
+    }
+  }
 };
 
 struct Reader {
@@ -97,6 +96,16 @@ struct Reader {
     (*this)(characters);
     text.assign(characters.begin(), characters.end());
   }
+  template <typename T>
+  void operator()(std::map<std::string, T>& named) {
+    std::uint64_t count = 0;
+    (*this)(count);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      std::string name;
+      (*this)(name);
+      (*this)(named[name]);
+    }
+  }
 };
 
 // Whether every array has a value for each vertex and every corner of a triangle is a vertex.
@@ -108,6 +117,8 @@ bool fitsTogether(const texture::TexturedSurface& surface) {
               surface.age, surface.trust, surface.previousPosition, surface.velocity, surface.contact) &&
          (surface.scale.empty() || fits(surface.scale)) &&
          std::all_of(surface.maps.begin(), surface.maps.end(),
+                     [&](const auto& map) { return fits(map.second); }) &&
+         std::all_of(surface.vectors.begin(), surface.vectors.end(),
                      [&](const auto& map) { return fits(map.second); }) &&
          std::all_of(surface.triangles.begin(), surface.triangles.end(),
                      [&](const texture::Vec3I& t) { return t[0] < count && t[1] < count && t[2] < count; });
@@ -129,33 +140,11 @@ std::string readText(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-void writeText(const std::string& text, const fs::path& file) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw std::system_error(errno, std::generic_category(), file.string() + ": cannot write");
-}
-
-// A line of the manifest: name, size in bytes, hash. The hash is FNV-1a of 64 bits (Fowler, Noll, Vo), taken
-// over words of 8 bytes for speed, the last one filled up with zeros; the shift lets high bits reach low ones
-// too.
+// A line of the manifest: name, size in bytes, hash.
 std::string manifestLine(const fs::path& file) {
-  std::ifstream in = opened(file);
-  std::vector<std::uint64_t> words(1 << 16);
-  std::uint64_t size = 0, hash = 0xcbf29ce484222325u;
-  while (in) {
-    in.read(reinterpret_cast<char*>(words.data()),
-            static_cast<std::streamsize>(words.size() * sizeof words[0]));
-    const auto count = static_cast<std::size_t>(in.gcount());
-    std::memset(reinterpret_cast<char*>(words.data()) + count, 0,
-                (sizeof words[0] - count % sizeof words[0]) % 8);
-    for (std::size_t i = 0; i < (count + 7) / 8; ++i) {
-      hash = (hash ^ words[i]) * 0x100000001b3u;
-      hash ^= hash >> 32;
-    }
-    size += count;
-  }
-  return fmt::format("{} {} {:016x}\n", file.filename().string(), size, hash);
+  if (!fs::is_regular_file(file)) refuse(file, "cannot be read");
+  const Fingerprint content = fingerprintOf(file);
+  return fmt::format("{} {} {}\n", file.filename().string(), content.bytes, content.hash);
 }
 
 std::string manifestOf(const fs::path& folder) {
@@ -184,15 +173,13 @@ void removeStatesBut(std::optional<int> kept, const fs::path& stateFolder) {
 }  // namespace
 
 void writeSurface(const texture::TexturedSurface& surface, const fs::path& file) {
-  std::ofstream out(file, std::ios::binary);
+  std::vector<char> buffer(std::size_t{1} << 20);
+  std::ofstream out;
+  out.rdbuf()->pubsetbuf(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+  out.open(file, std::ios::binary);
   Writer write{out};
   out.write(kMagic, sizeof kMagic);
   eachPart(surface, write);
-  write(std::uint64_t{surface.maps.size()});
-  for (const auto& [name, values] : surface.maps) {
-    write(name);
-    write(values);
-  }
   out.close();
   if (!out) throw std::system_error(errno, std::generic_category(), file.string() + ": cannot write");
 }
@@ -205,13 +192,6 @@ texture::TexturedSurface readSurface(const fs::path& file) {
   if (std::memcmp(magic, kMagic, sizeof magic) != 0) refuse(file, "is no surface of this version");
   texture::TexturedSurface surface;
   eachPart(surface, read);
-  std::uint64_t maps = 0;
-  read(maps);
-  for (std::uint64_t i = 0; i < maps; ++i) {
-    std::string name;
-    read(name);
-    read(surface.maps[name]);
-  }
   if (read.left > 0) refuse(file, "goes on after its end");
   if (!fitsTogether(surface)) refuse(file, "is damaged: its arrays and triangles do not fit together");
   return surface;
@@ -222,8 +202,8 @@ void saveState(const sim::State& solver, const texture::TexturedSurface& surface
   writeFolderAtomically(stateFolder / render::frameName(solver.frame), [&](const fs::path& folder) {
     sim::writeState(solver, folder / kSolver);
     writeSurface(surface, folder / kSurface);
-    writeText(report, folder / kReport);
-    writeText(manifestOf(folder), folder / kManifest);
+    writeBytes(folder / kReport, report);
+    writeBytes(folder / kManifest, manifestOf(folder));
   });
   removeStatesBut(solver.frame, stateFolder);
 }
@@ -245,6 +225,7 @@ std::optional<RunState> loadState(const fs::path& stateFolder) {
 
 void removeStates(const fs::path& stateFolder) {
   removeStatesBut(std::nullopt, stateFolder);
+  removeJournal(stateFolder);
   std::error_code notEmpty;
   fs::remove(stateFolder, notEmpty);
 }

@@ -1,6 +1,6 @@
 // OUT/state: what --resume continues from. One folder a frame, OUT/state/0007, replaced as a whole; only the
-// newest stays. In it the solver's grids, the surface, the report, and a manifest with the size and the hash
-// of each, by which a damaged file is noticed.
+// newest stays. In it the solver's grids, the surface, the report of that frame, and a manifest with the size
+// and the hash of each, by which a damaged file is noticed. Beside them the journal of the frames before.
 #pragma once
 
 #include "sim/solver.h"
@@ -16,7 +16,7 @@ namespace fluidtex::tools {
 struct RunState {
   sim::State solver;
   texture::TexturedSurface surface;  // of that frame: what the next one carries over
-  std::string report;                // run.json as far as it went
+  std::string report;                // run.json, of its frames the last
 };
 
 // Throws std::system_error, std::runtime_error or openvdb::IoError when the disk refuses.
@@ -28,7 +28,7 @@ void saveState(const sim::State& solver, const texture::TexturedSurface& surface
 // whole but no state.
 std::optional<RunState> loadState(const std::filesystem::path& stateFolder);
 
-// Removes all states, and the folder if nothing else is in it.
+// Removes all states, the journal, and the folder if nothing else is in it.
 void removeStates(const std::filesystem::path& stateFolder);
 
 // Bit for bit what writeSurface() got; exposed for tests. writeSurface() throws std::system_error when the

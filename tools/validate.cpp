@@ -2,9 +2,11 @@
 #include "tests/validation/case.h"
 #include "tools/atomic_file.h"
 #include "tools/commands.h"
+#include "tools/console.h"
 #include "tools/errors.h"
 #include "tools/plot.h"
 #include "tools/progress.h"
+#include "tools/work.h"
 
 #include <fmt/core.h>
 #include <tbb/global_control.h>
@@ -70,16 +72,16 @@ std::string bound(const Row& row, const std::optional<double>& value) {
 }
 
 void printHead() {
-  fmt::print("{:<18} {:>5}  {:<28} {:>11} {:>9} {:>9}  {}\n", "test", "cells", "measure", "value", "must",
-             "goal", "published");
+  print("{:<18} {:>5}  {:<28} {:>11} {:>9} {:>9}  {}\n", "test", "cells", "measure", "value", "must", "goal",
+        "published");
 }
 
 void printRow(const Row& row) {
   std::string others;
   for (const auto& [value, source] : row.published)
     others += fmt::format("{}{:.3g} ({})", others.empty() ? "" : "; ", value, source);
-  fmt::print("{:<18} {:>5}  {:<28} {:>11.4g} {:>9} {:>9}  {}{}\n", row.test, row.resolution, row.measure,
-             row.value, bound(row, row.must), bound(row, row.goal), row.ok() ? "" : "FAILS  ", others);
+  print("{:<18} {:>5}  {:<28} {:>11.4g} {:>9} {:>9}  {}{}\n", row.test, row.resolution, row.measure,
+        row.value, bound(row, row.must), bound(row, row.goal), row.ok() ? "" : "FAILS  ", others);
   std::fflush(stdout);
 }
 
@@ -104,7 +106,7 @@ class JobProgress {
       : m_label(fmt::format("{} {} ({} of {})", job.test->name, job.resolution, number, count)),
         m_start(Clock::now()) {}
   ~JobProgress() {
-    if (m_terminal) fmt::print(stderr, "\r\033[K");
+    if (m_terminal) say("\r\033[K");
   }
 
   void update(double part) {
@@ -112,9 +114,8 @@ class JobProgress {
     if (!m_terminal || now - m_drawn < std::chrono::milliseconds(100)) return;
     m_drawn = now;
     const double gone = std::chrono::duration<double>(now - m_start).count();
-    fmt::print(stderr, "\r\033[K{}: {:.0f}%, {} left", m_label, 100.0 * part,
-               part > 0.01 ? humanDuration(gone / part - gone) : "?");
-    std::fflush(stderr);
+    say("\r\033[K{}: {:.0f}%, {} left", m_label, 100.0 * part,
+        part > 0.01 ? humanDuration(gone / part - gone) : "?");
   }
 
  private:
@@ -149,7 +150,7 @@ void listCases() {
   for (const Case& c : validation::cases()) {
     std::string resolutions;
     for (const int n : c.resolutions) resolutions += fmt::format(" {}", n);
-    fmt::print("{:<18} {:<10} {};{}\n", c.name, c.group, c.title, resolutions);
+    print("{:<18} {:<10} {};{}\n", c.name, c.group, c.title, resolutions);
   }
 }
 
@@ -163,6 +164,7 @@ int validate(const ValidateOptions& options) {
     limit =
         std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, options.threads);
   const std::vector<Job> jobs = planJobs(options);
+  nowAt(kOnMotion);
 
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   bool holds = true;

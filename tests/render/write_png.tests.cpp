@@ -1,5 +1,6 @@
 #include "render/render.h"
 
+#include "tests/file_limit.h"
 #include "tests/scratch.h"
 
 #include <OpenImageIO/imageio.h>
@@ -59,4 +60,22 @@ TEST_CASE("png: the same picture gives the same bytes", "[render]") {
 TEST_CASE("png: a place that cannot be written is named", "[render]") {
   REQUIRE_THROWS_WITH(writePng({1, 1, {0, 0, 0}}, "/nonexistent_folder/x.png"),
                       Catch::StartsWith("/nonexistent_folder/x.png: the picture could not be written: "));
+}
+
+TEST_CASE("png: a picture that the disk does not take to its last byte is a failure", "[render]") {
+  const Scratch scratch;
+  Picture picture{40, 30, std::vector<float>(40 * 30 * 3)};
+  for (std::size_t i = 0; i < picture.rgb.size(); ++i) picture.rgb[i] = float(i * 7919 % 1000) / 1000.0f;
+  writePng(picture, scratch.path / "whole.png");
+  const auto size = fs::file_size(scratch.path / "whole.png");
+  for (const std::uintmax_t limit : {std::uintmax_t{1}, size / 2, size - 1}) {
+    std::string what;
+    try {
+      const FileLimit less(limit);
+      writePng(picture, scratch.path / "cut.png");
+    } catch (const std::runtime_error& error) {
+      what = error.what();
+    }
+    CHECK_THAT(what, Catch::Contains("cut.png: the picture could not be written: File too large"));
+  }
 }

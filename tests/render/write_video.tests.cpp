@@ -1,5 +1,6 @@
 #include "render/frame_name.h"
 #include "render/render.h"
+#include "tests/file_limit.h"
 #include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
@@ -113,4 +114,22 @@ TEST_CASE("video: a machine without ffmpeg is told so", "[render]") {
   }
   setenv("PATH", path.c_str(), 1);
   REQUIRE(what.find("ffmpeg could not be started: No such file or directory") != std::string::npos);
+}
+
+TEST_CASE("video: one that the disk does not take to its last byte is a failure", "[render]") {
+  const Scratch scratch;
+  const fs::path folder = frames(scratch, "full", 1, 8, 64, 36);
+  writeVideo(folder, 1, 8, 24.0, folder / "whole.mp4");
+  const auto size = fs::file_size(folder / "whole.mp4");
+  for (const std::uintmax_t limit : {std::uintmax_t{1}, size / 2, size - 1}) {
+    std::string what;
+    try {
+      const FileLimit less(limit);
+      writeVideo(folder, 1, 8, 24.0, folder / "cut.mp4");
+    } catch (const std::runtime_error& error) {
+      what = error.what();
+    }
+    CHECK_THAT(what, Catch::Contains("cut.mp4: the video could not be written: ffmpeg: "));
+    CHECK(what.find('\n') == std::string::npos);
+  }
 }

@@ -105,6 +105,25 @@ TEST_CASE("flows: what holds nothing is told of") {
         "liquid 1 lies wholly inside solids or walls: nothing is poured; put a part of it into the open");
 }
 
+TEST_CASE("flows: what holds nothing is found on the finest grid too, where nothing is put on it") {
+  Options options = channel();
+  options.resolution = 4096;
+  const double h = options.voxelSize();
+  Solid floor;
+  floor.shape.kind = HalfSpace{Vec3d(0.0, 0.0, 0.2), Vec3d(0.0, 0.0, 1.0)};
+  options.solids = {floor};
+  options.liquid = {box(Vec3d(0.0), Vec3d(2.0, 0.5, 0.3)), box(Vec3d(0.0), Vec3d(2.0, 0.5, 0.1)),
+                    // One with a single cell's middle in it, one between two middles, one outside the domain.
+                    box(Vec3d(600.4 * h, 600.4 * h, 900.4 * h), Vec3d(600.6 * h, 600.6 * h, 900.6 * h)),
+                    box(Vec3d(600.6 * h, 600.6 * h, 900.6 * h), Vec3d(601.4 * h, 601.4 * h, 901.4 * h)),
+                    box(Vec3d(-2.0), Vec3d(-1.0))};
+  const std::vector<std::string> warnings = flowWarnings(options, Solids(options));
+  REQUIRE(warnings.size() == 3);
+  CHECK(warnings[0].starts_with("liquid 1 lies wholly inside solids"));
+  CHECK(warnings[1].starts_with("liquid 3 holds no cell's middle"));
+  CHECK(warnings[2].starts_with("liquid 4 holds no cell's middle"));
+}
+
 TEST_CASE("flows: a drain and an open side let out what they can") {
   Options options = channel();
   options.cfl = 1.0;

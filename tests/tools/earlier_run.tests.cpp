@@ -41,14 +41,29 @@ TEST_CASE("earlier run: the log is emptied, so that a logger that has it open go
   CHECK(readBytes(scratch.path / "log.txt") == "new\n");
 }
 
-TEST_CASE("earlier run: the first result that is not there is named", "[tools]") {
+TEST_CASE("earlier run: the first result that is not as it was written is named", "[tools]") {
   const Scratch scratch;
-  CHECK(missingResult(scratch.path, 1, 0, true).empty());
-  CHECK(missingResult(scratch.path, 2, 3, true) == "frames/0002.png");
-  put(scratch.path / "surface" / "0002.ply");
-  put(scratch.path / "surface" / "0003.ply");
-  CHECK(missingResult(scratch.path, 2, 3, false).empty());
-  CHECK(missingResult(scratch.path, 2, 4, false) == "surface/0004.ply");
-  put(scratch.path / "frames" / "0002.png");
-  CHECK(missingResult(scratch.path, 2, 3, true) == "frames/0003.png");
+  const auto broken = [&](int first, int last, bool rendered) {
+    return firstBroken(scratch.path, readJournal(scratch.path), first, last, rendered, false);
+  };
+  const auto written = [&](const std::string& name) {
+    put(scratch.path / name);
+    addToJournal(scratch.path, {lineOfFile(name, fingerprintOf(scratch.path / name))});
+  };
+  CHECK_FALSE(broken(1, 0, true));
+  REQUIRE(broken(2, 3, true));
+  CHECK(broken(2, 3, true)->name == "frames/0002.png");
+  CHECK_FALSE(broken(2, 3, true)->written);
+  written("surface/0002.ply");
+  written("surface/0003.ply");
+  CHECK_FALSE(broken(2, 3, false));
+  CHECK(broken(2, 4, false)->name == "surface/0004.ply");
+  written("frames/0002.png");
+  CHECK(broken(2, 3, true)->name == "frames/0003.png");
+  std::ofstream(scratch.path / "surface" / "0002.ply") << "other";
+  CHECK(broken(2, 3, false)->name == "surface/0002.ply");
+  CHECK((broken(2, 3, false)->there && broken(2, 3, false)->written));
+  // Nobody has said that this one is as it should be.
+  put(scratch.path / "surface" / "0004.ply");
+  CHECK((broken(4, 4, false)->there && !broken(4, 4, false)->written));
 }

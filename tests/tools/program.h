@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -22,9 +23,10 @@ struct Finished {
 
 class Program {
  public:
-  // `fluidtex ARGS...`, in the folder `from` where given, with `path` in front of PATH where given.
+  // `fluidtex ARGS...`, in the folder `from` where given, with `path` in front of PATH where given. `setUp`: done in
+  // the new process, last of all.
   explicit Program(const std::vector<std::string>& args, const std::filesystem::path& from = {},
-                   const std::filesystem::path& path = {}) {
+                   const std::filesystem::path& path = {}, const std::function<void()>& setUp = {}) {
     const std::string searched = path.empty() ? "" : path.string() + ":" + std::getenv("PATH");
     const std::string cache = (m_scratch.path / "cache").string();
     m_child = fork();
@@ -37,10 +39,12 @@ class Program {
     std::vector<char*> argv{const_cast<char*>(FLUIDTEX_PROGRAM)};
     for (const std::string& arg : args) argv.push_back(const_cast<char*>(arg.c_str()));
     argv.push_back(nullptr);
+    if (setUp) setUp();
     execv(FLUIDTEX_PROGRAM, argv.data());
     _exit(127);
   }
 
+  pid_t id() const { return m_child; }
   void signal(int number) const { kill(m_child, number); }
 
   // Waits until `file` has grown by this many lines since it had `before`, or the program has ended.
@@ -78,6 +82,11 @@ class Program {
 
 inline Finished runProgram(const std::vector<std::string>& args, const std::filesystem::path& from = {}) {
   return Program(args, from).wait();
+}
+
+// The same, with what `setUp` does in the new process: limits, other streams, variables.
+inline Finished runProgramWith(const std::function<void()>& setUp, const std::vector<std::string>& args) {
+  return Program(args, {}, {}, setUp).wait();
 }
 
 inline const std::string kSmallScene = FLUIDTEX_SOURCE "/tests/tools/small.toml";

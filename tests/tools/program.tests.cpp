@@ -30,7 +30,7 @@ TEST_CASE("fluidtex run: writes every file of a run, and run.json with every fra
         std::vector<std::string>{"frames/0001.png", "frames/0002.png", "frames/0003.png", "frames/0004.png",
                                  "frames/0005.png", "log.txt", "run.json", "small.mp4",
                                  "state/0005/manifest.txt", "state/0005/run.json", "state/0005/solver.vdb",
-                                 "state/0005/surface.bin", "surface/0001.ply", "surface/0002.ply",
+                                 "state/0005/surface.bin", "state/journal.txt", "surface/0001.ply", "surface/0002.ply",
                                  "surface/0003.ply", "surface/0004.ply", "surface/0005.ply"});
   const auto json = nlohmann::json::parse(readBytes(out / "run.json"));
   REQUIRE(json.at("frames").size() == 5);
@@ -84,6 +84,7 @@ TEST_CASE("fluidtex run: a run over an earlier one leaves its own files and the 
                                        "state/0001/run.json",
                                        "state/0001/solver.vdb",
                                        "state/0001/surface.bin",
+                                       "state/journal.txt",
                                        "surface/0001.ply"};
   expected.insert(expected.end(), own.begin(), own.end());
   std::sort(expected.begin(), expected.end());
@@ -194,4 +195,50 @@ TEST_CASE("fluidtex: version, help with an example for each subcommand, and the 
   CHECK(dry.exitCode == 0);
   CHECK_THAT(dry.out,
              Catch::Contains("points    3000 on the ") && Catch::Contains(" m2 that the liquid may come to"));
+}
+
+TEST_CASE("fluidtex run: goes on where nothing can be printed, and the log is as ever", "[tools]") {
+  const Scratch scratch;
+  const auto onto = [](int stream, const char* file) {
+    return [=] { dup2(open(file, O_WRONLY), stream); };
+  };
+  const auto closed = [](int stream) { return [=] { close(stream); }; };
+  const std::vector<std::function<void()>> streams = {onto(STDERR_FILENO, "/dev/full"), closed(STDERR_FILENO),
+                                                      closed(STDOUT_FILENO), closed(STDIN_FILENO), [] {
+                                                        for (int stream : {0, 1, 2}) close(stream);
+                                                      }};
+  for (std::size_t n = 0; n < streams.size(); ++n) {
+    const fs::path out = scratch.path / std::to_string(n);
+    INFO("case " << n);
+    CHECK(runProgramWith(streams[n], {"run", kSmallScene, "--frames", "1:1", "--out", out.string()}).exitCode == 0);
+    const std::string log = readBytes(out / "log.txt");
+    CHECK(occurrences(log, "\n") == 2);
+    CHECK(occurrences(log, "[info]") == 2);
+    CHECK(fs::exists(out / "small.mp4"));
+  }
+  // A reader that goes away is no reason to stop either.
+  const auto broken = [] {
+    int ends[2];
+    if (pipe(ends) != 0) _exit(126);
+    close(ends[0]);
+    dup2(ends[1], STDERR_FILENO);
+  };
+  CHECK(runProgramWith(broken, {"run", kSmallScene, "--frames", "1:1", "--no-render", "--out",
+                                (scratch.path / "pipe").string()})
+            .exitCode == 0);
+}
+
+TEST_CASE("fluidtex: what was asked for and cannot be printed is a failure", "[tools]") {
+  const auto full = [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); };
+  const auto closed = [] { close(STDOUT_FILENO); };
+  for (const std::vector<std::string>& args :
+       {std::vector<std::string>{"check", kSmallScene}, {"--help"}, {"--version"}, {"validate", "--list"}}) {
+    INFO(args[0]);
+    const Finished run = runProgramWith(full, args);
+    CHECK(run.exitCode == 2);
+    CHECK_THAT(run.err, Catch::Contains("No space left on device") && Catch::EndsWith("\n"));
+    CHECK(occurrences(run.err, "\n") == 1);
+    CHECK(runProgramWith(closed, args).exitCode == 2);
+  }
+  CHECK(runProgramWith(full, {"check", kSmallScene, "--quiet"}).exitCode == 0);
 }

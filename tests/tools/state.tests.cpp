@@ -28,7 +28,8 @@ sim::State sampleSolverState(int frame) {
 
 TEST_CASE("state: a surface comes back bit for bit", "[tools]") {
   const Scratch scratch;
-  const texture::TexturedSurface surface = sampleSurface();
+  texture::TexturedSurface surface = sampleSurface();
+  for (int v = 0; v < 4; ++v) surface.vectors["bend"].emplace_back(0.0f, float(v), 1.0f);
   tools::writeSurface(surface, scratch.path / "a");
   const texture::TexturedSurface back = tools::readSurface(scratch.path / "a");
   CHECK(back.positions == surface.positions);
@@ -38,6 +39,7 @@ TEST_CASE("state: a surface comes back bit for bit", "[tools]") {
   CHECK(back.fading.speed == surface.fading.speed);
   CHECK(back.age == surface.age);
   CHECK(back.maps == surface.maps);
+  CHECK(back.vectors == surface.vectors);
   tools::writeSurface(back, scratch.path / "b");
   CHECK(readBytes(scratch.path / "a") == readBytes(scratch.path / "b"));
 }
@@ -68,6 +70,9 @@ TEST_CASE("state: a surface that does not fit together, or goes on after its end
   refused(surface);
   surface = sampleSurface();
   surface.maps["height"].clear();
+  refused(surface);
+  surface = sampleSurface();
+  surface.vectors["bend"].resize(3);
   refused(surface);
   surface = sampleSurface();
   surface.triangles[3][2] = 4;
