@@ -1,5 +1,6 @@
 #include "tools/errors.h"
 
+#include "scenes/faults.h"
 #include "scenes/scene.h"
 #include "sim/read_heights.h"
 #include "sim/read_mesh.h"
@@ -14,7 +15,9 @@
 namespace fluidtex::tools {
 namespace {
 
-int fault(const std::string& sentence, ExitCode code) {
+int fault(const std::string& whole, ExitCode code) {
+  // What a damaged file calls itself may be megabytes long.
+  const std::string sentence = scenes::shortened(whole, 4000);
   fmt::print(stderr, "error: {}\n", sentence);
   spdlog::error("{}", sentence);
   return code;
