@@ -6,6 +6,7 @@
 #include "tools/color_between.h"
 #include "tools/common_options.h"
 #include "tools/errors.h"
+#include "tools/image_notes.h"
 #include "tools/liquid_plan.h"
 
 #include <fmt/core.h>
@@ -96,6 +97,8 @@ void check(const CommonOptions& options) {
   fmt::print("memory    about {:.2g} GB", bytes / 1e9);
   if (fed) fmt::print(", and {:.0f} kB a cell of what flows in", kBytesPerLiquidCell / 1e3);
   fmt::print("\n");
+  for (const std::string& note : imageNotes(colorPictures(scene.texture.exemplar)))
+    fmt::print(stderr, "warning: {}\n", note);
   for (const std::string& warning : sim::warningsOf(sim::makeMotion(scene.sim, scene.motion)))
     fmt::print(stderr, "warning: {}\n", warning);
 }
