@@ -10,6 +10,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
+#include <new>
 #include <string>
 
 namespace fluidtex::tools {
@@ -43,6 +44,9 @@ int guarded(const std::function<void()>& body) {
   } catch (const Interrupted& error) {
     fmt::print(stderr, "{}\n", error.what());
     return kInterrupted;
+  } catch (const std::bad_alloc&) {
+    return fault("there is not enough memory; a lower domain.resolution or fewer texture.points take less",
+                 kFailed);
   } catch (const std::exception& error) {
     return fault(error.what(), kFailed);
   }
