@@ -11,7 +11,10 @@
 #include <system_error>
 
 // Sanitizers take up terabytes of addresses, which are no memory.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifndef __has_feature
+#define __has_feature(feature) 0  // clang's way to tell
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || __has_feature(address_sanitizer)
 #define FLUIDTEX_LIMITS_MEMORY false
 #else
 #define FLUIDTEX_LIMITS_MEMORY true

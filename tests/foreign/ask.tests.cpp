@@ -9,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <random>
@@ -122,6 +123,14 @@ TEST_CASE("ask: a file that says much and holds little takes little", "[foreign]
   writeBytes(scratch.path / "large.ppm", "P6\n99999 99999\n255\n" + std::string(3000, 'a'));
   CHECK_THROWS_WITH(readColors(scratch.path / "large.ppm"),
                     Contains("too large") && Contains("99999 x 99999"));
+}
+
+TEST_CASE("ask: what never comes to an end is ended", "[foreign][slow]") {
+  const Scratch scratch;
+  // A pipe that nobody writes to.
+  REQUIRE(mkfifo((scratch.path / "pipe.png").c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(readColors(scratch.path / "pipe.png"), Contains("takes longer than 8 s"));
+  CHECK(readColors(writePicture(scratch.path / "good.png")).width == 32);
 }
 
 TEST_CASE("ask: several threads at once, and a child of the program", "[foreign]") {
