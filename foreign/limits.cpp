@@ -41,7 +41,7 @@ rlim_t addressesNow() {
 int secondsFor(const std::filesystem::path& file) {
   std::error_code ignored;
   const std::uintmax_t bytes = std::filesystem::file_size(file, ignored);
-  return 8 + int(ignored ? 0 : std::min<std::uintmax_t>(bytes >> 20, 600));
+  return 6 + int(ignored ? 0 : std::min<std::uintmax_t>(bytes >> 20, 600));
 }
 
 void limitThisProcess(int seconds) {

@@ -5,7 +5,7 @@
 
 namespace fluidtex::foreign {
 
-// Seconds that reading the file may take: 8, and one more a megabyte.
+// Seconds that reading the file may take: 6, and one more a megabyte.
 int secondsFor(const std::filesystem::path& file);
 
 // Of this process, from now on: so many seconds of processor time and three times as many in all, 1.5 GB more
