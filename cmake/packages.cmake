@@ -15,6 +15,7 @@ find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(PkgConfig REQUIRED)
+pkg_check_modules(heif REQUIRED IMPORTED_TARGET libheif)
 pkg_check_modules(lcms2 REQUIRED IMPORTED_TARGET lcms2)
 pkg_check_modules(webpmux REQUIRED IMPORTED_TARGET libwebpmux)
 

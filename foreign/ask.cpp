@@ -43,6 +43,13 @@ struct Running {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
       throw Unreadable(std::string("cannot be read: no socket (") + std::strerror(errno) + ")");
+    // Where a program's standard streams are closed, a socket could take the place of one, and be printed to.
+    for (int& end : ends) {
+      if (end > STDERR_FILENO) continue;
+      const int higher = fcntl(end, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+      close(end);
+      end = higher;
+    }
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
@@ -71,7 +78,8 @@ std::optional<std::string> complaint(int status, int seconds) {
     return "cannot be read: that takes more than 1.5 GB of memory";
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
-    if (signal == SIGXCPU || signal == SIGALRM || signal == SIGKILL)
+    if (signal == SIGKILL) return "cannot be read: its reader was killed, perhaps for lack of memory";
+    if (signal == SIGXCPU || signal == SIGALRM)
       return "cannot be read: that takes longer than " + std::to_string(seconds) + " s";
     return std::string("cannot be read: the library that reads such files crashes on it (") +
            strsignal(signal) + ")";

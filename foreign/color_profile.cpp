@@ -17,14 +17,18 @@ cmsUInt32Number formatOf(int channels) {
   return channels == 1 ? TYPE_GRAY_FLT : channels == 3 ? TYPE_RGB_FLT : TYPE_CMYK_FLT;
 }
 
-std::shared_ptr<void> linearRgb(const cmsCIExyY& white, const cmsCIExyYTRIPLE& primaries) {
-  const std::shared_ptr<cmsToneCurve> straight(cmsBuildGamma(nullptr, 1.0), cmsFreeToneCurve);
-  cmsToneCurve* curves[3] = {straight.get(), straight.get(), straight.get()};
+std::shared_ptr<void> rgbOf(const cmsCIExyY& white, const cmsCIExyYTRIPLE& primaries, bool isEncoded) {
+  // sRGB's curve: a power above 0.04045, a line below.
+  const double srgb[5] = {2.4, 1.0 / 1.055, 0.055 / 1.055, 1.0 / 12.92, 0.04045};
+  const std::shared_ptr<cmsToneCurve> curve(
+      isEncoded ? cmsBuildParametricToneCurve(nullptr, 4, srgb) : cmsBuildGamma(nullptr, 1.0),
+      cmsFreeToneCurve);
+  cmsToneCurve* curves[3] = {curve.get(), curve.get(), curve.get()};
   return {cmsCreateRGBProfile(&white, &primaries, curves), cmsCloseProfile};
 }
 
 std::shared_ptr<void> linearSrgb() {
-  return linearRgb({0.3127, 0.3290, 1.0}, {{0.64, 0.33, 1.0}, {0.30, 0.60, 1.0}, {0.15, 0.06, 1.0}});
+  return rgbOf({0.3127, 0.3290, 1.0}, {{0.64, 0.33, 1.0}, {0.30, 0.60, 1.0}, {0.15, 0.06, 1.0}}, false);
 }
 
 double encoded(double linear) {
@@ -65,9 +69,9 @@ ColorProfile::ColorProfile(std::span<const unsigned char> icc, int channels) : m
   become(profile.get());
 }
 
-ColorProfile::ColorProfile(std::span<const float, 8> xy) {
+ColorProfile::ColorProfile(std::span<const float, 8> xy, bool isEncoded) {
   const auto at = [&](std::size_t i) { return cmsCIExyY{xy[2 * i], xy[2 * i + 1], 1.0}; };
-  const std::shared_ptr<void> profile = linearRgb(at(3), {at(0), at(1), at(2)});
+  const std::shared_ptr<void> profile = rgbOf(at(3), {at(0), at(1), at(2)}, isEncoded);
   if (!profile) throw Unreadable("are no primaries of colours");
   become(profile.get());
 }

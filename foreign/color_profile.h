@@ -16,8 +16,8 @@ class ColorProfile {
   // profile) where it is damaged, or is for other channels.
   ColorProfile(std::span<const unsigned char> icc, int channels);
 
-  // RGB with straight curves and other primaries: x and y of red, green, blue and white.
-  explicit ColorProfile(std::span<const float, 8> chromaticities);
+  // RGB of other primaries (x and y of red, green, blue and white), linear or encoded as sRGB is.
+  ColorProfile(std::span<const float, 8> chromaticities, bool isEncoded);
 
   // Whether it says no more than that the picture is sRGB-encoded; to 3/4 of one of 255 levels.
   bool isSrgb() const { return m_srgb; }

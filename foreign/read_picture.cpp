@@ -1,6 +1,7 @@
 #include "foreign/read_picture.h"
 
 #include "foreign/color_profile.h"
+#include "foreign/heif_notes.h"
 #include "foreign/ink_jpeg.h"
 #include "foreign/layers.h"
 #include "foreign/own_alpha.h"
@@ -95,14 +96,14 @@ std::span<const unsigned char> profileIn(const ImageSpec& spec) {
   return {static_cast<const unsigned char*>(found->data()), std::size_t(found->datasize())};
 }
 
-// An EXR's own primaries; nothing where they are those of sRGB.
+// The primaries that an EXR or a HEIC names; nothing where they are those of sRGB.
 std::optional<ColorProfile> primariesIn(const ImageSpec& spec) {
   float xy[8];
   const float srgb[8] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
   if (!spec.getattribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), xy)) return std::nullopt;
   if (std::equal(xy, xy + 8, srgb, [](float a, float b) { return std::abs(a - b) < 1e-3f; }))
     return std::nullopt;
-  return ColorProfile(std::span<const float, 8>(xy));
+  return ColorProfile(std::span<const float, 8>(xy), !spec.format.is_floating_point());
 }
 
 // A TIFF of inks with a profile of inks is opened again for the inks themselves.
@@ -144,6 +145,7 @@ Opened openPicture(const std::filesystem::path& file, bool asNumbers) {
   }
   checkSize(opened.spec);
   if (opened.is("webp")) addWebpNotes(file, opened.spec);
+  if (opened.is("heif")) addHeifNotes(file, opened.spec);
   if (opened.is("jpeg") && opened.spec.get_string_attribute("jpeg:ColorSpace") == "CMYK") {
     opened.inks = true;
     opened.layer = {0, {0, 1, 2, 3}};

@@ -51,8 +51,12 @@ TEST_CASE("color profile: more colours than sRGB has, by the matrix between the 
   // Beyond 0..1, as floats may be.
   CHECK_THAT(light(profile, {4.0f, 4.0f, 4.0f})[1], WithinAbs(4.0, 5e-3));
   const float chromaticities[8] = {0.680f, 0.320f, 0.265f, 0.690f, 0.150f, 0.060f, 0.3127f, 0.3290f};
-  const ColorProfile same{std::span<const float, 8>(chromaticities)};
-  for (std::size_t c = 0; c < 3; ++c) CHECK_THAT(light(same, p3)[c], WithinAbs(light(profile, p3)[c], 1e-4));
+  const ColorProfile same(std::span<const float, 8>(chromaticities), false);
+  const ColorProfile encoded(std::span<const float, 8>(chromaticities), true);
+  for (std::size_t c = 0; c < 3; ++c) {
+    CHECK_THAT(light(same, p3)[c], WithinAbs(light(profile, p3)[c], 1e-4));
+    CHECK_THAT(light(encoded, {0.5f, 0.5f, 0.5f})[c], WithinAbs(0.2140, 1e-3));
+  }
 }
 
 TEST_CASE("color profile: grey and inks", "[foreign]") {

@@ -4,6 +4,7 @@
 #include "tests/scratch.h"
 
 #include <OpenImageIO/imageio.h>
+#include <libheif/heif.h>
 #include <webp/mux.h>
 
 #include <catch2/catch.hpp>
@@ -148,6 +149,44 @@ void writeInks(const std::filesystem::path& file, bool mark, const Bytes& profil
   std::fclose(out);
 }
 
+// 64 x 64 pixels of one colour, Display P3 by a profile or by its codes; false where no encoder is there.
+bool writeHeic(const std::filesystem::path& file, bool byProfile) {
+  heif_context* context = heif_context_alloc();
+  heif_encoder* encoder = nullptr;
+  if (heif_context_get_encoder_for_format(context, heif_compression_HEVC, &encoder).code != heif_error_Ok)
+    return false;
+  heif_encoder_set_lossless(encoder, 1);
+  heif_encoder_set_parameter(encoder, "chroma", "444");
+  heif_image* image = nullptr;
+  heif_image_create(64, 64, heif_colorspace_RGB, heif_chroma_interleaved_RGB, &image);
+  heif_image_add_plane(image, heif_channel_interleaved, 64, 64, 8);
+  int stride = 0;
+  std::uint8_t* rows = heif_image_get_plane(image, heif_channel_interleaved, &stride);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x)
+      for (int c = 0; c < 3; ++c)
+        rows[y * stride + 3 * x + c] = std::array<std::uint8_t, 3>{200, 120, 90}[std::size_t(c)];
+  const Bytes profile = rgbProfile(kP3Primaries, 0.0);
+  heif_color_profile_nclx* codes = heif_nclx_color_profile_alloc();
+  codes->color_primaries = heif_color_primaries_SMPTE_EG_432_1;
+  codes->transfer_characteristics = heif_transfer_characteristic_IEC_61966_2_1;
+  heif_encoding_options* options = heif_encoding_options_alloc();
+  options->macOS_compatibility_workaround_no_nclx_profile = 0;
+  if (byProfile)
+    heif_image_set_raw_color_profile(image, "prof", profile.data(), profile.size());
+  else
+    heif_image_set_nclx_color_profile(image, options->output_nclx_profile = codes);
+  const bool written =
+      heif_context_encode_image(context, image, encoder, options, nullptr).code == heif_error_Ok &&
+      heif_context_write_to_file(context, file.c_str()).code == heif_error_Ok;
+  heif_encoding_options_free(options);
+  heif_nclx_color_profile_free(codes);
+  heif_image_release(image);
+  heif_encoder_release(encoder);
+  heif_context_free(context);
+  return written;
+}
+
 }  // namespace
 
 TEST_CASE("pictures: what is stored comes as it is stored", "[foreign]") {
@@ -273,6 +312,27 @@ TEST_CASE("pictures: primaries that an EXR names", "[foreign]") {
   double wanted = 0.0;
   for (int c = 0; c < 3; ++c) wanted += kP3ToSrgb[1][c] * double(stored(9, 5, c));
   CHECK_THAT(pixel(wide, 9, 5)[1], WithinAbs(wanted, 3e-3));
+}
+
+TEST_CASE("pictures: the colours of a HEIC file, by profile or by code", "[foreign]") {
+  const Scratch scratch;
+  const auto linear = [](double v) { return std::pow((v / 255.0 + 0.055) / 1.055, 2.4); };
+  for (const bool byProfile : {true, false}) {
+    INFO("by profile " << byProfile);
+    const auto file = scratch.path / "p3.heic";
+    if (!writeHeic(file, byProfile)) {
+      WARN("no encoder of HEIC here");
+      return;
+    }
+    const Picture picture = readColors(file);
+    CHECK(picture.curve == Curve::linear);
+    const double p3[3] = {linear(200), linear(120), linear(90)};
+    for (std::size_t row = 0; row < 3; ++row) {
+      double wanted = 0.0;
+      for (std::size_t c = 0; c < 3; ++c) wanted += kP3ToSrgb[row][c] * p3[c];
+      CHECK_THAT(pixel(picture, 30, 30)[row], WithinAbs(wanted, 0.01));
+    }
+  }
 }
 
 TEST_CASE("pictures: inks, inverted with Adobe's mark and as they are without", "[foreign]") {
