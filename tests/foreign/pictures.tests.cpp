@@ -355,6 +355,22 @@ TEST_CASE("pictures: inks, inverted with Adobe's mark and as they are without", 
   }
 }
 
+TEST_CASE("pictures: a TIFF of inks with their profile", "[foreign]") {
+  const Scratch scratch;
+  const std::string file = (scratch.path / "inks.tif").string();
+  ImageSpec spec = withProfile(rgb(), inkProfile());
+  spec.attribute("tiff:ColorSpace", "CMYK");  // half of black: the writer turns grey into that
+  const auto output = OIIO::ImageOutput::create(file);
+  REQUIRE(output->open(file, spec));
+  REQUIRE(output->write_image(TypeDesc::FLOAT, std::vector<float>(kWidth * kHeight * 3, 0.5f).data()));
+  REQUIRE(output->close());
+  CHECK(colorNote(file).empty());
+  const Picture picture = readColors(file);
+  REQUIRE(picture.channels == 3);
+  CHECK(picture.curve == Curve::linear);
+  for (const float value : pixel(picture, 7, 7)) CHECK_THAT(value, WithinAbs(0.184, 0.01));
+}
+
 TEST_CASE("pictures: the orientation that a WebP file says", "[foreign]") {
   const Scratch scratch;
   const auto plain = write(scratch, "plain.webp", rgb());
