@@ -14,7 +14,7 @@
 
 namespace fluidtex::fuzz {
 
-// In a folder of this process, which is left behind when the run ends: libFuzzer ends by _exit().
+// In a folder of this process; tools/fuzz takes it away, since libFuzzer ends without a word.
 inline std::filesystem::path folder() {
   static const std::filesystem::path path = [] {
     const auto made =
