@@ -72,7 +72,7 @@ struct Running {
 };
 
 // What the end of the process that read means, where it is no good one.
-std::optional<std::string> complaint(int status, int seconds) {
+std::optional<std::string> complaint(int status) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNoMemory)
     return "cannot be read: that takes more than 1.5 GB of memory";
@@ -80,7 +80,7 @@ std::optional<std::string> complaint(int status, int seconds) {
     const int signal = WTERMSIG(status);
     if (signal == SIGKILL) return "cannot be read: its reader was killed, perhaps for lack of memory";
     if (signal == SIGXCPU || signal == SIGALRM)
-      return "cannot be read: that takes longer than " + std::to_string(seconds) + " s";
+      return "cannot be read: that takes too long for a file of its size";
     return std::string("cannot be read: the library that reads such files crashes on it (") +
            strsignal(signal) + ")";
   }
@@ -105,7 +105,7 @@ void ask(Wanted wanted, const std::filesystem::path& file,
   static char bytes[kLongestPacket];
   std::string wrong;
   std::exception_ptr failure;
-  Ended ended;
+  int status = 0;
   for (char letter = 0; letter != char(Packet::ended);) {
     const ssize_t size = receivePacket(reader.socket, letter, bytes);
     if (size < 0) {
@@ -114,8 +114,8 @@ void ask(Wanted wanted, const std::filesystem::path& file,
     }
     const std::string_view piece(bytes, std::size_t(size));
     if (letter == char(Packet::wrong)) wrong = piece;
-    if (letter == char(Packet::ended) && piece.size() == sizeof ended)
-      std::memcpy(&ended, piece.data(), sizeof ended);
+    if (letter == char(Packet::ended) && piece.size() == sizeof status)
+      std::memcpy(&status, piece.data(), sizeof status);
     if (letter != char(Packet::data) || failure) continue;
     try {
       take(piece);
@@ -124,7 +124,7 @@ void ask(Wanted wanted, const std::filesystem::path& file,
     }
   }
   if (!wrong.empty()) throw Unreadable(wrong);
-  if (const auto why = complaint(ended.status, ended.seconds)) throw Unreadable(*why);
+  if (const auto why = complaint(status)) throw Unreadable(*why);
   if (failure) std::rethrow_exception(failure);
 }
 

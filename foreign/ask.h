@@ -20,8 +20,8 @@ enum class Wanted : char {
 };
 
 // Has the file read, and gives the answer to `take` in pieces, in order. Throws Unreadable: what the reader
-// finds wrong, and where it crashes, takes longer than the file's size warrants (6 s and one more a megabyte)
-// or more than 1.5 GB. From several threads the files are read one after another.
+// finds wrong, and where it crashes, takes longer than the file's size warrants (6 s and one more a megabyte
+// and 5 million pixels) or more than 1.5 GB. From several threads the files are read one after another.
 void ask(Wanted wanted, const std::filesystem::path& file, const std::function<void(std::string_view)>& take);
 
 }  // namespace fluidtex::foreign

@@ -36,22 +36,30 @@ rlim_t addressesNow() {
   return pages * rlim_t(sysconf(_SC_PAGESIZE));
 }
 
-}  // namespace
+constexpr rlim_t kLongest = 1200;  // s, beyond which nothing can be asked for
 
-int secondsFor(const std::filesystem::path& file) {
-  std::error_code ignored;
-  const std::uintmax_t bytes = std::filesystem::file_size(file, ignored);
-  return 6 + int(ignored ? 0 : std::min<std::uintmax_t>(bytes >> 20, 600));
+void limitSeconds(rlim_t seconds) {
+  limit(RLIMIT_CPU, std::min(seconds, kLongest), kLongest);
+  alarm(unsigned(3 * std::min(seconds, kLongest)));
 }
 
-void limitThisProcess(int seconds) {
+}  // namespace
+
+void limitThisProcess(const std::filesystem::path& file) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  limit(RLIMIT_CPU, rlim_t(seconds), rlim_t(seconds) + 1);
-  alarm(unsigned(3 * seconds));
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
+  limitSeconds(6 + (unknown ? 0 : rlim_t(bytes >> 20)));
   limit(RLIMIT_CORE, 0, 0);
   limit(RLIMIT_FSIZE, 0, 0);
   const rlim_t memory = addressesNow() + kMostMemory;
   if (FLUIDTEX_LIMITS_MEMORY) limit(RLIMIT_AS, memory, memory);
+}
+
+void allowTimeFor(std::int64_t pixels) {
+  rlimit now{};
+  if (getrlimit(RLIMIT_CPU, &now) == 0 && now.rlim_cur != RLIM_INFINITY)
+    limitSeconds(now.rlim_cur + rlim_t(pixels / 5'000'000));
 }
 
 }  // namespace fluidtex::foreign

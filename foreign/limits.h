@@ -1,15 +1,17 @@
 // What a process that reads a file of others may do.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 namespace fluidtex::foreign {
 
-// Seconds that reading the file may take: 6, and one more a megabyte.
-int secondsFor(const std::filesystem::path& file);
+// Of this process, from now on: 6 s of processor time and one more a megabyte of the file, three times as
+// many in all, 1.5 GB more memory than it has, no byte written to a file, no core, and its end where its
+// parent ends.
+void limitThisProcess(const std::filesystem::path& file);
 
-// Of this process, from now on: so many seconds of processor time and three times as many in all, 1.5 GB more
-// memory than it has, no byte written to a file, no core, and its end where its parent ends.
-void limitThisProcess(int seconds);
+// Another second for each 5 million pixels that the file says it has: some say much in few bytes.
+void allowTimeFor(std::int64_t pixels);
 
 }  // namespace fluidtex::foreign

@@ -47,8 +47,8 @@ void answer(Wanted wanted, const std::filesystem::path& file) {
   }
 }
 
-[[noreturn]] void readAndEnd(Wanted wanted, const std::filesystem::path& file, int seconds) {
-  limitThisProcess(seconds);
+[[noreturn]] void readAndEnd(Wanted wanted, const std::filesystem::path& file) {
+  limitThisProcess(file);
   try {
     answer(wanted, file);
   } catch (const Unreadable& error) {
@@ -87,13 +87,12 @@ int main() {
     const ssize_t size = receivePacket(kSocket, letter, bytes);
     if (size < 0) return 0;
     const std::string file(bytes, std::size_t(size));
-    Ended ended;
-    ended.seconds = secondsFor(file);
+    int status = 0;
     const pid_t child = fork();
-    if (child == 0) readAndEnd(Wanted(letter), file, ended.seconds);
+    if (child == 0) readAndEnd(Wanted(letter), file);
     if (child < 0) say(Packet::wrong, "cannot be read: no process can be started for it");
-    while (child > 0 && waitpid(child, &ended.status, 0) < 0 && errno == EINTR) {
+    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    say(Packet::ended, {reinterpret_cast<const char*>(&ended), sizeof ended});
+    say(Packet::ended, {reinterpret_cast<const char*>(&status), sizeof status});
   }
 }

@@ -12,11 +12,6 @@ namespace fluidtex::foreign {
 
 enum class Packet : char { data = 'd', wrong = 'w', ended = 'e' };
 
-// How the process that read has ended, as wait() says, and the seconds that it was given.
-struct Ended {
-  int status = 0, seconds = 0;
-};
-
 inline constexpr std::size_t kLongestPacket = 64 << 10;  // bytes behind the letter
 inline constexpr int kNoMemory = 3;  // exit code of a process that needs more than it may have
 

@@ -4,6 +4,7 @@
 #include "foreign/heif_notes.h"
 #include "foreign/ink_jpeg.h"
 #include "foreign/layers.h"
+#include "foreign/limits.h"
 #include "foreign/own_alpha.h"
 #include "foreign/webp_notes.h"
 
@@ -298,6 +299,7 @@ Picture readPicture(const std::filesystem::path& file, bool asNumbers) {
   Picture picture;
   setCurve(opened.spec, picture);
   if (opened.profile && !converts) picture.curve = Curve::srgb;
+  allowTimeFor(std::int64_t(opened.spec.width) * opened.spec.height);
   const Window window = shownOf(opened);
   picture.width = window.width;
   picture.height = window.height;

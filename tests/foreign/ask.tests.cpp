@@ -129,7 +129,7 @@ TEST_CASE("ask: what never comes to an end is ended", "[foreign][slow]") {
   const Scratch scratch;
   // A pipe that nobody writes to.
   REQUIRE(mkfifo((scratch.path / "pipe.png").c_str(), 0600) == 0);
-  CHECK_THROWS_WITH(readColors(scratch.path / "pipe.png"), Contains("takes longer than 6 s"));
+  CHECK_THROWS_WITH(readColors(scratch.path / "pipe.png"), Contains("takes too long"));
   CHECK(readColors(writePicture(scratch.path / "good.png")).width == 32);
 }
 
