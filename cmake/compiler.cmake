@@ -15,9 +15,9 @@ add_library(fluidtex_flags INTERFACE)
 target_include_directories(fluidtex_flags INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(fluidtex_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow
-  -Wno-restrict  # g++ 12 warns falsely of "text" + std::string
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # g++ 12 warns falsely of "text" + std::string
   -fno-math-errno -ffp-contract=off
-  -fpch-preprocess  # for ccache
+  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>  # for ccache
   $<IF:$<BOOL:${FLUIDTEX_NATIVE}>,-march=native,-march=x86-64-v3>)
 
 find_program(MOLD_PROGRAM mold)
@@ -33,6 +33,15 @@ if(FLUIDTEX_SANITIZE)
     # On OpenVDB's templates these four take gcc minutes a file; what they would find, the address sanitizer sees.
     target_compile_options(fluidtex_flags INTERFACE -fno-sanitize=null,alignment,vptr,object-size)
   endif()
+endif()
+
+if(FLUIDTEX_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "FLUIDTEX_FUZZ needs clang, whose libFuzzer it is: cmake --preset fuzz")
+  endif()
+  target_compile_options(fluidtex_flags INTERFACE -fsanitize=fuzzer-no-link)
+  target_compile_definitions(fluidtex_flags INTERFACE _GLIBCXX_ASSERTIONS)
+  target_link_options(fluidtex_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # fluidtex_room(NAME SOURCES... ): one static library per top-level folder.

@@ -14,6 +14,11 @@ find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(JPEG REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(heif REQUIRED IMPORTED_TARGET libheif)
+pkg_check_modules(lcms2 REQUIRED IMPORTED_TARGET lcms2)
+pkg_check_modules(webpmux REQUIRED IMPORTED_TARGET libwebpmux)
 
 # System headers: their warnings are not ours. OpenImageIO exports a folder that need not exist.
 foreach(package OpenVDB::openvdb OpenImageIO::OpenImageIO embree CGAL::CGAL)

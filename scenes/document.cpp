@@ -1,5 +1,6 @@
 #include "scenes/document.h"
 
+#include "scenes/nesting.h"
 #include "scenes/schema.h"
 
 #include <toml++/toml.h>
@@ -21,18 +22,41 @@ Origin inFile(const std::string& file, int line, int column) {
   return {0, line, column, file + ":" + std::to_string(line) + ":" + std::to_string(column), ""};
 }
 
+// No scene comes near these: tables are searched key by key, and each member of a list takes its time.
+constexpr std::size_t kMostKeys = 1000, kMostMembers = 10000;
+constexpr std::size_t kLargestFile = 4 << 20;  // bytes
+constexpr std::size_t kLongestAssignment = 160;
+
+const std::string kTooDeep = "is nested more than " + std::to_string(kDeepest) + " deep";
+const std::string kNotSoDeep = "no key of a scene has more than 8 parts";
+
 // `place` turns a position into an origin: lines and columns mean something in a file only.
 template <class Place>
-Node converted(const toml::node& source, const Origin& origin, const Place& place) {
+Node converted(const toml::node& source, const Origin& origin, const std::string& path, const Place& place,
+               Faults& faults) {
   Node node{{}, origin};
+  const auto tooMany = [&](std::size_t count, std::size_t most, const char* what) {
+    if (count <= most) return false;
+    faults.add(origin, path.empty() ? "file" : path, std::to_string(count) + what,
+               "give at most " + std::to_string(most));
+    return true;
+  };
+  const auto below = [&](std::string_view key) {
+    return (path.empty() ? "" : path + ".") + shortened(std::string(key), kLongestAssignment);
+  };
   if (const toml::table* table = source.as_table()) {
     Table entries;
-    for (const auto& [key, value] : *table)
-      entries.push_back({std::string(key.str()), converted(value, place(key.source()), place)});
+    if (!tooMany(table->size(), kMostKeys, " keys in one table"))
+      for (const auto& [key, value] : *table)
+        entries.push_back(
+            {std::string(key.str()), converted(value, place(key.source()), below(key.str()), place, faults)});
     node.value = std::move(entries);
   } else if (const toml::array* array = source.as_array()) {
     List members;
-    for (const toml::node& value : *array) members.push_back(converted(value, place(value.source()), place));
+    if (!tooMany(array->size(), kMostMembers, " members in one list"))
+      for (const toml::node& value : *array)
+        members.push_back(
+            converted(value, place(value.source()), below(std::to_string(members.size())), place, faults));
     node.value = std::move(members);
   } else if (const auto* flag = source.as_boolean()) {
     node.value = flag->get();
@@ -95,7 +119,11 @@ Node expandedAt(const Node& source, const std::string& path, const std::string& 
     Table entries;
     for (const Entry& entry : *table) {
       const std::string key = path.empty() ? entry.key : path + "." + entry.key;
-      insertAt(entries, splitAtDots(entry.key), expandedAt(entry.node, key, prefix, faults), key, faults);
+      const std::vector<std::string> parts = splitAtDots(entry.key);
+      if (parts.size() > std::size_t(kDeepest))
+        faults.add(entry.node.origin, key, kTooDeep, kNotSoDeep);
+      else
+        insertAt(entries, parts, expandedAt(entry.node, key, prefix, faults), key, faults);
     }
     node.value = std::move(entries);
   } else if (List* list = std::get_if<List>(&node.value)) {
@@ -196,20 +224,30 @@ Node readDocument(const std::filesystem::path& file, Faults& faults) {
   }
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || (stream.peek() != std::ifstream::traits_type::eof() && !(text << stream.rdbuf()))) {
+  std::string text(kLargestFile + 1, '\0');
+  stream.read(text.data(), std::streamsize(text.size()));
+  if (stream.bad() || (stream.fail() && !stream.eof())) {
     const int reason = errno;
     faults.add(top, "file",
                reason == ENOENT ? "no such file" : std::string("cannot be read: ") + std::strerror(reason),
                right);
     return document;
   }
+  text.resize(std::size_t(stream.gcount()));
+  if (text.size() > kLargestFile) {
+    faults.add(top, "file", "is larger than " + std::to_string(kLargestFile >> 20) + " MB", right);
+    return document;
+  }
+  if (const auto deep = tooDeep(text)) {
+    faults.add(inFile(name, deep->line, deep->column), "syntax", kTooDeep, kNotSoDeep);
+    return document;
+  }
   try {
-    const toml::table table = toml::parse(text.str(), name);
+    const toml::table table = toml::parse(text, name);
     const auto place = [&](const toml::source_region& region) {
       return inFile(name, int(region.begin.line), int(region.begin.column));
     };
-    document = converted(table, top, place);
+    document = converted(table, top, "", place, faults);
     document.origin = top;
   } catch (const toml::parse_error& error) {
     const auto& begin = error.source().begin;
@@ -220,7 +258,7 @@ Node readDocument(const std::filesystem::path& file, Faults& faults) {
 }
 
 Node readAssignment(const std::string& assignment, int layer, Faults& faults) {
-  const Origin origin{layer, 1, 1, "--set " + assignment, ""};
+  const Origin origin{layer, 1, 1, "--set " + shortened(assignment, kLongestAssignment), ""};
   Node result{Table{}, origin};
   const std::size_t equals = assignment.find('=');
   const std::string key = trimmed(assignment.substr(0, equals));
@@ -230,6 +268,10 @@ Node readAssignment(const std::string& assignment, int layer, Faults& faults) {
     return result;
   }
   const std::string text = trimmed(assignment.substr(equals + 1));
+  if (path.size() > std::size_t(kDeepest) || tooDeep(text)) {
+    faults.add(origin, key, kTooDeep, kNotSoDeep);
+    return result;
+  }
   Node value{text, origin};
   try {
     const toml::table table = toml::parse("value = " + text + "\n");
@@ -237,7 +279,8 @@ Node readAssignment(const std::string& assignment, int layer, Faults& faults) {
       faults.add(origin, key, "more than one value", "give one --set for each key");
       return result;
     }
-    value = converted(*table.get("value"), origin, [&](const toml::source_region&) { return origin; });
+    value = converted(
+        *table.get("value"), origin, key, [&](const toml::source_region&) { return origin; }, faults);
   } catch (const toml::parse_error& error) {
     if (text.empty()) {
       faults.add(origin, key, "no value", "write KEY=VALUE; an empty string is \"\"");

@@ -8,6 +8,9 @@ namespace fluidtex::scenes {
 
 namespace {
 
+// A key of a scene has at most 60 letters, a message at most 600 of its own and a file's name.
+constexpr std::size_t kLongestKey = 160, kLongestMessage = 1200, kLongestName = 60;
+
 std::string lowered(std::string text) {
   for (char& letter : text) letter = char(std::tolower(static_cast<unsigned char>(letter)));
   return text;
@@ -21,7 +24,7 @@ void Faults::add(const Origin& origin, const std::string& key, const std::string
 }
 
 void Faults::add(const Fault& fault) {
-  if (!has(fault)) m_faults.push_back(fault);
+  if (!full() && !has(fault)) m_faults.push_back(fault);
 }
 
 bool Faults::has(const Fault& fault) const {
@@ -45,13 +48,26 @@ std::vector<std::string> Faults::lines() const {
   });
   std::vector<std::string> result;
   for (const Fault& fault : sorted) {
-    std::string line =
-        fault.origin.where + ": error: " + fault.origin.prefix + fault.key + ": " + fault.message;
-    // A name in a message may hold anything; one fault stays one line.
-    std::replace(line.begin(), line.end(), '\n', ' ');
+    std::string line = fault.origin.where + ": error: " + fault.origin.prefix +
+                       shortened(fault.key, kLongestKey) + ": " + shortened(fault.message, kLongestMessage);
+    // A name in a message may hold anything; one fault stays one line, and moves no cursor.
+    std::replace_if(
+        line.begin(), line.end(), [](unsigned char letter) { return letter < ' ' || letter == 0x7f; }, ' ');
     result.push_back(std::move(line));
   }
+  if (full())
+    result.push_back("error: there may be more faults than these " + std::to_string(kMost) +
+                     "; mend them first");
   return result;
+}
+
+std::string shortened(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  const auto inside = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80; };
+  std::size_t head = most * 2 / 3, tail = text.size() - most / 3;
+  while (head > 0 && inside(head)) --head;
+  while (tail < text.size() && inside(tail)) ++tail;
+  return text.substr(0, head) + " ... " + text.substr(tail);
 }
 
 int editDistance(const std::string& first, const std::string& second) {
@@ -71,6 +87,8 @@ int editDistance(const std::string& first, const std::string& second) {
 }
 
 std::string nearestName(const std::string& wrong, const std::vector<std::string>& names) {
+  // Its distance takes time and memory by the product of both lengths.
+  if (wrong.size() > kLongestName) return "";
   // A third of the letters may be wrong; with more of them the guess would be as often misleading as helpful.
   int best = std::max(1, int(wrong.size()) / 3) + 1;
   std::string nearest;

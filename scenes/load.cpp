@@ -62,7 +62,7 @@ std::vector<Node> readOverrides(const Overrides& overrides, Faults& faults) {
     layers.push_back(readAssignment(assignment, int(layers.size()) + 1, faults));
   if (!overrides.exemplar.empty()) {
     const std::string name = overrides.exemplar.string();
-    const Origin origin{int(layers.size()) + 1, 1, 1, "--exemplar " + name, ""};
+    const Origin origin{int(layers.size()) + 1, 1, 1, "--exemplar " + shortened(name, 160), ""};
     const auto layer = [&](const char* key, auto value) {
       return Node{Table{{"texture", Node{Table{{key, Node{value, origin}}}, origin}}}, origin};
     };

@@ -153,6 +153,7 @@ void Reader::leave() {
 void Reader::collectUnknown(const Level& done) {
   if (!done.table) return;
   for (const Entry& entry : *done.table) {
+    if (m_unknown.size() >= Faults::kMost) return;
     if (std::find(done.known.begin(), done.known.end(), entry.key) == done.known.end())
       m_unknown.push_back({entry.node.origin, done.path, entry.key, done.known});
   }
@@ -161,6 +162,7 @@ void Reader::collectUnknown(const Level& done) {
 void Reader::reportUnknownKeys() {
   collectUnknown(level());
   for (const UnknownKey& unknown : m_unknown) {
+    if (m_faults.full()) return;
     // The very word in another table, then a similar one here, then a similar one elsewhere.
     std::vector<std::string> sameWord, lastWords;
     for (const std::string& path : m_paths) {

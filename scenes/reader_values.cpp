@@ -12,6 +12,9 @@ namespace fluidtex::scenes {
 
 namespace {
 
+// The file system's own limits, of a folder's name and of a path; pictures and videos add their endings.
+constexpr std::size_t kLongestName = 200, kLongestFile = 4000;
+
 std::string asRight(const std::string& path, const std::string& example) {
   return "write for example " + path.substr(path.rfind('.') + 1) + " = " + example;
 }
@@ -118,6 +121,9 @@ void Reader::text(const std::string& key, std::string& value) {
     wrongType(pathOf(key), *node, "a string", quoted(value.empty() ? "gate" : value));
   } else if (text->empty()) {
     m_faults.add(node->origin, pathOf(key), "an empty string", "give a name or leave the key out");
+  } else if (text->size() > kLongestName) {
+    m_faults.add(node->origin, pathOf(key), "a string of " + std::to_string(text->size()) + " bytes",
+                 "give a name of at most " + std::to_string(kLongestName));
   } else {
     value = *text;
   }
@@ -197,6 +203,11 @@ bool Reader::readName(const std::string& key, const std::string& example, const 
   }
   if (name->empty()) {
     m_faults.add(node->origin, path, "an empty file name", asRight(path, example));
+    return false;
+  }
+  if (name->size() > kLongestFile) {
+    m_faults.add(node->origin, path, "a file's name of " + std::to_string(name->size()) + " bytes",
+                 "give one of at most " + std::to_string(kLongestFile));
     return false;
   }
   full = (node->origin.commandLine() ? std::filesystem::path(*name) : m_folder / *name).lexically_normal();

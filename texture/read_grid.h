@@ -1,32 +1,35 @@
 // Grids from OpenVDB files.
 #pragma once
 
+#include "foreign/grid.h"
+
+#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 
 #include <filesystem>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace fluidtex::texture {
 
-// The first grid of a type in an OpenVDB file. Throws std::runtime_error that names the file and what is
-// wrong.
+// The first grid of a type (FloatGrid or Vec3SGrid) in an OpenVDB file. Throws std::runtime_error that names
+// the file and what is wrong.
 template <typename Grid>
 typename Grid::Ptr readGrid(const std::filesystem::path& file) {
-  const auto fail = [&](const std::string& why) ->
-      typename Grid::Ptr { throw std::runtime_error(file.string() + ": " + why); };
-  openvdb::io::File vdb(file.string());
+  constexpr bool kVectors = std::is_same_v<Grid, openvdb::Vec3SGrid>;
+  static_assert(kVectors || std::is_same_v<Grid, openvdb::FloatGrid>);
   try {
-    vdb.open(false);
-    for (auto name = vdb.beginName(); name != vdb.endName(); ++name) {
-      if (!vdb.readGridMetadata(name.gridName())->template isType<Grid>()) continue;
-      return openvdb::gridPtrCast<Grid>(vdb.readGrid(name.gridName()));
-    }
+    std::istringstream stream(foreign::readGrid(file, kVectors));
+    openvdb::io::Stream grids(stream, false);  // nothing is left to be read later
+    return openvdb::gridPtrCast<Grid>(grids.getGrids()->at(0));
+  } catch (const foreign::Unreadable& error) {
+    throw std::runtime_error(file.string() + ": " + error.what());
   } catch (const openvdb::Exception& error) {
-    return fail(std::string("is no OpenVDB file that can be read (") + error.what() + ")");
+    throw std::runtime_error(file.string() + ": is no OpenVDB file that can be read (" +
+                             foreign::asClause(error.what()) + ")");
   }
-  return fail(std::is_same_v<typename Grid::ValueType, float> ? "holds no grid of floats"
-                                                              : "holds no grid of float vectors");
 }
 
 }  // namespace fluidtex::texture

@@ -1,64 +1,23 @@
 #include "texture/read_image.h"
 
+#include "foreign/picture.h"
 #include "texture/srgb.h"
 
-#include <OpenImageIO/imageio.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <cstdint>
+#include <cstring>
 #include <string>
 #include <system_error>
 
 namespace fluidtex::texture {
 namespace {
 
-// 2^26 pixels: one gigabyte as linear RGBA, and as much again for each thing made from it.
-constexpr std::int64_t kLargestArea = std::int64_t(1) << 26;
-
-// Which of the file's channels are red, green and blue: by name, as files of many layers need, else the first
-// ones.
-struct ChannelOrder {
-  int red = 0, green = 0, blue = 0, alpha = -1;
-};
-
-ChannelOrder channelOrder(const OIIO::ImageSpec& spec) {
-  ChannelOrder order;
-  // By name: the reader of GIF files gives a wrong index.
-  order.alpha = spec.channelindex("A");
-  const int red = spec.channelindex("R"), green = spec.channelindex("G"), blue = spec.channelindex("B");
-  if (red >= 0 && green >= 0 && blue >= 0) return {red, green, blue, order.alpha};
-  std::vector<int> color;
-  for (int c = 0; c < spec.nchannels; ++c)
-    if (c != order.alpha && spec.channelnames[std::size_t(c)] != "Z") color.push_back(c);
-  if (color.empty()) return {0, 0, 0, -1};  // alpha alone: taken as grey
-  if (color.size() < 3) return {color[0], color[0], color[0], order.alpha};
-  return {color[0], color[1], color[2], order.alpha};
-}
-
-// How stored values become linear ones.
-struct Transfer {
-  enum Kind { linear, srgb, power } kind = linear;
-  float exponent = 1.0f;
-
-  float operator()(float value) const {
-    if (kind == srgb) return decodeSrgb(value);
-    if (kind == power) return std::copysign(std::pow(std::abs(value), exponent), value);
-    return value;
-  }
-};
-
-Transfer transferOf(const OIIO::ImageSpec& spec) {
-  const bool isFloat = spec.format.is_floating_point();
-  const std::string space = spec.get_string_attribute("oiio:ColorSpace");
-  const float gamma = spec.get_float_attribute("oiio:Gamma", 0.0f);
-  if (OIIO::Strutil::iequals(space, "Linear") || OIIO::Strutil::istarts_with(space, "lin")) return {};
-  if (OIIO::Strutil::istarts_with(space, "Gamma") && gamma > 0.0f) return {Transfer::power, gamma};
-  // Readers call every file without a statement sRGB, which is wrong for floats.
-  if (isFloat) return {};
-  return {Transfer::srgb, 1.0f};
-}
+using foreign::Curve;
+using foreign::Picture;
+using foreign::Sample;
 
 // Where the pixel at (x, y) of the upright picture is stored, for the eight orientations of TIFF and EXIF.
 std::size_t storedAt(int orientation, int x, int y, int width, int height) {
@@ -92,54 +51,66 @@ std::size_t storedAt(int orientation, int x, int y, int width, int height) {
   return std::size_t(row) * std::size_t(columns) + std::size_t(column);
 }
 
-// An image as it is stored.
-struct Stored {
-  OIIO::ImageSpec spec;
-  std::vector<float> data;
-  bool straight = false;  // colours are not multiplied by alpha
-
-  int orientation() const { return spec.get_int_attribute("Orientation", 1); }
-  bool turned() const { return orientation() >= 5 && orientation() <= 8; }
-  int width() const { return turned() ? spec.height : spec.width; }
-  int height() const { return turned() ? spec.width : spec.height; }
-  // The channels of a pixel of the upright picture.
-  const float* at(int x, int y) const {
-    return data.data() + storedAt(orientation(), x, y, width(), height()) * std::size_t(spec.nchannels);
-  }
-};
-
-Stored readStored(const std::filesystem::path& file) {
+// The file's own words of what is wrong become a sentence.
+Picture pictureIn(const std::filesystem::path& file, Picture (*read)(const std::filesystem::path&)) {
   const std::string name = file.string();
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw ExemplarError(name + " does not exist.");
   if (std::filesystem::is_directory(status)) throw ExemplarError(name + " is a folder, not an image.");
+  if (!std::filesystem::is_regular_file(status)) throw ExemplarError(name + " is no file of an image.");
+  try {
+    return read(file);
+  } catch (const foreign::Unreadable& wrong) {
+    throw ExemplarError(name + " " + wrong.what() + ".");
+  }
+}
 
-  // Colours of transparent pixels are kept as they are stored; dividing them back would lose them.
-  OIIO::ImageSpec hints;
-  hints.attribute("oiio:UnassociatedAlpha", 1);
-  const auto input = OIIO::ImageInput::open(name, &hints);
-  if (!input) {
-    OIIO::geterror();  // The library prints what nobody has fetched.
-    throw ExemplarError(name + " cannot be read as an image.");
+// The upright picture, whole numbers as 0..1.
+struct Upright {
+  const Picture& picture;
+
+  bool turned() const { return picture.orientation >= 5 && picture.orientation <= 8; }
+  int width() const { return turned() ? picture.height : picture.width; }
+  int height() const { return turned() ? picture.width : picture.height; }
+  bool alpha() const { return picture.channels == 2 || picture.channels == 4; }
+  int colors() const { return picture.channels < 3 ? 1 : 3; }
+
+  // `channels` values.
+  void at(int x, int y, float* out) const {
+    const std::size_t first =
+        storedAt(picture.orientation, x, y, width(), height()) * std::size_t(picture.channels);
+    const char* from = picture.samples.data() + first * picture.sampleSize();
+    for (int c = 0; c < picture.channels; ++c, from += picture.sampleSize()) out[c] = number(from);
   }
-  const OIIO::ImageSpec spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.deep || spec.depth > 1)
-    throw ExemplarError(name + " is not a flat picture.");
-  if (spec.width > kLargestSide || spec.height > kLargestSide ||
-      std::int64_t(spec.width) * spec.height > kLargestArea)
-    throw ExemplarError(name + " is too large: it has " + std::to_string(spec.width) + " x " +
-                        std::to_string(spec.height) + " pixels, and at most " + std::to_string(kLargestSide) +
-                        " a side and " + std::to_string(kLargestArea >> 20) + " million in all can be used.");
-  Stored stored{spec, {}, false};
-  stored.data.resize(std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(spec.nchannels));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, stored.data.data())) {
-    input->geterror();
-    throw ExemplarError(name + " is damaged or cut short.");
+
+ private:
+  float number(const char* from) const {
+    if (picture.sample == Sample::byte) return float(static_cast<unsigned char>(*from)) * (1.0f / 255.0f);
+    if (picture.sample == Sample::real) {
+      float value;
+      std::memcpy(&value, from, sizeof value);
+      return value;
+    }
+    std::uint16_t value;
+    std::memcpy(&value, from, sizeof value);
+    return float(value) * (1.0f / 65535.0f);
   }
-  // Asked for after reading: that is when a reader knows whether the hint could be followed.
-  stored.straight = input->spec().get_int_attribute("oiio:UnassociatedAlpha", 0) != 0;
-  return stored;
+};
+
+float toLinear(const Picture& picture, float value) {
+  if (picture.curve == Curve::srgb) return decodeSrgb(value);
+  if (picture.curve == Curve::power) return std::copysign(std::pow(std::abs(value), picture.exponent), value);
+  return value;
+}
+
+// The linear value of each whole number that can be stored, which takes a power each; of floats none.
+std::vector<float> tableOf(const Picture& picture) {
+  if (picture.sample == Sample::real) return {};
+  std::vector<float> table(picture.sample == Sample::byte ? 256 : 65536);
+  const float step = 1.0f / float(table.size() - 1);
+  for (std::size_t i = 0; i < table.size(); ++i) table[i] = toLinear(picture, float(i) * step);
+  return table;
 }
 
 void checkFinite(const Image& image, const std::string& name) {
@@ -150,22 +121,26 @@ void checkFinite(const Image& image, const std::string& name) {
 }  // namespace
 
 Image readImage(const std::filesystem::path& file) {
-  const Stored stored = readStored(file);
-  const bool straight = stored.straight;
-  const ChannelOrder order = channelOrder(stored.spec);
-  const Transfer toLinear = transferOf(stored.spec);
-  Image image{stored.width(), stored.height(), 4, {}};
+  const Picture picture = pictureIn(file, foreign::readColors);
+  const Upright upright{picture};
+  const std::vector<float> table = tableOf(picture);
+  const float steps = float(table.size()) - 1.0f;
+  Image image{upright.width(), upright.height(), 4, {}};
   image.data.resize(std::size_t(image.width) * std::size_t(image.height) * 4);
   tbb::parallel_for(0, image.height, [&](int y) {
     for (int x = 0; x < image.width; ++x) {
-      const float* in = stored.at(x, y);
+      float in[4];
+      upright.at(x, y, in);
       float* out = image.at(x, y);
-      const float alpha = order.alpha < 0 ? 1.0f : in[order.alpha];
+      const float alpha = upright.alpha() ? in[picture.channels - 1] : 1.0f;
       out[3] = std::clamp(alpha, 0.0f, 1.0f);  // passes on what is not a number, to be refused below
-      const int index[3] = {order.red, order.green, order.blue};
+      const bool asStored = picture.straight != 0 || alpha <= 0.0f || alpha == 1.0f;
       for (int c = 0; c < 3; ++c) {
-        const float value = in[index[c]];
-        out[c] = toLinear(straight || alpha <= 0.0f || alpha == 1.0f ? value : value / alpha);
+        const float value = in[upright.colors() == 3 ? c : 0];
+        if (asStored && !table.empty())
+          out[c] = table[std::size_t(value * steps + 0.5f)];
+        else
+          out[c] = toLinear(picture, asStored ? value : value / alpha);
       }
     }
   });
@@ -174,15 +149,16 @@ Image readImage(const std::filesystem::path& file) {
 }
 
 Image readMap(const std::filesystem::path& file, int channels) {
-  const Stored stored = readStored(file);
-  const ChannelOrder order = channelOrder(stored.spec);
-  const bool grey = order.red == order.green && order.green == order.blue;
-  Image image{stored.width(), stored.height(), channels > 0 ? channels : grey ? 1 : 3, {}};
+  const Picture picture = pictureIn(file, foreign::readNumbers);
+  const Upright upright{picture};
+  Image image{upright.width(), upright.height(), channels > 0 ? channels : upright.colors(), {}};
   image.data.reserve(std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels));
-  const int index[3] = {order.red, order.green, order.blue};
   for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < image.channels; ++c) image.data.push_back(stored.at(x, y)[index[c]]);
+    for (int x = 0; x < image.width; ++x) {
+      float in[4];
+      upright.at(x, y, in);
+      for (int c = 0; c < image.channels; ++c) image.data.push_back(in[upright.colors() == 3 ? c : 0]);
+    }
   checkFinite(image, file.string());
   return image;
 }

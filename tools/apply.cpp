@@ -11,6 +11,7 @@
 #include "tools/finished_run.h"
 #include "tools/journal.h"
 #include "tools/out_folder.h"
+#include "tools/image_notes.h"
 #include "tools/ply.h"
 
 #include <fmt/core.h>
@@ -81,6 +82,9 @@ void applyMaps(const ApplyWishes& wishes) {
                                                          texture::readImage(map.file), width, run.toroidal)}
                                                    : texture::loadMap(map, width, run.toroidal));
   }
+  for (const texture::MapOptions& map : wishes.maps)
+    if (map.name == kColor)
+      for (const std::string& note : imageNotes({map.file})) fmt::print(stderr, "warning: {}\n", note);
   for (const int frame : run.frames) {
     texture::TexturedSurface surface = readPly(run.surfaceOf(frame), width, height);
     if (vectors && !surface.empty()) {

@@ -1,5 +1,6 @@
 #include "tools/errors.h"
 
+#include "scenes/faults.h"
 #include "scenes/scene.h"
 #include "sim/read_heights.h"
 #include "sim/read_mesh.h"

@@ -18,14 +18,29 @@ namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
 
+// Whether it has what the commands look for, in the types that they take.
+bool isReport(const Json& report) {
+  const auto texture = "/scene/texture"_json_pointer;
+  if (!report.is_object() || !report.contains(texture) || !report[texture].is_object()) return false;
+  const Json& own = report[texture];
+  const auto fits = [](const Json& object, const char* key, auto is) {
+    return !object.contains(key) || (object[key].*is)();
+  };
+  if (!fits(own, "exemplar", &Json::is_string) || !fits(own, "toroidal", &Json::is_boolean)) return false;
+  const auto frames = report.find("frames");
+  return frames != report.end() && frames->is_array() &&
+         std::all_of(frames->begin(), frames->end(), [&](const Json& record) {
+           return record.is_object() && fits(record, "frame", &Json::is_number_integer);
+         });
+}
+
 // run.json, and what it lacks of a run that was killed or goes on.
 Json readReport(const fs::path& out) {
   const fs::path file = out / "run.json";
   std::ifstream in(file, std::ios::binary);
   if (!in) throw UsageError(file.string() + ": cannot be read; give the folder of a run of fluidtex run");
   Json report = Json::parse(std::string{std::istreambuf_iterator<char>(in), {}}, nullptr, false);
-  if (report.is_discarded() || !report.contains("/scene/texture"_json_pointer) ||
-      !report.contains("frames") || !report["frames"].is_array())
+  if (!isReport(report))
     throw UsageError(file.string() + ": is no report of a run; give the folder of a run of fluidtex run");
   Json& frames = report["frames"];
   const int last = !frames.empty() && frames.back().is_object() ? frames.back().value("frame", 0) : 0;

@@ -17,6 +17,7 @@
 #include "tools/fingerprint.h"
 #include "tools/input_files.h"
 #include "tools/journal.h"
+#include "tools/image_notes.h"
 #include "tools/onto_mesh.h"
 #include "tools/orientation_guide.h"
 #include "tools/ply.h"
@@ -106,6 +107,7 @@ class FrameLoop {
       clearEarlierRun(m_options.out, m_scene.name);
     }
     for (const std::string& warning : sim::warningsOf(*m_motion)) warn(warning);
+    for (const std::string& note : imageNotes(colorPictures(m_scene.texture.exemplar))) warn(note);
     const int first = sim::stateOf(*m_motion).frame + 1;
     spdlog::info("{}: frames {} to {}, {} threads", m_scene.name, first, m_last, m_options.threads);
     Progress progress(first, m_last, m_options.quiet);

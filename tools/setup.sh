@@ -3,9 +3,10 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
+# install_missing_packages LIST: those of tools/LIST.
 install_missing_packages() {
   local wanted missing
-  wanted=$(sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$root/tools/packages.txt")
+  wanted=$(sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$root/tools/$1")
   if ! command -v dpkg-query >/dev/null; then
     echo "tools/setup.sh: this is not Debian; install the like of these packages by hand:" $wanted >&2
     return
@@ -34,4 +35,4 @@ build() {
   cd "$OLDPWD"
 }
 
-install_missing_packages
+install_missing_packages packages.txt

@@ -57,6 +57,14 @@ TEST_CASE("fluidtex measure: a folder that holds no run is refused in one senten
   refusedFor("run.json: cannot be read");
   std::ofstream(scratch.path / "run.json") << "{\"frames\": []";
   refusedFor("run.json: is no report of a run");
+  for (const char* odd :
+       {R"([])", R"({"scene": 1, "frames": []})", R"({"scene": {"texture": {"exemplar": 3}}, "frames": []})",
+        R"({"scene": {"texture": {"toroidal": "yes"}}, "frames": []})",
+        R"({"scene": {"texture": {}}, "frames": [1]})",
+        R"({"scene": {"texture": {}}, "frames": [{"frame": "one"}]})"}) {
+    std::ofstream(scratch.path / "run.json") << odd;
+    refusedFor("run.json: is no report of a run");
+  }
   const auto write = [&](const std::string& exemplar) {
     std::ofstream(scratch.path / "run.json")
         << R"({"scene": {"texture": {"exemplar": ")" << exemplar << R"("}}, "frames": []})";

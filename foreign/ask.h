@@ -1,0 +1,27 @@
+// Libraries that read files of others may crash on a damaged one, never come to an end, or take all memory.
+// They run in fluidtex_reader, a program of its own, which is started with the first question and reads each
+// file in a process that is limited in time and memory and that writes nothing.
+#pragma once
+
+#include "foreign/unreadable.h"
+
+#include <filesystem>
+#include <functional>
+#include <string_view>
+
+namespace fluidtex::foreign {
+
+enum class Wanted : char {
+  colors = 'c',      // a picture, as light
+  numbers = 'n',     // a picture, as what is stored
+  color_note = 'k',  // of a picture only what there is to say of its colours
+  floats = 'f',      // the first grid of floats of an OpenVDB file
+  vectors = 'v',     // the first one of float vectors
+};
+
+// Has the file read, and gives the answer to `take` in pieces, in order. Throws Unreadable: what the reader
+// finds wrong, and where it crashes, takes longer than the file's size warrants (6 s and one more a megabyte
+// and 5 million pixels) or more than 1.5 GB. From several threads the files are read one after another.
+void ask(Wanted wanted, const std::filesystem::path& file, const std::function<void(std::string_view)>& take);
+
+}  // namespace fluidtex::foreign

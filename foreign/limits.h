@@ -1,0 +1,17 @@
+// What a process that reads a file of others may do.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace fluidtex::foreign {
+
+// Of this process, from now on: 6 s of processor time and one more a megabyte of the file, three times as
+// many in all, 1.5 GB more memory than it has, no byte written to a file, no core, and its end where its
+// parent ends.
+void limitThisProcess(const std::filesystem::path& file);
+
+// Another second for each 5 million pixels that the file says it has: some say much in few bytes.
+void allowTimeFor(std::int64_t pixels);
+
+}  // namespace fluidtex::foreign

@@ -1,0 +1,98 @@
+// fluidtex_reader: reads files of others for the program that has started it. Questions come on standard
+// input, which is a socket, and are answered there (foreign/packets.h); each file is read by a process of its
+// own, so that this one outlives them all. The libraries, which take longer to load than most files to read,
+// are there once.
+#include "foreign/limits.h"
+#include "foreign/packets.h"
+#include "foreign/read_grid.h"
+#include "foreign/read_picture.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <new>
+#include <string>
+
+namespace {
+
+using namespace fluidtex::foreign;
+
+constexpr int kSocket = STDIN_FILENO;
+
+void say(Packet packet, std::string_view bytes) {
+  sendPackets(kSocket, char(packet), bytes);
+}
+
+void answer(Wanted wanted, const std::filesystem::path& file) {
+  switch (wanted) {
+    case Wanted::colors:
+    case Wanted::numbers: {
+      const Picture picture = here::readPicture(file, wanted == Wanted::numbers);
+      const PictureHead& head = picture;
+      say(Packet::data, {reinterpret_cast<const char*>(&head), sizeof head});
+      say(Packet::data, picture.samples);
+      break;
+    }
+    case Wanted::color_note:
+      say(Packet::data, here::colorNote(file));
+      break;
+    case Wanted::floats:
+    case Wanted::vectors:
+      say(Packet::data, here::readGrid(file, wanted == Wanted::vectors));
+      break;
+  }
+}
+
+[[noreturn]] void readAndEnd(Wanted wanted, const std::filesystem::path& file) {
+  limitThisProcess(file);
+  try {
+    answer(wanted, file);
+  } catch (const Unreadable& error) {
+    say(Packet::wrong, error.what());
+  } catch (const std::bad_alloc&) {
+    _exit(kNoMemory);
+  } catch (const std::exception& error) {
+    say(Packet::wrong, "cannot be read: " + asClause(error.what()));
+  }
+  _exit(0);  // Nothing of the libraries' needs to be tidied up.
+}
+
+// What a program has made of its signals is left to its children.
+void useOwnSignals() {
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  for (const int signal :
+       {SIGALRM, SIGXCPU, SIGXFSZ, SIGCHLD, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTERM})
+    std::signal(signal, SIG_DFL);
+  std::signal(SIGINT, SIG_IGN);  // The terminal's goes to all; what it means is the program's to say.
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+}  // namespace
+
+int main() {
+  useOwnSignals();
+  // A process that has forked has no threads but one.
+  OIIO::attribute("threads", 1);
+  OIIO::attribute("exr_threads", -1);
+  OIIO::get_string_attribute("format_list");  // Its readers are listed once, and not by each process.
+  static char bytes[kLongestPacket];
+  for (;;) {
+    char letter = 0;
+    const ssize_t size = receivePacket(kSocket, letter, bytes);
+    if (size < 0) return 0;
+    const std::string file(bytes, std::size_t(size));
+    int status = 0;
+    const pid_t child = fork();
+    if (child == 0) readAndEnd(Wanted(letter), file);
+    if (child < 0) say(Packet::wrong, "cannot be read: no process can be started for it");
+    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    say(Packet::ended, {reinterpret_cast<const char*>(&status), sizeof status});
+  }
+}

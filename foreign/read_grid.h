@@ -1,0 +1,15 @@
+// The reader's side of foreign/grid.h: called in a process that may come to harm.
+#pragma once
+
+#include "foreign/unreadable.h"
+
+#include <filesystem>
+#include <string>
+
+namespace fluidtex::foreign::here {
+
+// The first grid of floats, or of float vectors, of an OpenVDB file, written anew as a stream: what comes
+// back is whole, however damaged the file was that could still be read. Throws Unreadable.
+std::string readGrid(const std::filesystem::path& file, bool vectors);
+
+}  // namespace fluidtex::foreign::here

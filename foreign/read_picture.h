@@ -1,0 +1,11 @@
+// The reader's side of foreign/picture.h: called in a process that may come to harm.
+#pragma once
+
+#include "foreign/picture.h"
+
+namespace fluidtex::foreign::here {
+
+Picture readPicture(const std::filesystem::path& file, bool asNumbers);
+std::string colorNote(const std::filesystem::path& file);
+
+}  // namespace fluidtex::foreign::here

@@ -1,0 +1,10 @@
+// Heights from a picture.
+#include "sim/read_heights.h"
+#include "tests/fuzz/reader.h"
+
+using namespace fluidtex;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto file = fuzz::written("heights.png", data, size);
+  return fuzz::outcomeOf<sim::HeightError>([&] { sim::readHeights(file); });
+}

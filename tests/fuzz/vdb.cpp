@@ -1,0 +1,11 @@
+// A volume of floats.
+#include "tests/fuzz/reader.h"
+#include "texture/read_grid.h"
+
+using namespace fluidtex;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const bool once = (openvdb::initialize(), true);
+  const auto file = fuzz::written("a.vdb", data, size);
+  return fuzz::outcomeOf<std::runtime_error>([&] { once&& texture::readGrid<openvdb::FloatGrid>(file); });
+}
