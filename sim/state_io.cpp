@@ -2,6 +2,7 @@
 
 #include <openvdb/io/File.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -25,6 +26,26 @@ class Archive : public openvdb::io::Archive {
  public:
   void put(std::ostream& out, const openvdb::GridCPtrVec& grids, const openvdb::MetaMap& metadata) const {
     openvdb::io::Archive::write(out, grids, true, metadata);
+  }
+};
+
+// Hands on to the disk what fills its buffer, however large the parts are that it gets; std::filebuf itself
+// passes each one of a kilobyte or more on by itself, a leaf at a time.
+class BlockBuffer : public std::filebuf {
+ protected:
+  std::streamsize xsputn(const char* data, std::streamsize size) override {
+    std::streamsize done = 0;
+    while (done < size) {
+      const auto room = std::min<std::streamsize>(epptr() - pptr(), size - done);
+      if (room > 0) {
+        std::memcpy(pptr(), data + done, static_cast<std::size_t>(room));
+        pbump(static_cast<int>(room));
+        done += room;
+      } else if (overflow(traits_type::to_int_type(data[done++])) == traits_type::eof()) {
+        return done - 1;
+      }
+    }
+    return done;
   }
 };
 
@@ -92,14 +113,16 @@ void writeState(const State& state, const std::filesystem::path& file) {
 
   openvdb::initialize();
   std::vector<char> buffer(std::size_t{1} << 20);
-  std::ofstream stream;
-  stream.rdbuf()->pubsetbuf(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-  stream.open(file, std::ios::binary | std::ios::trunc);
+  BlockBuffer blocks;
+  blocks.pubsetbuf(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+  std::ostream stream(&blocks);
+  if (blocks.open(file, std::ios::out | std::ios::binary | std::ios::trunc) == nullptr)
+    stream.setstate(std::ios::failbit);
   Archive archive;
   archive.setCompression(openvdb::io::COMPRESS_NONE);
   if (stream) archive.put(stream, out, metadata);
-  stream.close();
-  if (!stream) throw openvdb::IoError(file.string() + ": cannot be written: " + std::strerror(errno));
+  if (blocks.close() == nullptr || !stream)
+    throw openvdb::IoError(file.string() + ": cannot be written: " + std::strerror(errno));
 }
 
 State readState(const std::filesystem::path& file) {

@@ -17,7 +17,8 @@ TEST_CASE("out folder: one holds it, and lets go of it with all that was there f
   const fs::path out = scratch.path / "a" / "out";
   {
     const OutFolder folder(out);
-    CHECK_THROWS_WITH(OutFolder(out), Catch::Contains(out.string() + ": process " + std::to_string(getpid())));
+    CHECK_THROWS_WITH(OutFolder(out),
+                      Catch::Contains(out.string() + ": process " + std::to_string(getpid())));
   }
   CHECK(fs::is_empty(out));
   const OutFolder again(out);
@@ -76,20 +77,24 @@ TEST_CASE("fluidtex run: nothing outside the folder is written or removed", "[to
 TEST_CASE("fluidtex: two into one folder, the second is refused and the first goes on", "[tools]") {
   const Scratch scratch;
   const fs::path out = scratch.path / "out";
-  const std::vector<std::string> run{"run", kSmallScene, "--no-render", "--set", "frames=500", "--out", out.string()};
+  const std::vector<std::string> run{"run",        kSmallScene, "--no-render", "--set",
+                                     "frames=500", "--out",     out.string()};
   const Program first(run);
   first.waitForLines(out / "log.txt", 0, 2);
   const std::string log = readBytes(out / "log.txt");
   std::vector<std::string> resume = run;
   resume.emplace_back("--resume");
   for (const std::vector<std::string>& args :
-       {run, resume, {"measure", out.string()}, {"apply", out.string(), "height=x.png"},
+       {run,
+        resume,
+        {"measure", out.string()},
+        {"apply", out.string(), "height=x.png"},
         {"render", kSmallScene, "--frames", "1:1", "--from", out.string(), "--out", out.string()}}) {
     const Finished second = runProgram(args);
     INFO(args[0] << ": " << second.all());
     CHECK(second.exitCode == 1);
-    CHECK_THAT(second.err,
-               Catch::Contains(out.string() + ": process " + std::to_string(first.id()) + " is writing into this"));
+    CHECK_THAT(second.err, Catch::Contains(out.string() + ": process " + std::to_string(first.id()) +
+                                           " is writing into this"));
   }
   CHECK_THAT(readBytes(out / "log.txt"), Catch::StartsWith(log));
   first.signal(SIGKILL);

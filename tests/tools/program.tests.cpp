@@ -26,12 +26,12 @@ TEST_CASE("fluidtex run: writes every file of a run, and run.json with every fra
   REQUIRE(run.exitCode == 0);
   CHECK(run.out.empty());
   CHECK_THAT(run.err, Catch::Contains("frame 5/5"));
-  CHECK(filesIn(out) ==
-        std::vector<std::string>{"frames/0001.png", "frames/0002.png", "frames/0003.png", "frames/0004.png",
-                                 "frames/0005.png", "log.txt", "run.json", "small.mp4",
-                                 "state/0005/manifest.txt", "state/0005/run.json", "state/0005/solver.vdb",
-                                 "state/0005/surface.bin", "state/journal.txt", "surface/0001.ply", "surface/0002.ply",
-                                 "surface/0003.ply", "surface/0004.ply", "surface/0005.ply"});
+  CHECK(filesIn(out) == std::vector<std::string>{
+                            "frames/0001.png", "frames/0002.png", "frames/0003.png", "frames/0004.png",
+                            "frames/0005.png", "log.txt", "run.json", "small.mp4", "state/0005/manifest.txt",
+                            "state/0005/run.json", "state/0005/solver.vdb", "state/0005/surface.bin",
+                            "state/journal.txt", "surface/0001.ply", "surface/0002.ply", "surface/0003.ply",
+                            "surface/0004.ply", "surface/0005.ply"});
   const auto json = nlohmann::json::parse(readBytes(out / "run.json"));
   REQUIRE(json.at("frames").size() == 5);
   const auto& first = json.at("frames").front();
@@ -199,9 +199,7 @@ TEST_CASE("fluidtex: version, help with an example for each subcommand, and the 
 
 TEST_CASE("fluidtex run: goes on where nothing can be printed, and the log is as ever", "[tools]") {
   const Scratch scratch;
-  const auto onto = [](int stream, const char* file) {
-    return [=] { dup2(open(file, O_WRONLY), stream); };
-  };
+  const auto onto = [](int stream, const char* file) { return [=] { dup2(open(file, O_WRONLY), stream); }; };
   const auto closed = [](int stream) { return [=] { close(stream); }; };
   const std::vector<std::function<void()>> streams = {onto(STDERR_FILENO, "/dev/full"), closed(STDERR_FILENO),
                                                       closed(STDOUT_FILENO), closed(STDIN_FILENO), [] {
@@ -210,7 +208,9 @@ TEST_CASE("fluidtex run: goes on where nothing can be printed, and the log is as
   for (std::size_t n = 0; n < streams.size(); ++n) {
     const fs::path out = scratch.path / std::to_string(n);
     INFO("case " << n);
-    CHECK(runProgramWith(streams[n], {"run", kSmallScene, "--frames", "1:1", "--out", out.string()}).exitCode == 0);
+    CHECK(
+        runProgramWith(streams[n], {"run", kSmallScene, "--frames", "1:1", "--out", out.string()}).exitCode ==
+        0);
     const std::string log = readBytes(out / "log.txt");
     CHECK(occurrences(log, "\n") == 2);
     CHECK(occurrences(log, "[info]") == 2);
