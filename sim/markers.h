@@ -43,7 +43,7 @@ Markers seedMarkers(const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64
                     const Visibility* visibility = nullptr);
 
 // The markers dt seconds later (give them away: there are too many to keep twice): third-order Runge-Kutta,
-// velocity trilinear. dt max|u| / h must be below 5.
+// velocity trilinear. Throws std::invalid_argument where dt max|u| / h is not below 5 (kMaxTrace).
 // Markers of the air that the flow squeezes out between liquid and liquid are dropped.
 Markers advectMarkers(Markers markers, const Velocity& velocity, double dt);
 

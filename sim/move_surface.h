@@ -12,9 +12,9 @@ namespace fluidtex::sim {
 
 // Moves phi and its markers with the velocity for dt seconds, and makes phi a distance again: advection
 // (advectPhi, advectMarkers), what sources and drains do, correction by the markers before and after the
-// reinitialisation, and upkeep of the markers. dt max|u| / h must be below kMaxTrace; the velocity must reach
-// that far beyond the band, into solids too. `seed` must differ from call to call. The sequence is that of
-// Enright et al. 2002, section 3.
+// reinitialisation, and upkeep of the markers. dt max|u| / h must be below kMaxTrace (else
+// std::invalid_argument); the velocity must reach that far beyond the band, into solids too. `seed` must
+// differ from call to call. The sequence is that of Enright et al. 2002, section 3.
 void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const SolidField& solid,
                  double dt, std::uint64_t seed, const RunningFlows& flows = {});
 

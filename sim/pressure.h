@@ -59,9 +59,9 @@ struct Projection {
 // and liquid may leave them (see PressureOptions). On an open side of the domain pressure is 0, and nothing
 // comes in. Faces with a given velocity get it, whatever the pressure. dt in s, density in kg/m3. Faces are
 // written, and made active, where Projection::valid says; the rest stays as it was. The same bytes on any
-// number of threads. Does not throw when it fails to converge: the report says so. Sources: Gibou, Fedkiw,
-// Cheng, Kang 2002 (surface); Ng, Min, Gibou 2009 (solids); Batty, Bertails, Bridson 2007, section 5
-// (separation).
+// number of threads. Does not throw when it fails to converge: the report says so; throws
+// std::invalid_argument where dt or density is not positive. Sources: Gibou, Fedkiw, Cheng, Kang 2002
+// (surface); Ng, Min, Gibou 2009 (solids); Batty, Bertails, Bridson 2007, section 5 (separation).
 [[nodiscard]] Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
                                  const SolidField& solid, double dt, double density,
                                  const PressureOptions& options = {});

@@ -47,7 +47,8 @@ bool isNegligible(const ViscosityField& viscosity, double dt, double density, do
 // 0, and at faces in solids next to them, which get the solid's velocity. phi in metres, extended into
 // solids. A motion without deformation (translation, rotation) comes out as it went in. At solids that slip
 // and do not stand along an axis the normal component is left to the pressure. The same bytes on any number
-// of threads. Does not throw when it fails to converge: the report says so, and nothing is touched.
+// of threads. Does not throw when it fails to converge: the report says so, and nothing is touched; throws
+// std::invalid_argument where the density is not positive, or dt or the viscosity negative.
 //
 // Source: Batty and Bridson, "Accurate viscous free surfaces for buckling, coiling, and rotating liquids",
 // 2008.

@@ -167,7 +167,7 @@ struct ExemplarOptions {
 struct Options {
   ExemplarOptions exemplar;
   // Distance of neighbouring points, metres: one exemplar pixel. 0: chosen so that the first frame that has a
-  // surface gets `points` points.
+  // surface gets `points` points, or the surface that a scene will have where liquid is still to come.
   double spacing = 0.0;
   int points = 40000;
   // 0 fresh on each frame to 1 kept until it breaks: what laterFrames, keepStretch, renewalRate and fade

@@ -320,7 +320,15 @@ void orient(Surface& surface, const Carried& carried, const OrientOptions& optio
             const OrientWishes& wishes) {
   if (surface.empty()) return;
   auto& levels = surface.levels;
+  if (options.symmetry < 1) throw std::invalid_argument("orient: the symmetry must be 1 or more");
+  for (const SurfaceMesh& mesh : levels) {
+    if (mesh.normals.size() != mesh.positions.size())
+      throw std::invalid_argument("orient: a mesh must have one normal per vertex");
+  }
   if (!carried.empty()) {
+    const std::size_t count = levels[0].positions.size();
+    if (carried.orientation.size() != count || carried.trust.size() != count)
+      throw std::invalid_argument("orient: carried arrays must have one entry per vertex");
     orientCarried(surface, carried, options, wishes);
     for (std::size_t level = 1; level < levels.size(); ++level) {
       writeOrientation(handOver(levels[level - 1], levels[level], options.symmetry), options.symmetry,

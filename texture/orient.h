@@ -35,7 +35,7 @@ struct OrientWishes {
 // hardly changes; where trust is low, and around two opposite singularities that are near each other, it is
 // taken from the neighbours. Directions are averaged as complex
 // numbers in the polar map of each vertex. Throws std::invalid_argument if a level's mesh is not closed and
-// manifold, or if wishes are not one a vertex.
+// manifold, if what is wished or carried is not one a vertex, or if symmetry is below 1.
 void orient(Surface& surface, const Carried& carried, const OrientOptions& options = {},
             const OrientWishes& wishes = {});
 

@@ -208,6 +208,15 @@ Surface prepareSurface(const openvdb::FloatGrid& phi, double spacing, const std:
 
 Surface prepareSurface(const openvdb::FloatGrid& phi, double spacing, const Seeds& seeds, int levels,
                        const SurfaceOptions& options, const PointScale& scale) {
+  if (levels < 1) throw std::invalid_argument("a surface has at least one level");
+  const std::size_t count = seeds.positions.size();
+  if ((!seeds.previous.empty() && seeds.previous.size() != count) ||
+      (!seeds.scale.empty() && seeds.scale.size() != count))
+    throw std::invalid_argument("the seeds' arrays must have one entry per point");
+  for (const Vec3I& t : seeds.triangles) {
+    if (std::max({t[0], t[1], t[2]}) >= count)
+      throw std::invalid_argument("the seeds have a triangle whose vertex does not exist");
+  }
   const Ground ground = groundOf(phi, spacing, scale);
   Surface surface;
   if (ground.iso.triangles.empty()) return surface;

@@ -30,7 +30,7 @@ struct Seeds {
 // `levels` meshes are made: options.levels for a first frame, 1 after it.
 // `scale`: a factor on the spacing, place by place (texture/point_scale.h); empty: 1 everywhere.
 // Same input, same bytes, on any number of threads. No surface: an empty result.
-// Throws std::invalid_argument if spacing <= 0 or phi holds a value that is not finite.
+// Throws std::invalid_argument if spacing <= 0, levels < 1, phi holds a value that is not finite, or the seeds' arrays do not fit.
 Surface prepareSurface(const openvdb::FloatGrid& phi, double spacing, const Seeds& seeds, int levels,
                        const SurfaceOptions& options, const PointScale& scale = {});
 Surface prepareSurface(const openvdb::FloatGrid& phi, double spacing, const std::vector<Vec3f>& seeds, int levels,

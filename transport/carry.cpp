@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace fluidtex::transport {
 namespace {
@@ -110,6 +111,22 @@ Vec3d slopeAt(VelocitySampler& sampler, const Vec3d& x, int axis, double h) {
   return known(ahead) && known(behind) ? (ahead.velocity - behind.velocity) / width : Vec3d(0.0);
 }
 
+// All that is picked up has one entry a vertex. (Whether the triangles' vertices exist, ClosestPoint looks.)
+void checkSizes(const TexturedSurface& previous, const SurfaceMesh& next, int symmetry) {
+  if (symmetry < 1) throw std::invalid_argument("carry: the symmetry must be 1 or more");
+  if (next.normals.size() != next.positions.size())
+    throw std::invalid_argument("carry: the new mesh must have one normal per vertex");
+  const auto right = [&](std::size_t size) { return size == previous.positions.size(); };
+  const texture::Fading& fading = previous.fading;
+  const auto foam = previous.maps.find(texture::kFoam);
+  if (!right(previous.normals.size()) || !right(previous.orientation.size()) ||
+      !right(previous.color.size()) || !right(previous.coordinate.size()) ||
+      !right(previous.gradient.size()) || !right(previous.age.size()) || !right(fading.coordinate.size()) ||
+      !right(fading.gradient.size()) || !right(fading.weight.size()) || !right(fading.speed.size()) ||
+      (foam != previous.maps.end() && !right(foam->second.size())))
+    throw std::invalid_argument("carry: the last surface's arrays must have one entry per vertex");
+}
+
 }  // namespace
 
 std::vector<Vec3f> moved(const std::vector<Vec3f>& positions, const sim::Frame& frame) {
@@ -165,6 +182,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
                        int symmetry, const Options& options) {
   Carried carried;
   if (previous.empty() || previous.triangles.empty()) return carried;
+  checkSizes(previous, next, symmetry);
   const std::size_t count = next.positions.size();
   const bool onGrid = options.method == Method::grid, turning = options.orientation == Turning::vector;
   const double least = halfVoxel(frame);

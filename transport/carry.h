@@ -33,7 +33,8 @@ std::vector<std::uint8_t> contactAt(const std::vector<texture::Vec3f>& positions
 //    options.orientation), tangent to the new surface; directions that turns of 360 / symmetry degrees make
 //    equal are interpolated as one. With Method::grid it goes over the grid instead, as an arrow: symmetry 1.
 // trust: transport/trust.h, times the share of the path along which the velocity is known; no more than that
-// of stretch. previous empty (the first frame with a surface): an empty result.
+// of stretch. previous empty (the first frame with a surface): an empty result. Throws std::invalid_argument
+// where an array of the old surface has not one entry per vertex, or the new mesh no normals.
 texture::Carried carry(const texture::TexturedSurface& previous, const sim::Frame& frame,
                        const texture::SurfaceMesh& next, int symmetry = 1, const Options& options = {});
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace fluidtex::transport {
 namespace {
@@ -72,6 +73,11 @@ inline openvdb::Coord ClosestPoint::cellOf(const Vec3d& x) const {
 
 ClosestPoint::ClosestPoint(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles)
     : m_positions(positions), m_triangles(triangles), m_bounds(triangles.size()), m_table(64) {
+  if (triangles.empty()) throw std::invalid_argument("closest points need at least one triangle");
+  for (const Vec3I& t : triangles) {
+    if (std::max({t[0], t[1], t[2]}) >= positions.size())
+      throw std::invalid_argument("closest points: a triangle has a vertex that does not exist");
+  }
   double sum = 0.0, longest = 0.0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const Vec3f a = positions[triangles[t][0]], ab = positions[triangles[t][1]] - a,

@@ -25,7 +25,8 @@ struct SurfacePoint {
 // from the surface whole blocks are ruled out at once.
 class ClosestPoint {
  public:
-  // The arrays are referred to, not copied; at least one triangle.
+  // The arrays are referred to, not copied; at least one triangle, all of whose vertices exist. Else throws
+  // std::invalid_argument.
   ClosestPoint(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles);
 
   // The point with the least distance^2 + (penalty * disagreement)^2 over all triangles. Disagreement is 0 up

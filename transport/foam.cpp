@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace fluidtex::transport {
 namespace {
@@ -19,6 +20,11 @@ float smoothStep(float low, float high, float x) {
 
 std::vector<float> foamAfter(const std::vector<texture::Vec3f>& positions, const sim::Frame& frame,
                              const texture::Carried& carried, double seconds, const texture::Foam& options) {
+  if (!carried.foam.empty() &&
+      (carried.foam.size() != positions.size() || carried.trust.size() != positions.size()))
+    throw std::invalid_argument("foam: what is carried must have one entry per position");
+  if (!(options.lifetime > 0.0) || !(options.from < options.full))
+    throw std::invalid_argument("foam: the lifetime must be positive, and full above from");
   const auto slope = velocitySlopes(positions, frame);
   const auto kept = float(std::exp(-seconds / options.lifetime));
   std::vector<float> foam(positions.size());

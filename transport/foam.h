@@ -14,7 +14,7 @@ namespace fluidtex::transport {
 // (1/s, the root of the sum of its squares) asks for, smoothly from options.from to options.full. What
 // `carried` brings along fades by exp(-seconds / options.lifetime), where it is believed (texture/renewal.h).
 // In the first frame, and where no velocity is known, nothing is added. carried: one entry per position, or
-// empty.
+// empty; else, or where the options make no sense, std::invalid_argument is thrown.
 std::vector<float> foamAfter(const std::vector<texture::Vec3f>& positions, const sim::Frame& frame,
                              const texture::Carried& carried, double seconds, const texture::Foam& options);
 

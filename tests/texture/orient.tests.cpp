@@ -313,3 +313,21 @@ TEST_CASE("orientation: the same bytes on any number of threads", "[texture]") {
   REQUIRE(one.size() == four.size());
   CHECK(std::memcmp(one.data(), four.data(), one.size() * sizeof(Vec3f)) == 0);
 }
+
+TEST_CASE("orientation: arrays that do not fit, and no symmetry, are refused", "[texture]") {
+  Surface surface = levelsOf({sphereMesh(4)});
+  orient(surface, {});
+  const std::size_t count = surface.levels[0].positions.size();
+  Carried carried;
+  carried.previousPosition = surface.levels[0].positions;
+  carried.orientation = surface.levels[0].orientation;
+  carried.trust.assign(count - 1, 1.0f);
+  CHECK_THROWS_AS(orient(surface, carried), std::invalid_argument);
+  carried.trust.assign(count, 1.0f);
+  CHECK_NOTHROW(orient(surface, carried));
+  carried.orientation.pop_back();
+  CHECK_THROWS_AS(orient(surface, carried), std::invalid_argument);
+  CHECK_THROWS_AS(orient(surface, {}, {.symmetry = 0}), std::invalid_argument);
+  surface.levels[0].normals.pop_back();
+  CHECK_THROWS_AS(orient(surface, {}), std::invalid_argument);
+}

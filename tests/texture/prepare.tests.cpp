@@ -285,3 +285,15 @@ TEST_CASE("prepare: wrong input is refused, wherever a value is not finite") {
     }
   }
 }
+
+TEST_CASE("surface: no levels, and seeds whose arrays do not fit, are refused", "[texture]") {
+  const auto grid = sphereGrid(1.0, 0.1);
+  CHECK_THROWS_AS(prepare(*grid, 0.1, {}, 0), std::invalid_argument);
+  const std::vector<Vec3f> points{Vec3f(1, 0, 0), Vec3f(0, 1, 0), Vec3f(0, 0, 1)};
+  const auto refused = [&](const Seeds& seeds) {
+    CHECK_THROWS_AS(prepareSurface(*grid, 0.1, seeds, 1, SurfaceOptions{}), std::invalid_argument);
+  };
+  refused({points, {Vec3f(1, 0, 0)}, {}, {}});
+  refused({points, points, {Vec3I(0, 1, 3)}, {}});
+  refused({points, {}, {}, {1.0f}});
+}

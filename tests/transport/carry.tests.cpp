@@ -167,3 +167,24 @@ TEST_CASE("carry: the same bytes on any number of threads", "[transport]") {
   CHECK(same(one.trust, four.trust));
   CHECK(same(one.previousPosition, four.previousPosition));
 }
+
+TEST_CASE("carry: surfaces whose arrays do not fit are refused", "[transport]") {
+  const SurfaceMesh mesh = sphereMesh(4);
+  const TexturedSurface good = texturedMesh(mesh, constantDirection({0.3, 0.5, 0.8}));
+  const auto refused = [&](auto change) {
+    TexturedSurface bad = good;
+    change(bad);
+    CHECK_THROWS_AS(carry(bad, {}, mesh), std::invalid_argument);
+  };
+  refused([](TexturedSurface& s) { s.color.pop_back(); });
+  refused([](TexturedSurface& s) { s.coordinate.clear(); });
+  refused([](TexturedSurface& s) { s.gradient.pop_back(); });
+  refused([](TexturedSurface& s) { s.fading.weight.clear(); });
+  refused([](TexturedSurface& s) { s.age.emplace_back(); });
+  refused([](TexturedSurface& s) { s.maps[texture::kFoam] = {0.5f}; });
+  refused([](TexturedSurface& s) { s.triangles[0][1] = 1u << 30; });
+  SurfaceMesh bare = mesh;
+  bare.normals.clear();
+  CHECK_THROWS_AS(carry(good, {}, bare), std::invalid_argument);
+  CHECK_THROWS_AS(carry(good, {}, mesh, 0), std::invalid_argument);
+}

@@ -120,3 +120,10 @@ TEST_CASE("closest point: triangles without area and very unlike sizes do no har
   CHECK(closest.nearest({1.0002, 1.0002, 1.2}, {0, 0, 1}, 0.0).triangle == 1);
   CHECK(closest.nearest({-3, -4, 0}, {0, 0, 1}, 0.0).distance == Approx(5.0));
 }
+
+TEST_CASE("closest point: no triangles, and ones without their vertices, are refused", "[transport]") {
+  const std::vector<Vec3f> positions(3, Vec3f(0.0f));
+  CHECK_THROWS_AS(ClosestPoint(positions, {}), std::invalid_argument);
+  const std::vector<Vec3I> beyond{Vec3I(0, 1, 3)};
+  CHECK_THROWS_AS(ClosestPoint(positions, beyond), std::invalid_argument);
+}

@@ -77,3 +77,13 @@ TEST_CASE("foam: carried along with the surface, where there is any", "[transpor
   for (std::size_t v = 0; v < after.positions.size(); ++v)
     CHECK(carried.foam[v] == Approx(0.5 + 0.4 * (after.positions[v].z() - shift.z())).margin(0.01));
 }
+
+TEST_CASE("foam: what is carried must fit, and the options make sense", "[transport]") {
+  const std::vector<Vec3f> x = sphereMesh(4).positions;
+  const texture::Foam options{.from = 2.0, .full = 6.0, .lifetime = 2.0};
+  CHECK_THROWS_AS(foamAfter(x, {}, foamy(x.size() - 1, 0.5f, 1.0f), 0.1, options), std::invalid_argument);
+  CHECK_THROWS_AS(foamAfter(x, {}, {}, 0.1, {.from = 2.0, .full = 6.0, .lifetime = 0.0}),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(foamAfter(x, {}, {}, 0.1, {.from = 6.0, .full = 6.0, .lifetime = 2.0}),
+                  std::invalid_argument);
+}
