@@ -34,7 +34,7 @@ void followCoherence(texture::Options& texture, const Reader& reader) {
 
 void complete(Scene& scene, const Reader& reader) {
   if (scene.name.empty()) scene.name = scene.file.stem().string();
-  scene.texture.surface.seed = scene.texture.synthesis.seed = scene.seed;
+  scene.sim.seed = scene.texture.surface.seed = scene.texture.synthesis.seed = scene.seed;
   scene.texture.synthesis.ways = {scene.texture.orientation.symmetry, scene.texture.orientation.mirrored};
   scene.onto.last = scene.onto.first + scene.frames - 1;
 

@@ -76,7 +76,8 @@ AnalyticFlow::AnalyticFlow(const Options& options, const MotionOptions& motion)
   m_state.w = nothing.component[2];
   m_state.phi = start(0.0);
   if (carriesSurface(motion.flow))
-    m_state.markers = seedMarkers(*m_state.phi, *m_solid->phi, 0, m_solid->visibility.get());
+    m_state.markers =
+        seedMarkers(*m_state.phi, *m_solid->phi, markerSeed(options.seed, 0), m_solid->visibility.get());
 }
 
 AnalyticFlow::AnalyticFlow(const Options& options, const MotionOptions& motion, State state)
@@ -129,7 +130,7 @@ void AnalyticFlow::carryTo(double time, Frame& frame, const std::function<void(d
     const Velocity velocity = near(m_flow.strength(begin + (n + 0.5) * dt));
     ++m_state.steps;
     moveSurface(*m_state.phi, m_state.markers, velocity, *m_solid, dt,
-                static_cast<std::uint64_t>(m_state.steps));
+                markerSeed(m_options.seed, m_state.steps));
     frame.substeps.push_back({dt, velocity.component[0], velocity.component[1], velocity.component[2]});
     if (progress) progress((n + 1.0) / steps);
   }

@@ -1,5 +1,6 @@
 #include "sim/markers.h"
 
+#include "random/random.h"
 #include "sim/block_samples.h"
 
 #include <tbb/parallel_for.h>
@@ -22,22 +23,16 @@ constexpr float kWallDepth = 0.5f;
 // Markers of the air this many cells inside the liquid belong to a bubble that has closed.
 constexpr float kDeepestAir = 1.0f;
 
-// Counter-based: the same for any order of cells. 20 bits each, so that 7 + x stays below 8.
-std::uint64_t mixed(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-  return z ^ (z >> 31);
-}
+// The same for any order of cells. 20 bits each, so that 7 + x stays below 8.
 class CellRandom {
  public:
-  CellRandom(std::uint64_t seed, const Coord& cell) : m_state(seed * 0x9e3779b97f4a7c15ull) {
-    for (int a = 0; a < 3; ++a)
-      m_state = mixed(m_state ^ static_cast<std::uint32_t>(cell[a])) * 0xff51afd7ed558ccdull;
+  CellRandom(std::uint64_t seed, const Coord& cell) : m_state(seed) {
+    for (int a = 0; a < 3; ++a) m_state = randomBits(m_state, static_cast<std::uint32_t>(cell[a]));
   }
 
   // The n-th point of the unit cube.
   Vec3f point(std::uint32_t n) const {
-    const std::uint64_t bits = mixed(m_state + n * 0x9e3779b97f4a7c15ull);
+    const std::uint64_t bits = randomBits(m_state, n);
     const auto part = [&](int shift) { return static_cast<float>(bits >> shift & 0xfffff) * 0x1p-20f; };
     return Vec3f(part(44), part(24), part(4));
   }

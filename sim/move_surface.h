@@ -1,6 +1,7 @@
 // The liquid's surface over one substep: level set and markers together.
 #pragma once
 
+#include "random/random.h"
 #include "sim/flows.h"
 #include "sim/mac_grid.h"
 #include "sim/markers.h"
@@ -9,6 +10,11 @@
 #include <cstdint>
 
 namespace fluidtex::sim {
+
+// What markers are put by after so many steps; `seed`: the scene's.
+inline std::uint64_t markerSeed(std::uint64_t seed, std::int64_t steps) {
+  return randomBits(streamOf(seed, Stream::markers), static_cast<std::uint64_t>(steps));
+}
 
 // Moves phi and its markers with the velocity for dt seconds, and makes phi a distance again: advection
 // (advectPhi, advectMarkers), what sources and drains do, correction by the markers before and after the

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -226,6 +227,7 @@ struct Options {
   std::vector<Solid> solids;
   std::vector<Source> sources;
   std::vector<Drain> drains;
+  std::uint64_t seed = 1;  // of the scene: where markers are put
 
   // Of a side that is a wall, in the order of `sides`.
   Wall wallOf(int side) const {

@@ -8,6 +8,7 @@
 #include "sim/keep_substep.h"
 #include "sim/level_set.h"
 #include "sim/mac_grid.h"
+#include "sim/move_surface.h"
 #include "sim/owed_volume.h"
 #include "sim/require.h"
 #include "sim/shapes.h"
@@ -363,7 +364,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       next = step(liquid, *m_solid, *solid, dt, evenPart(after, nextLongest), m_options, &solves,
                   m_flows->at(m_state.time + 0.5 * dt));
       if (next) break;
-      liquid.markers = seedMarkers(*liquid.phi, *m_solid->phi, static_cast<std::uint64_t>(liquid.steps),
+      liquid.markers = seedMarkers(*liquid.phi, *m_solid->phi, markerSeed(m_options.seed, liquid.steps),
                                    m_solid->visibility.get());
       if (halving == kMaxHalvings) fail(m_state.time, dt, solves);
       dt *= 0.5;

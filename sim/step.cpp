@@ -266,7 +266,7 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
   liquid.markers = {};
   {
     const Velocity moving = movingVelocity(liquid);
-    moveSurface(*next.phi, next.markers, moving, solid, dt, static_cast<std::uint64_t>(next.steps), flows);
+    moveSurface(*next.phi, next.markers, moving, solid, dt, markerSeed(options.seed, next.steps), flows);
     dropBeyond(next.markers, solid);
     next.owed = owedVolume(*liquid.phi, *next.phi, liquid.owed.get(), moving, before, solid, flows, dt);
   }
@@ -365,7 +365,7 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   applyFlows(phi, liquid.markers, flows);
   settleSurface(phi, solid);
   liquid.markers =
-      seedMarkers(phi, *solid.phi, static_cast<std::uint64_t>(liquid.steps), solid.visibility.get());
+      seedMarkers(phi, *solid.phi, markerSeed(options.seed, liquid.steps), solid.visibility.get());
 
   const Velocity before = liquid.velocity;
   liquid.velocity = velocityFor(phi, solid);

@@ -228,6 +228,20 @@ void moveToPoints(EditableMesh& mesh, const LevelSet& phi, const Patches& patche
     for (std::uint32_t v : vertices) move(v);
 }
 
+// Brings the vertices of the iso-surface onto the level set's smooth interpolation while its edges are still
+// long: vertices that are closer to each other than they are to it could only get there all at once.
+void settleOnSurface(EditableMesh& mesh, const LevelSet& phi) {
+  std::vector<LevelSet::Projection> found(mesh.vertexCount());
+  forEachIndex(mesh.vertexCount(),
+               [&](std::uint32_t v) { found[v] = phi.project(mesh.position[v], reachFor(0.0f)); });
+  for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    const LevelSet::Projection& p = found[v];
+    if (!p.known || !mayFace(worstFacingAt(mesh, v, p.position, p.normal), worstFacing(mesh, v))) continue;
+    mesh.position[v] = p.position;
+    mesh.normal[v] = p.normal;
+  }
+}
+
 }  // namespace
 
 EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const PointSet& points,
@@ -244,8 +258,10 @@ EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const
   });
   takeScale(mesh, phi);
   const float least = leastScale(mesh), largest = largestScale(mesh);
-  if (kLongest * kEdgePerSpacing * spacing * least < 1.7f)
+  if (kLongest * kEdgePerSpacing * spacing * least < 1.7f) {
+    settleOnSurface(mesh, phi);
     splitLongEdges(mesh, phi, kLongest * kEdgePerSpacing * spacing);
+  }
 
   const VertexGrid grid(mesh.position, 2.0f * std::min(1.0f, kLongest * spacing * largest));
   const std::size_t count = points.position.size();

@@ -151,6 +151,28 @@ void EditableMesh::collapse(std::uint32_t h, std::vector<std::uint32_t>& freed) 
   }
 }
 
+void EditableMesh::removeComponent(const std::vector<std::uint32_t>& vertices) {
+  for (std::uint32_t v : vertices) {
+    std::vector<std::uint32_t> ring;
+    around(v, [&](std::uint32_t h) { ring.push_back(h); });
+    for (std::uint32_t h : ring)
+      if (v < target(h) && v < opposite(h)) free.push_back(h / 3);
+  }
+  for (std::uint32_t v : vertices) outgoing[v] = kNone;
+  for (auto t = free.rbegin(); t != free.rend() && origin[3 * *t] != kNone; ++t)
+    for (std::uint32_t k = 0; k < 3; ++k) origin[3 * *t + k] = twin[3 * *t + k] = kNone;
+}
+
+void EditableMesh::append(const EditableMesh& part) {
+  const auto vertices = std::uint32_t(position.size()), halfEdges = std::uint32_t(origin.size());
+  position.insert(position.end(), part.position.begin(), part.position.end());
+  normal.insert(normal.end(), part.normal.begin(), part.normal.end());
+  scale.insert(scale.end(), part.scale.begin(), part.scale.end());
+  for (std::uint32_t h : part.outgoing) outgoing.push_back(h + halfEdges);
+  for (std::uint32_t v : part.origin) origin.push_back(v + vertices);
+  for (std::uint32_t h : part.twin) twin.push_back(h + halfEdges);
+}
+
 void EditableMesh::compact(std::size_t firstNew) {
   const std::size_t before = position.size();
   firstNew = std::min(firstNew, before);

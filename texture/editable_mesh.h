@@ -56,9 +56,14 @@ struct EditableMesh {
   // The link condition: the ends have no common neighbours but the two opposite corners, and the mesh there
   // is no tetrahedron.
   bool canCollapse(std::uint32_t h) const;
-  // Removes the origin of h; its triangles are handed to the target. The two that vanish are added to `freed`.
+  // Removes the origin of h; its triangles are handed to the target. The two that vanish are added to
+  // `freed`.
   void collapse(std::uint32_t h, std::vector<std::uint32_t>& freed);
   void collapse(std::uint32_t h) { collapse(h, free); }
+
+  // The vertices of one or more whole components, and their triangles.
+  void removeComponent(const std::vector<std::uint32_t>& vertices);
+  void append(const EditableMesh& part);
 
   // Drops what is gone. Vertices from number `firstNew` on are moved next to their neighbours, the others
   // keep their order; triangles follow their vertices: what is near on the surface is near in memory.

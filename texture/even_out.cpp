@@ -2,6 +2,7 @@
 // mesh neighbours instead of all points near by, with the mesh kept Delaunay as in Persson, Strang, "A simple
 // mesh generator in MATLAB" (2004).
 #include "texture/adjust.h"
+#include "texture/fair.h"
 #include "texture/mend.h"
 #include "texture/parallel.h"
 #include "texture/relax.h"
@@ -112,6 +113,7 @@ void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options
     flipToDelaunay(mesh, &active);
   }
   mend(mesh, phi, options.spacing);
+  fair(mesh, phi);
   mesh.compact(inOrder);
 }
 

@@ -1,7 +1,7 @@
 #include "texture/fresh_start.h"
 
+#include "random/random.h"
 #include "texture/guidance.h"
-#include "texture/random.h"
 #include "texture/usage.h"
 #include "texture/ways.h"
 

@@ -2,11 +2,11 @@
 // seam cost of Kwatra, Schoedl, Essa, Turk, Bobick, "Graphcut textures" (2003).
 #include "texture/label_expansion.h"
 
+#include "random/random.h"
 #include "texture/complex.h"
 #include "texture/guidance.h"
 #include "texture/min_cut.h"
 #include "texture/parallel.h"
-#include "texture/random.h"
 #include "texture/usage.h"
 
 #include <tbb/enumerable_thread_specific.h>

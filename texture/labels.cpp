@@ -1,10 +1,10 @@
 #include "texture/labels.h"
 
+#include "random/random.h"
 #include "texture/complex.h"
 #include "texture/guidance.h"
 #include "texture/parallel.h"
 #include "texture/point_grid.h"
-#include "texture/random.h"
 #include "texture/ways.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include "texture/later_frame.h"
 
+#include "random/random.h"
 #include "texture/chips.h"
 #include "texture/complex.h"
 #include "texture/first_frame.h"
@@ -143,7 +144,7 @@ std::vector<Disc> discsOf(const Synthesizer& synthesizer, const SeamModel& seams
   const double worn = kDiscsOfAll * wornShare(rates, seconds, options.keepStretch);
   return worstDiscs(seams, labels, wear, free,
                     {options.keepStretch, options.renewalRadius, budget, std::max(budget, worn)},
-                    options.seed);
+                    streamOf(options.seed, Stream::renewal));
 }
 
 // #V, 1 where labels may change: droplets too small for texture stay as they are; so does what still fades,

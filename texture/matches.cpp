@@ -2,8 +2,8 @@
 // [Kwatra05].
 #include "texture/matches.h"
 
+#include "random/random.h"
 #include "texture/complex.h"
-#include "texture/random.h"
 #include "texture/usage.h"
 
 #include <tbb/blocked_range.h>

@@ -1,11 +1,14 @@
 #include "texture/measure.h"
 
+#include "random/random.h"
 #include "texture/measure_patches.h"
 #include "texture/measure_repeats.h"
 #include "texture/measure_tiles.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
-#include <map>
+#include <array>
 
 namespace fluidtex::texture {
 namespace {
@@ -43,48 +46,63 @@ double gradientEnergy(const Stack& stack) {
   return sum / (double(stack.count) * (stack.height - 1) * (stack.width - 1));
 }
 
-// The exemplar on tiles of one size, laid down once.
-struct Laid {
-  PatchJudge judge;
-  std::vector<PatchDistances> own;
-};
-
-// A few times over: which parts of the exemplar fall on the tiles makes some difference.
+// The exemplar on a frame's tiles. A few times over: which parts of it fall on the tiles makes some
+// difference.
 constexpr int kTimes = 3;
-struct Reference {
-  std::vector<Laid> laid;
+struct Laid {
+  std::optional<PatchJudge> judge;
+  std::vector<PatchDistances> own;
   double energy = 0.0, parts = 0.0;
 };
+using Reference = std::array<Laid, kTimes>;
+
+double meanOf(const Reference& reference, double Laid::*figure) {
+  double sum = 0.0;
+  for (const Laid& laid : reference) sum += laid.*figure / kTimes;
+  return sum;
+}
+
+// Streams of the options' seed: for the exemplar, for a frame, and for each time the exemplar is laid.
+constexpr std::uint64_t kOfExemplar = 0, kOfFrame = 1, kOfTimes = 2;
 
 }  // namespace
 
+// Nothing of one frame is kept for the next, dice neither: a frame's figures are its own.
 struct LikenessJudge::Internals {
   Image picture;
   MeasureOptions options;
-  Dice dice;
   CoverageMap coverage;
-  std::map<int, Reference> references;
 
   Internals(const Image& color, const MeasureOptions& asked)
-      : picture(encodedPicture(color)), options(asked), dice(asked.seed), coverage(picture, dice) {}
+      : picture(encodedPicture(color)), options(asked), coverage(coverageOf(picture, asked.seed)) {}
 
-  const Reference& reference(const std::vector<Tile>& tiles, int size) {
-    if (const auto found = references.find(size); found != references.end()) return found->second;
+  static CoverageMap coverageOf(const Image& picture, std::uint64_t seed) {
+    Dice dice(randomBits(seed, kOfExemplar));
+    return CoverageMap(picture, dice);
+  }
+
+  Laid lay(const std::vector<Tile>& tiles, int size, Dice dice) const {
     const auto laid = [&](const Image& image) {
       return exemplarTiles(image, tiles, size, options.tiles, dice);
     };
-    Reference made;
-    for (int n = 0; n < kTimes; ++n) {
-      const Stack whole = laid(picture);
-      made.energy += gradientEnergy(whole) / kTimes;
-      made.parts += coverage.effectiveParts(whole, dice) / kTimes;
-      made.laid.push_back({PatchJudge(pyramidOf(whole), options.patches, dice), {}});
-      for (const auto& [a, b] : halvesOf(picture)) {
-        const PatchJudge half(pyramidOf(laid(a)), options.patches, dice);
-        made.laid.back().own.push_back(half.distances(pyramidOf(laid(b)), dice));
-      }
+    const Stack whole = laid(picture);
+    Laid made;
+    made.energy = gradientEnergy(whole);
+    made.parts = coverage.effectiveParts(whole, dice);
+    made.judge.emplace(pyramidOf(whole), options.patches, dice);
+    for (const auto& [a, b] : halvesOf(picture)) {
+      const PatchJudge half(pyramidOf(laid(a)), options.patches, dice);
+      made.own.push_back(half.distances(pyramidOf(laid(b)), dice));
     }
-    return references.emplace(size, std::move(made)).first->second;
+    return made;
+  }
+
+  Reference reference(const std::vector<Tile>& tiles, int size) const {
+    Reference made;
+    tbb::parallel_for(std::size_t(0), made.size(), [&](std::size_t n) {
+      made[n] = lay(tiles, size, Dice(randomBits(options.seed, kOfTimes + n)));
+    });
+    return made;
   }
 };
 
@@ -93,27 +111,29 @@ LikenessJudge::LikenessJudge(const Image& color, const MeasureOptions& options)
 
 LikenessJudge::~LikenessJudge() = default;
 
-std::optional<Likeness> LikenessJudge::operator()(const TexturedSurface& surface, bool repeats) {
+std::optional<Likeness> LikenessJudge::operator()(const TexturedSurface& surface, bool repeats) const {
   if (surface.empty()) return std::nullopt;
-  Internals& in = *m_internals;
+  const Internals& in = *m_internals;
+  Dice dice(randomBits(in.options.seed, kOfFrame));
   const TileGround ground(surface);
   Likeness result;
   std::vector<Tile> tiles;
   for (result.tile = in.options.tile;;
        result.tile = std::max(kSmallest, int(result.tile * 0.72) / 2 * 2 + 1)) {
-    tiles = flatTiles(ground, result.tile, in.options.tiles, in.dice);
+    tiles = flatTiles(ground, result.tile, in.options.tiles, dice);
     if (int(tiles.size()) >= std::min(kEnoughTiles, in.options.tiles) || result.tile <= kSmallest) break;
   }
   result.tiles = int(tiles.size());
   if (result.tiles < kFewest) return std::nullopt;
-  const Reference& reference = in.reference(tiles, result.tile);
+  const Reference reference = in.reference(tiles, result.tile);
   const Stack shown = colorTiles(surface, tiles, result.tile, in.picture.channels);
   const std::vector<Stack> pyramid = pyramidOf(shown);
-  for (const Laid& laid : reference.laid)
-    result.likeness += patchRatio(laid.judge.distances(pyramid, in.dice), laid.own) / kTimes;
-  result.sharpness = gradientEnergy(shown) / std::max(reference.energy, 1e-12);
-  result.coverage = in.coverage.effectiveParts(shown, in.dice) / std::max(reference.parts, 1e-12);
-  if (repeats) result.repeats = repeatsOf(ground, in.picture, in.dice);
+  for (const Laid& laid : reference)
+    result.likeness += patchRatio(laid.judge->distances(pyramid, dice), laid.own) / kTimes;
+  result.sharpness = gradientEnergy(shown) / std::max(meanOf(reference, &Laid::energy), 1e-12);
+  result.coverage =
+      in.coverage.effectiveParts(shown, dice) / std::max(meanOf(reference, &Laid::parts), 1e-12);
+  if (repeats) result.repeats = repeatsOf(ground, in.picture, dice);
   return result;
 }
 

@@ -82,7 +82,8 @@ struct FlowWear {
 
 inline constexpr float kNewSurface = 0.5f;
 
-// Judges frames against one exemplar; what belongs to the exemplar is made when first asked for, and kept.
+// Judges frames against one exemplar. What it says of a frame does not depend on which frames it has judged
+// before.
 class LikenessJudge {
  public:
   // color: linear RGBA.
@@ -91,16 +92,16 @@ class LikenessJudge {
 
   // Nothing where fewer than four tiles of the surface are flat. `repeats`: that too, which takes as long
   // again as all else.
-  std::optional<Likeness> operator()(const TexturedSurface& surface, bool repeats = false);
+  std::optional<Likeness> operator()(const TexturedSurface& surface, bool repeats = false) const;
 
  private:
   struct Internals;
   std::unique_ptr<Internals> m_internals;
 };
 
-// Squared gradient of an exemplar's luminance, as it is seen, averaged over 3 x 3 texels, over the mean of the
-// whole: one channel. 1 everywhere where the exemplar is of one luminance. Edges are edges, whether it wraps or
-// not. color: linear RGBA.
+// Squared gradient of an exemplar's luminance, as it is seen, averaged over 3 x 3 texels, over the mean of
+// the whole: one channel. 1 everywhere where the exemplar is of one luminance. Edges are edges, whether it
+// wraps or not. color: linear RGBA.
 Image contrastOf(const Image& color);
 // Mean of that over the texels that the vertices show, new surface's too, what fades in but not what fades
 // out: 1 where all of the exemplar is shown alike, less where what has little contrast was chosen. Nothing

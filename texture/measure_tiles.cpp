@@ -1,6 +1,6 @@
 #include "texture/measure_tiles.h"
 
-#include "texture/random.h"
+#include "random/random.h"
 #include "texture/srgb.h"
 
 #include <algorithm>

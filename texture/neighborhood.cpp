@@ -1,8 +1,8 @@
 #include "texture/neighborhood.h"
 
+#include "random/random.h"
 #include "texture/flattener.h"
 #include "texture/parallel.h"
-#include "texture/random.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>

@@ -6,10 +6,10 @@
 // on to pairs of opposite singularities, this lets them meet and vanish.
 #include "texture/orient.h"
 
+#include "random/random.h"
 #include "texture/complex.h"
 #include "texture/parallel.h"
 #include "texture/point_grid.h"
-#include "texture/random.h"
 #include "texture/tangent_field.h"
 
 #include <algorithm>
@@ -169,8 +169,9 @@ void orientCoarsest(Surface& surface, const OrientOptions& options, const Orient
   Field field{referenceVectors(mesh.normals), std::vector<Complexf>(count)};
   const Connection connection = buildConnection(mesh, graph, field.axes);
   const FieldGraph smooth = fieldGraph(graph, connection, options.symmetry, asked(wishes.stiffness, mesh));
+  const std::uint64_t key = streamOf(options.seed, Stream::orientation);
   forEachIndex(count, [&](std::uint32_t v) {
-    const double re = 2.0 * randomUnit(0, 2ull * v) - 1.0, im = 2.0 * randomUnit(0, 2ull * v + 1) - 1.0;
+    const double re = 2.0 * randomUnit(key, 2ull * v) - 1.0, im = 2.0 * randomUnit(key, 2ull * v + 1) - 1.0;
     field.values[v] = Complexf(1.0f, 0.0f) + kStartNoise * Complexf(float(re), float(im));
   });
 

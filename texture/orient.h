@@ -13,8 +13,9 @@ struct OrientOptions {
   // How often an exemplar looks the same in a full turn: 1, 2 (bricks) or 4 (squares). The field is then
   // smooth up to turns by 360 / symmetry degrees, and each vertex has one of its equal directions.
   int symmetry = 1;
-  int coarseSweeps = 1000;     // steps of the solver at the coarsest level, at most
-  int fineSweeps = 20;         // each finer level is diffused as by so many averages over neighbours
+  int coarseSweeps = 1000;  // steps of the solver at the coarsest level, at most
+  int fineSweeps = 20;      // each finer level is diffused as by so many averages over neighbours
+  std::uint64_t seed = 1;  // of the scene: of several fields that are as smooth, which one a first frame gets
   double carriedWeight = 0.5;  // 0..1: how strongly a vertex of trust 1 is held to its carried orientation
 };
 

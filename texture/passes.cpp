@@ -1,8 +1,8 @@
 #include "texture/passes.h"
 
+#include "random/random.h"
 #include "texture/fresh.h"
 #include "texture/label_expansion.h"
-#include "texture/random.h"
 #include "texture/table_cache.h"
 
 #include <tbb/parallel_for.h>
@@ -21,8 +21,8 @@ constexpr float kUsageCost = 0.17f;
 SearchTable madeTable(const Synthesizer& synthesizer, int level, int window) {
   const bool labels = synthesizer.options.method == Method::coordinates;
   return cachedSearchTable(synthesizer.exemplar.match[std::size_t(level)], synthesizer.exemplar.toroidal,
-                           window, synthesizer.options.seed, level == 0 && labels ? kSimilar : 0,
-                           synthesizer.cache);
+                           window, streamOf(synthesizer.options.seed, Stream::windows),
+                           level == 0 && labels ? kSimilar : 0, synthesizer.cache);
 }
 
 const SearchTable& tableFor(Synthesizer& synthesizer, int level, int window) {
@@ -98,8 +98,9 @@ std::vector<std::uint8_t> searched(const Synthesizer& synthesizer, const VertexG
 }
 
 std::uint64_t keyOf(const Synthesizer& synthesizer, int frame, int level, int window) {
-  return randomBits(randomBits(synthesizer.options.seed, std::uint64_t(std::int64_t(frame))),
-                    std::uint64_t(level) * 1024u + std::uint64_t(window));
+  return randomBits(
+      randomBits(streamOf(synthesizer.options.seed, Stream::synthesis), std::uint64_t(std::int64_t(frame))),
+      std::uint64_t(level) * 1024u + std::uint64_t(window));
 }
 
 void runPasses(Synthesizer& synthesizer, const Level& level, const PassPlan& plan, State& state,

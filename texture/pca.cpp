@@ -7,8 +7,8 @@
 
 #include "texture/pca.h"
 
+#include "random/random.h"
 #include "texture/lanes.h"
-#include "texture/random.h"
 
 #include <tbb/parallel_for.h>
 #include <Eigen/Dense>

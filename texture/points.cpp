@@ -2,11 +2,12 @@
 // hash.
 #include "texture/points.h"
 
+#include "random/random.h"
 #include "texture/parallel.h"
 #include "texture/patches.h"
 #include "texture/point_grid.h"
 #include "texture/point_scale.h"
-#include "texture/random.h"
+#include "texture/remesh.h"
 
 #include <tbb/parallel_for.h>
 
@@ -173,9 +174,9 @@ void throwDarts(const LevelSet& phi, const IsoSurface& surface, std::size_t t, s
   const openvdb::Coord& cell = surface.cells[t];
   std::uint64_t ordinal = 0;
   while (ordinal < t && surface.cells[t - std::size_t(ordinal) - 1] == cell) ++ordinal;
-  const std::uint64_t triangleKey = mix64(
-      mix64(mix64(mix64(key ^ std::uint32_t(cell.x())) ^ std::uint32_t(cell.y())) ^ std::uint32_t(cell.z())) ^
-      ordinal);
+  std::uint64_t triangleKey = key;
+  for (int axis = 0; axis < 3; ++axis) triangleKey = randomBits(triangleKey, std::uint32_t(cell[axis]));
+  triangleKey = randomBits(triangleKey, ordinal);
   const Vec3f& a = surface.positions[surface.triangles[t][0]];
   const Vec3f ab = surface.positions[surface.triangles[t][1]] - a,
               ac = surface.positions[surface.triangles[t][2]] - a;
@@ -184,7 +185,7 @@ void throwDarts(const LevelSet& phi, const IsoSurface& surface, std::size_t t, s
   const float scale = phi.scale(a);
   const int darts = int(0.5f * length * perArea / (scale * scale) + unit(triangleKey));
   for (int d = 0; d < darts; ++d) {
-    const std::uint64_t random = mix64(triangleKey + std::uint64_t(d) + 1);
+    const std::uint64_t random = randomBits(triangleKey, std::uint64_t(d));
     const float r = std::sqrt(unit(random)), s = unit(random << 24);
     offer(a + ab * (r * (1.0f - s)) + ac * (r * s), normal / length);
   }
@@ -247,7 +248,17 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
     for (std::uint32_t k = cubes.first[cube]; k < cubes.first[cube + 1]; ++k)
       throwDarts(phi, surface, cubes.vertex[k], key, perArea, offer);
   };
+  const std::size_t seeded = points.position.size();
   placeAll(phi, cubes, side, dartRadius, perCube, dartsOf, placed);
+  // Darts hit the trilinear surface. Where that is farther from the smooth one than they are from each other,
+  // they could not get there one by one.
+  forEachIndex(points.position.size() - seeded, [&](std::uint32_t k) {
+    const std::size_t i = seeded + k;
+    const LevelSet::Projection p = phi.project(points.position[i], reachFor(spacing));
+    if (!p.known || p.distance >= kSnapped || p.normal.dot(points.normal[i]) <= 0.0f) return;
+    points.position[i] = p.position;
+    points.normal[i] = p.normal;
+  });
   return std::move(points);
 }
 

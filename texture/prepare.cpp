@@ -2,9 +2,11 @@
 // level.
 #include "texture/prepare.h"
 
+#include "random/random.h"
 #include "texture/carried_mesh.h"
 #include "texture/connect.h"
 #include "texture/isosurface.h"
+#include "texture/mesh_faults.h"
 #include "texture/parallel.h"
 #include "texture/points.h"
 #include "texture/remesh.h"
@@ -73,17 +75,6 @@ bool atRest(const LevelSet& phi, const std::vector<Vec3f>& previous, const std::
   return off <= kOff * double(now.size());
 }
 
-// The triangles' own normal around a vertex, for where the level set has no gradient.
-Vec3f normalOfTriangles(const EditableMesh& mesh, std::uint32_t v) {
-  openvdb::Vec3d sum(0.0);
-  mesh.around(v, [&](std::uint32_t h) {
-    const openvdb::Vec3d a(mesh.position[v]), b(mesh.position[mesh.target(h)]),
-        c(mesh.position[mesh.opposite(h)]);
-    sum += (b - a).cross(c - a);
-  });
-  return sum.normalize() ? Vec3f(sum) : Vec3f(0.0f, 0.0f, 1.0f);
-}
-
 SurfaceMesh toWorld(const EditableMesh& mesh, const LevelSet& phi, const openvdb::math::Transform& transform,
                     double spacing) {
   SurfaceMesh result;
@@ -93,9 +84,7 @@ SurfaceMesh toWorld(const EditableMesh& mesh, const LevelSet& phi, const openvdb
   if (phi.scaled()) result.scale.resize(mesh.vertexCount());
   forEachIndex(mesh.vertexCount(), [&](std::uint32_t v) {
     result.positions[v] = Vec3f(transform.indexToWorld(openvdb::Vec3d(mesh.position[v])));
-    const bool known = mesh.normal[v].lengthSqr() > 0.5f;
-    const Vec3f normal = known ? mesh.normal[v] : normalOfTriangles(mesh, v);
-    openvdb::Vec3d n = transform.baseMap()->applyIJT(openvdb::Vec3d(normal));
+    openvdb::Vec3d n = transform.baseMap()->applyIJT(openvdb::Vec3d(normalAt(mesh, v)));
     n.normalize();
     result.normals[v] = Vec3f(n);
     if (phi.scaled()) result.scale[v] = phi.scale(mesh.position[v]);
@@ -151,7 +140,8 @@ EvenOptions evenOptions(const Ground& ground, int level, const SurfaceOptions& o
 EditableMesh connected(const Ground& ground, const std::vector<Vec3f>& start, int level, float spacing,
                        const SurfaceOptions& options) {
   const PointSet points =
-      spreadPoints(ground.phi, ground.iso, start, spacing, options.seed + std::uint64_t(level));
+      spreadPoints(ground.phi, ground.iso, start, spacing,
+                   randomBits(streamOf(options.seed, Stream::points), std::uint64_t(level)));
   return connectPoints(ground.phi, ground.iso, points, spacing);
 }
 

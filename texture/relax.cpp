@@ -143,7 +143,7 @@ void relax(EditableMesh& mesh, const LevelSet& phi, const Patches& patches, floa
       awake[v] = size >= (awake[v] ? kStill : std::max(kStill, wake)) * edge * scale;
       if (!awake[v]) return;
       if (size > longest) way *= longest / size;
-      const LevelSet::Projection p = phi.slide(from + way, edge * scale);
+      const LevelSet::Projection p = phi.slide(from + way, reachFor(edge * scale));
       if (!p.known) return;
       look(ring, p.position, p.normal, fan);
       if (!fan.outward) return;

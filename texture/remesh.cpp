@@ -186,7 +186,7 @@ std::uint32_t splitOnSurface(EditableMesh& mesh, std::uint32_t h, const LevelSet
   normal.normalize();
   const float length = (mesh.position[a] - mesh.position[b]).length();
   const float before = std::min(facingOf(mesh, a, b, c), facingOf(mesh, b, a, d));
-  const LevelSet::Projection p = phi.project(middle, 0.5f * length);
+  const LevelSet::Projection p = phi.project(middle, reachFor(0.5f * length));
   const std::uint32_t m = mesh.splitEdge(h, middle, p.known ? p.normal : normal);
   if (p.known && mayFace(worstFacingAt(mesh, m, p.position, p.normal), before)) mesh.position[m] = p.position;
   if (!mesh.scale.empty()) mesh.scale[m] = phi.scale(mesh.position[m]);

@@ -6,6 +6,8 @@
 #include "texture/level_set.h"
 #include "texture/patches.h"
 
+#include <algorithm>
+
 namespace fluidtex::texture {
 
 // Mean edge length of an even mesh that has one vertex per unit square.
@@ -49,6 +51,13 @@ void flipToDelaunay(EditableMesh& mesh, const Patches& patches, std::uint32_t pa
 bool tryCollapse(EditableMesh& mesh, std::uint32_t h, std::vector<std::uint32_t>& freed);
 inline bool tryCollapse(EditableMesh& mesh, std::uint32_t h) {
   return tryCollapse(mesh, h, mesh.free);
+}
+
+// From how far away, voxels, a vertex is brought back to the level set where edges have this length. Not less
+// than half a voxel, however short they are: so far apart are the trilinear surface, on which meshes begin,
+// and the smooth one at creases and in thin places.
+inline float reachFor(float edge) {
+  return std::max(edge, 0.5f);
 }
 
 // Gives each vertex the level set's scale, where it has one.

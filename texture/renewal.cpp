@@ -1,12 +1,12 @@
 #include "texture/renewal.h"
 
+#include "random/random.h"
 #include "texture/averaged.h"
 #include "texture/complex.h"
 #include "texture/fresh.h"
 #include "texture/guidance.h"
 #include "texture/parallel.h"
 #include "texture/pieces.h"
-#include "texture/random.h"
 #include "texture/slips.h"
 
 #include <algorithm>

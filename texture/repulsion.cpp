@@ -45,7 +45,7 @@ void Repulsion::sweep(std::vector<std::uint32_t>& active, float wake, float slee
       move += m_last[v] * kMomentum;
       const float size = move.length();
       if (size > longest) move *= longest / size;
-      const LevelSet::Projection p = m_phi.slide(from + move, edge);
+      const LevelSet::Projection p = m_phi.slide(from + move, reachFor(edge));
       // At a crease a push moves nothing: such vertices are at rest as well.
       awake[v] = p.known && (p.position - from).lengthSqr() > asleep * asleep;
       m_position[i] = p.position;

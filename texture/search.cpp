@@ -2,6 +2,7 @@
 // 2002.
 
 #include "texture/search.h"
+#include "random/random.h"
 
 #include "texture/lanes.h"
 
@@ -69,20 +70,18 @@ void findSimilar(const SearchTable& table, const float* descriptor, std::uint32_
   best.clear();
   const std::size_t count = std::size_t(table.similarCount);
   const Vec2i center = treeCenter(table, self);
-  visitNearest(
-      table.tree, descriptor, kSimilarProbes, search,
-      [&](const Found& found) {
-        if (best.size() == count && !(found < best.back())) return;
-        const Vec2i at = treeCenter(table, found.index);
-        if (apart(table, at, center) < least) return;
-        const auto near = [&](const Found& other) {
-          return apart(table, at, treeCenter(table, other.index)) < least;
-        };
-        for (const Found& other : best)
-          if (near(other) && other < found) return;
-        best.erase(std::remove_if(best.begin(), best.end(), near), best.end());
-        insertFound(best, count, found);
-      });
+  visitNearest(table.tree, descriptor, kSimilarProbes, search, [&](const Found& found) {
+    if (best.size() == count && !(found < best.back())) return;
+    const Vec2i at = treeCenter(table, found.index);
+    if (apart(table, at, center) < least) return;
+    const auto near = [&](const Found& other) {
+      return apart(table, at, treeCenter(table, other.index)) < least;
+    };
+    for (const Found& other : best)
+      if (near(other) && other < found) return;
+    best.erase(std::remove_if(best.begin(), best.end(), near), best.end());
+    insertFound(best, count, found);
+  });
 }
 
 void addSimilar(SearchTable& table, std::span<const float> descriptors) {
@@ -149,10 +148,11 @@ SearchTable buildSearchTable(const Image& match, bool toroidal, int window, std:
   const auto across = [&](int size) { return centersAcross(size, window, toroidal, table.stride); };
   while (std::int64_t(across(match.width)) * across(match.height) > kCenters) ++table.stride;
   const int columns = across(match.width), rows = across(match.height);
-  table.basis = windowBasis(table.padded, window, table.falloff, seed);
+  table.basis = windowBasis(table.padded, window, table.falloff, randomBits(seed, 0));
   const std::vector<float> descriptors =
       describeAll(table.basis, table.padded, window, table.stride, columns, rows);
-  table.tree = buildWindowTree(descriptors, std::clamp(columns * rows / kWindowsPerLeaf, 1, kLeaves), seed);
+  table.tree = buildWindowTree(descriptors, std::clamp(columns * rows / kWindowsPerLeaf, 1, kLeaves),
+                               randomBits(seed, 1));
   table.similarCount = std::max(similar, 0);
   if (similar > 0) addSimilar(table, descriptors);
   return table;

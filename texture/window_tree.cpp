@@ -4,7 +4,7 @@
 
 #include "texture/window_tree.h"
 
-#include "texture/random.h"
+#include "random/random.h"
 
 #include <tbb/parallel_for.h>
 

@@ -210,7 +210,8 @@ class FrameLoop {
                                           *std::max_element(windows.begin(), windows.end()))))
         texture::addCoarserLevels(*motion.surfacePhi, surfaceOptions.levels, surfaceOptions,
                                   scaleIn(m_scale, motion), surface);
-      texture::orient(surface, carried, {.symmetry = symmetry}, wishesFor(m_guide, motion));
+      texture::orient(surface, carried, {.symmetry = symmetry, .seed = m_scene.seed},
+                      wishesFor(m_guide, motion));
       result.singularities = texture::singularities(surface.levels[0], symmetry);
       texture::calmDroplets(surface.levels[0],
                             texture::droplets(graph, *std::min_element(windows.begin(), windows.end())),

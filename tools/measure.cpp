@@ -83,8 +83,9 @@ class Measurer {
  private:
   texture::TexturedSurface readSurface(int frame) {
     texture::TexturedSurface surface = readPly(m_run.surfaceOf(frame), m_run.color.width, m_run.color.height);
-    if (m_spacing == 0.0 && !surface.empty()) m_spacing = spacingOf(m_run, surface, frame);
-    surface.spacing = m_spacing;
+    if (surface.empty()) return surface;
+    surface.spacing = spacingOf(m_run, surface, frame);
+    if (m_spacing == 0.0) m_spacing = surface.spacing;
     return surface;
   }
 
@@ -160,7 +161,7 @@ class Measurer {
   const MeasureWishes& m_wishes;
   const OutFolder m_folder;
   FinishedRun m_run;
-  double m_spacing = 0.0;
+  double m_spacing = 0.0;  // of the first surface
 };
 
 }  // namespace

@@ -41,7 +41,7 @@ Json pointsOf(const std::vector<texture::Singularity>& singularities) {
 Json frameRecord(const sim::Frame& frame, const texture::TexturedSurface& surface,
                  const std::optional<std::vector<texture::Singularity>>& singularities,
                  const texture::SynthesisStats& synthesis) {
-  const texture::MeshStats mesh = texture::meshStats(surface.positions, surface.triangles);
+  const texture::MeshStats mesh = texture::meshStats(surface.positions, surface.triangles, surface.normals);
   const bool textured = !surface.empty(), optimised = textured && synthesis.iterations > 0;
   Json record;
   record["frame"] = frame.index;
@@ -57,6 +57,8 @@ Json frameRecord(const sim::Frame& frame, const texture::TexturedSurface& surfac
   record["spacing"] = orNull(textured, surface.spacing);
   record["edge_mean"] = orNull(textured, mesh.edgeMean);
   record["edge_cv"] = orNull(textured, mesh.edgeCv);
+  record["folded"] = mesh.folded;
+  record["spikes"] = mesh.spikes;
   record["singularities"] = singularities ? Json(singularities->size()) : Json(nullptr);
   record["singular_points"] = singularities ? pointsOf(*singularities) : Json(nullptr);
   record["energy_start"] = orNull(optimised, synthesis.energyStart);

@@ -1,20 +1,16 @@
 #include "scenes/exemplars/pattern.h"
 
+#include "random/random.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace fluidtex::exemplars {
 
 double random(std::uint64_t seed, std::uint64_t a, std::uint64_t b, std::uint64_t c) {
-  // SplitMix64's finaliser [Steele, Lea, Flood 2014] over a linear combination of the arguments.
-  std::uint64_t x = seed * 0x9e3779b97f4a7c15u + a * 0xbf58476d1ce4e5b9u + b * 0x94d049bb133111ebu +
-                    c * 0xd6e8feb86659fd93u;
-  for (int round = 0; round < 2; ++round) {
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-    x ^= x >> 31;
-  }
-  return double(x >> 11) * 0x1.0p-53;
+  const std::uint64_t x = seed * 0x9e3779b97f4a7c15u + a * 0xbf58476d1ce4e5b9u + b * 0x94d049bb133111ebu +
+                          c * 0xd6e8feb86659fd93u;
+  return double(finalised(finalised(x)) >> 11) * 0x1.0p-53;
 }
 
 double smooth(double low, double high, double x) {

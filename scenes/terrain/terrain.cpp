@@ -1,6 +1,8 @@
 // Noise: Perlin, "Improving noise", 2002, with hashed gradients.
 #include "scenes/terrain/terrain.h"
 
+#include "random/random.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -27,11 +29,10 @@ double smoothMax(double a, double b, double width) {
 
 // Slope of the noise at a lattice point towards (dx, dy).
 double gradient(int i, int j, std::uint32_t seed, double dx, double dy) {
-  std::uint64_t z = seed * 0x9e3779b97f4a7c15ull + static_cast<std::uint32_t>(i) * 0xff51afd7ed558ccdull +
-                    static_cast<std::uint32_t>(j) * 0xc4ceb9fe1a85ec53ull;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-  const double angle = 2.0 * kPi * static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  const std::uint64_t z = seed * 0x9e3779b97f4a7c15ull +
+                          static_cast<std::uint32_t>(i) * 0xff51afd7ed558ccdull +
+                          static_cast<std::uint32_t>(j) * 0xc4ceb9fe1a85ec53ull;
+  const double angle = 2.0 * kPi * static_cast<double>(finalised(z) >> 11) * 0x1p-53;
   return dx * std::cos(angle) + dy * std::sin(angle);
 }
 

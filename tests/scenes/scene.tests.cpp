@@ -38,6 +38,7 @@ TEST_CASE("scene: what is left out has the defaults of the options", "[scenes]")
 TEST_CASE("scene: defaults that follow from other keys", "[scenes]") {
   const Scene scene = sceneOf("seed = 7\ntexture.windows = [9]\n" + kGoodScene +
                               "[[solid]]\nmesh = { file = 'm.obj' }\n[[solid]]\nmesh = { file = 'm.obj' }");
+  CHECK(scene.sim.seed == 7);
   CHECK(scene.texture.surface.seed == 7);
   CHECK(scene.texture.synthesis.seed == 7);
   CHECK(scene.texture.synthesis.firstIterations == std::vector<int>{4});
@@ -319,7 +320,9 @@ TEST_CASE("scene: the resolved scene is the same wherever the file is named from
   Overrides exemplar;
   exemplar.exemplar = "../e.png";
   // Guidance, maps and their relief are of the scene's own exemplar, and left out with another.
-  exemplar.set = {"texture.toroidal=true", "texture.between=file", "texture.between_file=../e.png",
+  exemplar.set = {"texture.toroidal=true",
+                  "texture.between=file",
+                  "texture.between_file=../e.png",
                   "texture.guidance.by=field",
                   "texture.map=[{ name = 'height', file = '../e.png', holds = 'normals' }, "
                   "{ name = 'bumps', file = '../e.png', weight = 0.5 }]",

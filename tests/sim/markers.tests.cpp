@@ -2,6 +2,7 @@
 #include "sim/move_surface.h"
 
 #include "sim/level_set.h"
+#include "sim/solver.h"
 #include "tests/sim/velocity_field.h"
 
 #include <catch2/catch.hpp>
@@ -206,6 +207,23 @@ TEST_CASE("markers: the same seed gives the same, another one others") {
   const auto phi = phiOf(ball);
   CHECK(same(seedMarkers(*phi, *noSolid(), 5), seedMarkers(*phi, *noSolid(), 5)));
   CHECK_FALSE(same(seedMarkers(*phi, *noSolid(), 5), seedMarkers(*phi, *noSolid(), 6)));
+}
+
+TEST_CASE("markers: the scene's seed decides where they are, and no frame's are another seed's of the next") {
+  const auto markersOf = [](std::uint64_t seed, int frames) {
+    Options options;
+    options.resolution = 12;
+    options.seed = seed;
+    options.liquid = {{{Box{Vec3d(0.0), Vec3d(0.5, 1.0, 0.5)}}}};
+    Solver solver(options);
+    for (int frame = 0; frame < frames; ++frame) solver.next();
+    return solver.state().markers;
+  };
+  REQUIRE(countOf(markersOf(1, 1)) > 1000);
+  CHECK(same(markersOf(1, 2), markersOf(1, 2)));
+  for (const int frames : {1, 2}) CHECK_FALSE(same(markersOf(1, frames), markersOf(2, frames)));
+  for (std::int64_t steps = 0; steps < 20; ++steps)
+    for (std::int64_t later = 0; later < 20; ++later) CHECK(markerSeed(2, steps) != markerSeed(1, later));
 }
 
 TEST_CASE("markers: none deep in solids, thinned ones are filled up again") {

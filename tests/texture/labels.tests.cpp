@@ -11,6 +11,7 @@
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
+using fluidtex::randomUnit;
 
 TEST_CASE("labels: stretch is the worse of the singular values") {
   const float c = std::cos(0.7f), s = std::sin(0.7f);

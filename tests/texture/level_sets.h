@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <string>
 
 namespace fluidtex::texture {
@@ -87,6 +88,55 @@ inline FloatGrid::Ptr splashGrid(int spheres, double voxel, std::uint64_t seed) 
 // Negative at one grid node alone.
 inline FloatGrid::Ptr oneVoxelGrid(double voxel) {
   return levelSetOf(voxel, Vec3d(4.0 * voxel), [=](const Vec3d& p) { return p.length() - 0.5 * voxel; });
+}
+
+// Surfaces sharper or thinner than the grid holds, and smooth ones beside them; none larger than some 20
+// voxels.
+inline std::map<std::string, FloatGrid::Ptr> sharpGrids(double voxel) {
+  std::map<std::string, FloatGrid::Ptr> grids;
+  const Vec3d half(11.0 * voxel, 11.0 * voxel, 7.0 * voxel);
+  // Turned against the grid, so that it is met in every way.
+  const auto turned = [=](const Vec3d& p) {
+    const Vec3d x = Vec3d(0.82, 0.41, 0.4).unit(), z = x.cross(Vec3d(0.2, 1.0, 0.0)).unit(), y = z.cross(x);
+    return Vec3d(p.dot(x), p.dot(y), p.dot(z)) / voxel;
+  };
+  const auto add = [&](const std::string& name, const std::function<double(const Vec3d&)>& distance) {
+    grids[name] = levelSetOf(voxel, half, [&](const Vec3d& p) { return voxel * distance(p / voxel); });
+    grids[name + ", turned"] =
+        levelSetOf(voxel, half, [&](const Vec3d& p) { return voxel * distance(turned(p)); });
+  };
+  const auto slab = [](const Vec3d& p, const Vec3d& h) {
+    const Vec3d d(std::abs(p.x()) - h.x(), std::abs(p.y()) - h.y(), std::abs(p.z()) - h.z());
+    return std::max({d.x(), d.y(), d.z()});
+  };
+  for (const double thick : {0.8, 1.1, 1.9})
+    add("sheet " + std::to_string(thick),
+        [=](const Vec3d& p) { return slab(p - Vec3d(0.3, 0.1, 0.2), Vec3d(6.2, 5.3, 0.5 * thick)); });
+  add("sheet with a hole", [=](const Vec3d& p) {
+    return std::max(slab(p, Vec3d(6.2, 5.3, 0.7)), 1.6 - std::hypot(p.x() - 0.4, p.y()));
+  });
+  add("wedge", [=](const Vec3d& p) {
+    return std::max({slab(p, Vec3d(7.1, 4.2, 4.0)), p.z() - 0.25 * p.x() - 0.4, -p.z() - 0.7});
+  });
+  add("lens", [=](const Vec3d& p) {
+    return std::max((p - Vec3d(0.1, 0.0, 7.0)).length(), (p + Vec3d(0.0, 0.2, 7.0)).length()) - 8.1;
+  });
+  add("thread",
+      [=](const Vec3d& p) { return (p - Vec3d(std::clamp(p.x(), -7.0, 7.0), 0.2, 0.1)).length() - 0.8; });
+  add("drops that touch", [=](const Vec3d& p) {
+    return std::min((p - Vec3d(3.9, 0.1, 0.0)).length(), (p + Vec3d(3.9, 0.0, 0.2)).length()) - 3.9;
+  });
+  add("gap that closes", [=](const Vec3d& p) {
+    return std::max(slab(p, Vec3d(6.3, 5.1, 4.2)),
+                    0.12 * std::abs(p.x() + 1.0) + 0.2 - std::abs(p.z() - 0.3 * std::sin(p.y())));
+  });
+  for (const double radius : {0.55, 0.9, 1.4, 2.2})
+    add("drop " + std::to_string(radius),
+        [=](const Vec3d& p) { return (p - Vec3d(0.3, 0.2, 0.1)).length() - radius; });
+  add("box", [=](const Vec3d& p) { return slab(p, Vec3d(6.02, 4.6, 3.3)); });
+  add("one voxel", [](const Vec3d& p) { return p.length() - 0.5; });
+  grids["splash"] = splashGrid(12, voxel, 3);
+  return grids;
 }
 
 }  // namespace fluidtex::texture

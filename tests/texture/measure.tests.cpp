@@ -13,6 +13,7 @@
 #include <functional>
 
 using namespace fluidtex::testing;
+using fluidtex::randomUnit;
 using Catch::Matchers::WithinAbs;
 
 namespace {
@@ -107,6 +108,24 @@ TEST_CASE("measure: the exemplar itself is like itself, as sharp and all in use"
   }));
   REQUIRE(part);
   CHECK(part->coverage < 0.6 * itself->coverage);
+}
+
+TEST_CASE("measure: a frame's figures do not depend on the frames that were judged before", "[texture]") {
+  const Image picture = cells(96);
+  const MeasureOptions few{.tile = 31, .tiles = 24, .patches = 200};
+  const TexturedSurface first = sheet(picture, asItIs), second = sheet(blurred(picture), turned);
+  LikenessJudge series(picture, few);
+  series(first, true);
+  series(first);
+  const auto third = series(second, true), alone = LikenessJudge(picture, few)(second, true);
+  REQUIRE((third && alone));
+  CHECK(third->likeness == alone->likeness);
+  CHECK(third->sharpness == alone->sharpness);
+  CHECK(third->coverage == alone->coverage);
+  CHECK(third->repeats == alone->repeats);
+  CHECK(third->tiles == alone->tiles);
+  // And whether repeats are asked for as well.
+  CHECK(series(second)->likeness == alone->likeness);
 }
 
 TEST_CASE("measure: a surface that nowhere is flat has no likeness", "[texture]") {

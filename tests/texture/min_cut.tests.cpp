@@ -1,6 +1,6 @@
 #include "texture/min_cut.h"
 
-#include "texture/random.h"
+#include "random/random.h"
 
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/push_relabel_max_flow.hpp>
@@ -10,6 +10,7 @@
 #include <vector>
 
 using namespace fluidtex::texture;
+using fluidtex::randomUnit;
 
 namespace {
 

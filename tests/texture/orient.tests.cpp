@@ -98,6 +98,15 @@ TEST_CASE("orientation: unit, tangent and smooth on every level of a sphere", "[
   CHECK(share(angles, 20.0 * kDegree) > 0.985);
 }
 
+TEST_CASE("orientation: of fields that are as smooth the scene's seed chooses one", "[texture]") {
+  Surface first = sphereLevels(), same = sphereLevels(), other = sphereLevels();
+  orient(first, {}, {.seed = 1});
+  orient(same, {}, {.seed = 1});
+  orient(other, {}, {.seed = 2});
+  CHECK(first.levels[0].orientation == same.levels[0].orientation);
+  CHECK(first.levels[0].orientation != other.levels[0].orientation);
+}
+
 TEST_CASE("orientation: a torus ends without singularities", "[texture]") {
   Surface surface;
   for (const int k : {4, 2, 1}) surface.levels.push_back(torusMesh(24 * k, 12 * k));

@@ -65,3 +65,16 @@ TEST_CASE("points: both sides of a thin sheet are covered") {
   CHECK(above > 40);
   CHECK(below > 40);
 }
+
+TEST_CASE("points: fresh points lie on the smooth surface, however close they are to each other") {
+  // At its edges the trilinear surface, on which they are thrown, is up to a fifth of a voxel from the smooth
+  // one.
+  const LevelSet phi(*boxGrid(Vec3d(0.62, 0.41, 0.33), 0.1));
+  for (const float spacing : {0.1f, 1.0f}) {
+    const PointSet points = spreadPoints(phi, isoSurface(phi), {}, spacing, 1);
+    std::size_t off = 0;
+    for (const Vec3f& p : points.position) off += std::abs(phi.sample(p).value) > 0.05f;
+    INFO("spacing " << spacing << ", " << points.position.size() << " points");
+    CHECK(off == 0);
+  }
+}

@@ -2,8 +2,8 @@
 // or not.
 #pragma once
 
+#include "random/random.h"
 #include "texture/exemplar.h"
-#include "texture/random.h"
 
 #include <algorithm>
 #include <cmath>

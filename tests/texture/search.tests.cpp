@@ -9,6 +9,8 @@
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
+using fluidtex::randomBelow;
+using fluidtex::randomUnit;
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 

@@ -1,6 +1,6 @@
 #include "texture/shown_color.h"
 
-#include "texture/random.h"
+#include "random/random.h"
 #include "texture/srgb.h"
 
 #include <catch2/catch.hpp>
@@ -8,6 +8,7 @@
 #include <cmath>
 
 using namespace fluidtex::texture;
+using fluidtex::randomUnit;
 
 namespace {
 

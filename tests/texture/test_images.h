@@ -1,8 +1,8 @@
 // Small images for tests.
 #pragma once
 
+#include "random/random.h"
 #include "texture/exemplar.h"
-#include "texture/random.h"
 
 #include <cmath>
 #include <functional>
@@ -21,7 +21,7 @@ inline texture::Image imageOf(int width, int height, int channels,
 // Independent values in 0..1.
 inline texture::Image noiseImage(int width, int height, int channels, std::uint64_t seed) {
   return imageOf(width, height, channels, [&](int x, int y, int c) {
-    return float(texture::randomUnit(seed, std::uint64_t((y * width + x) * channels + c)));
+    return float(randomUnit(seed, std::uint64_t((y * width + x) * channels + c)));
   });
 }
 
@@ -31,9 +31,7 @@ inline texture::Image blobImage(int width, int height, int channels, double size
     if (c == 3) return 1.0f;
     double sum = 0.0;
     for (int k = 0; k < 6; ++k) {
-      const auto random = [&](int i) {
-        return texture::randomUnit(seed, std::uint64_t((c * 6 + k) * 4 + i));
-      };
+      const auto random = [&](int i) { return randomUnit(seed, std::uint64_t((c * 6 + k) * 4 + i)); };
       const double angle = 6.2832 * random(0);
       const double frequency = 6.2832 / size * (0.6 + 0.8 * random(1));
       sum += std::sin(frequency * (x * std::cos(angle) + y * std::sin(angle)) + 6.2832 * random(2));

@@ -9,6 +9,7 @@
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
+using fluidtex::randomUnit;
 
 TEST_CASE("texel image: reads what sampleBilinear reads") {
   const Image image = noiseImage(23, 17, 5, 1);

@@ -1,6 +1,6 @@
 #include "texture/window_tree.h"
 
-#include "texture/random.h"
+#include "random/random.h"
 
 #include <catch2/catch.hpp>
 
@@ -9,6 +9,7 @@
 #include <set>
 
 using namespace fluidtex::texture;
+using fluidtex::randomUnit;
 using Catch::Matchers::WithinRel;
 
 TEST_CASE("codes: sixteen at once are the sums of the squared differences of the upper bits", "[texture]") {

@@ -41,6 +41,18 @@ TEST_CASE("fluidtex measure: fills the report of a run and writes all figures", 
               .exitCode == 0);
   CHECK(readBytes(scratch.path / "n.json") == readBytes(json));
 
+  // Nor on the frames that are measured before it.
+  fs::create_directory(scratch.path / "alone");
+  fs::copy(out / "run.json", scratch.path / "alone" / "run.json");
+  fs::create_directory(scratch.path / "alone" / "surface");
+  fs::copy(out / "surface" / "0003.ply", scratch.path / "alone" / "surface" / "0003.ply");
+  const fs::path third = scratch.path / "third.json";
+  REQUIRE(runProgram({"measure", (scratch.path / "alone").string(), "--json", third.string()}).exitCode == 0);
+  const Json alone = Json::parse(readBytes(third))["frames"][0];
+  for (const char* key :
+       {"likeness", "sharpness", "coverage", "contrast", "repeats", "shape", "seams", "chips"})
+    CHECK(alone[key] == figures["frames"][2][key]);
+
   fs::remove(out / "surface" / "0002.ply");
   REQUIRE(runProgram({"measure", out.string(), "--json", json.string(), "--quiet"}).exitCode == 0);
   CHECK_FALSE(Json::parse(readBytes(json))["frames"][1].contains("pop"));

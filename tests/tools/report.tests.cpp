@@ -39,7 +39,8 @@ TEST_CASE("run.json: a frame has every key, and null where nothing is known", "[
                           "energy_start", "energy_end", "iterations",        "renewed",
                           "likeness",     "sharpness",  "change_along_flow", "seconds",
                           "simulate",     "prepare",    "transport",         "synthesize",
-                          "spacing",      "render",       "write",      "peak_rss",          "singular_points"})
+                          "spacing",      "render",       "write",      "peak_rss",          "singular_points",
+                          "folded",       "spikes"})
     CHECK_THAT(text, Catch::Contains("\"" + std::string(key) + "\":"));
   CHECK_THAT(text, Catch::Contains("\"energy_end\":null"));
 }

@@ -1,19 +1,30 @@
 // A dam break's surface, frame after frame from the last frame's points and mesh.
 #include "sim/solver.h"
 #include "tests/texture/mesh_quality.h"
+#include "texture/mesh_stats.h"
 #include "texture/prepare.h"
 #include "transport/carry.h"
 
 #include <catch2/catch.hpp>
 
+#include <map>
+
 using namespace fluidtex;
 using namespace fluidtex::texture;
 
-TEST_CASE("a dam break's surface: even, near the level set and sound on every frame") {
+namespace {
+
+sim::Options damBreak() {
   sim::Options options;
   options.resolution = 24;
   options.liquid = {{{sim::Box{sim::Vec3d(0.0), sim::Vec3d(0.4, 1.0, 0.5)}}}};
-  sim::Solver solver(options);
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("a dam break's surface: even, near the level set and sound on every frame") {
+  sim::Solver solver(damBreak());
   SurfaceMesh mesh;
   std::size_t triangles = 0, slim = 0;
   for (int number = 1; number <= 16; ++number) {
@@ -33,4 +44,24 @@ TEST_CASE("a dam break's surface: even, near the level set and sound on every fr
     CHECK(double(mesh.positions.size()) == Approx(area(iso.positions, iso.triangles)).epsilon(0.03));
   }
   CHECK(double(slim) <= 0.001 * double(triangles));
+}
+
+TEST_CASE("a splash: no edge folds and no vertex sticks out on any frame, at any spacing", "[slow]") {
+  sim::Solver solver(damBreak());
+  std::map<double, SurfaceMesh> meshes;  // by spacing, voxels
+  for (int number = 1; number <= 30; ++number) {
+    const sim::Frame frame = solver.next();
+    for (const double ratio : {0.12, 0.4, 1.0, 2.0}) {
+      INFO("frame " << number << ", spacing " << ratio << " voxels");
+      SurfaceMesh& mesh = meshes[ratio];
+      Seeds seeds;
+      if (number > 1) seeds = {transport::moved(mesh.positions, frame), mesh.positions, mesh.triangles, {}};
+      const double spacing = ratio * frame.surfacePhi->voxelSize().x();
+      mesh = prepareSurface(*frame.surfacePhi, spacing, seeds, 1, SurfaceOptions{}).levels[0];
+      CHECK(isClosedManifold(mesh.positions.size(), mesh.triangles));
+      const MeshStats stats = meshStats(mesh.positions, mesh.triangles, mesh.normals);
+      CHECK(stats.folded == 0);
+      CHECK(stats.spikes == 0);
+    }
+  }
 }

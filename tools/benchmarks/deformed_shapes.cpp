@@ -1,7 +1,7 @@
 #include "tools/benchmarks/deformed_shapes.h"
 
+#include "random/random.h"
 #include "texture/parallel.h"
-#include "texture/random.h"
 
 #include <openvdb/tools/Morphology.h>
 #include <openvdb/tools/SignedFloodFill.h>
@@ -97,7 +97,7 @@ FloatGrid::Ptr levelSetOf(const Shape& shape, double voxel) {
 std::vector<Vec3d> scattered(int count, const std::function<Vec3d(double, double)>& at) {
   std::vector<Vec3d> points(static_cast<std::size_t>(count));
   texture::forEachIndex(points.size(), [&](std::uint32_t i) {
-    points[i] = at(texture::randomUnit(1, 2ull * i), texture::randomUnit(1, 2ull * i + 1));
+    points[i] = at(randomUnit(1, 2ull * i), randomUnit(1, 2ull * i + 1));
   });
   return points;
 }

@@ -1,9 +1,9 @@
 // Transport of one frame: the trace, a vertex and substep; closest point and pick-up, a vertex; and closest
 // points alone beside Embree and CGAL. A sphere in LeVeque's deformation, one cell a vertex; processor time
 // of one thread.
+#include "random/random.h"
 #include "texture/parallel.h"
 #include "texture/prepare.h"
-#include "texture/random.h"
 #include "texture/tangent.h"
 #include "tools/benchmarks/closest_peers.h"
 #include "tools/benchmarks/deformed_shapes.h"
@@ -80,7 +80,7 @@ std::shared_ptr<const Problem> problem(int points) {
   p->next.positions = transport::moved(mesh.positions, p->frame);
   const std::vector<Vec3f> along = texture::referenceVectors(mesh.normals);
   for (std::size_t v = 0; v < along.size(); ++v) {
-    const auto angle = float(6.283185307 * texture::randomUnit(3, v));
+    const auto angle = float(6.283185307 * randomUnit(3, v));
     const Vec3f across = mesh.normals[v].cross(along[v]);
     p->next.positions[v] +=
         (along[v] * std::cos(angle) + across * std::sin(angle)) * float(kOff * moving.spacing);
