@@ -13,11 +13,11 @@
 #include "tools/console.h"
 #include "tools/earlier_run.h"
 #include "tools/errors.h"
-#include "tools/foreseen_surface.h"
 #include "tools/fingerprint.h"
+#include "tools/foreseen_surface.h"
+#include "tools/image_notes.h"
 #include "tools/input_files.h"
 #include "tools/journal.h"
-#include "tools/image_notes.h"
 #include "tools/onto_mesh.h"
 #include "tools/orientation_guide.h"
 #include "tools/ply.h"
@@ -106,7 +106,7 @@ class FrameLoop {
       m_motion = sim::makeMotion(m_scene.sim, m_scene.motion);
       clearEarlierRun(m_options.out, m_scene.name);
     }
-    for (const std::string& warning : sim::warningsOf(*m_motion)) warn(warning);
+    tellWarnings();
     for (const std::string& note : imageNotes(colorPictures(m_scene.texture.exemplar))) warn(note);
     const int first = sim::stateOf(*m_motion).frame + 1;
     spdlog::info("{}: frames {} to {}, {} threads", m_scene.name, first, m_last, m_options.threads);
@@ -126,6 +126,12 @@ class FrameLoop {
   void warn(const std::string& warning) const {
     spdlog::warn("{}", warning);
     if (!m_options.quiet) say("warning: {}\n", warning);
+  }
+
+  // Those of the motion that have come up since the last call.
+  void tellWarnings() {
+    const std::vector<std::string> all = sim::warningsOf(*m_motion);
+    for (; m_warningsTold < all.size(); ++m_warningsTold) warn(all[m_warningsTold]);
   }
 
   texture::CacheFolder kept() const {
@@ -176,6 +182,7 @@ class FrameLoop {
       nowAt(kOnMotion, sim::stateOf(*m_motion).frame + 1);
       result.motion = sim::nextFrame(*m_motion, reporter("simulate"));
     }
+    tellWarnings();
     const sim::Frame& motion = result.motion;
     const texture::SurfaceOptions& surfaceOptions = m_scene.texture.surface;
     texture::Surface surface;
@@ -390,6 +397,7 @@ class FrameLoop {
   TextureScale m_scale;
   TextureGuidance m_guidance;
   std::optional<sim::Motion> m_motion;
+  std::size_t m_warningsTold = 0;
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
   VisibleSolids m_solids;
   Report m_report;

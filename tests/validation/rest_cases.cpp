@@ -4,7 +4,9 @@
 #include "tests/validation/measure.h"
 #include "tests/validation/solver_run.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace fluidtex::validation {
@@ -76,6 +78,48 @@ Result aroundBall(int resolution, const Progress& progress) {
   return pool("rest_ball", Vec3d(0.0, 0.0, 1.0), Vec3d(0.5, 0.5, 0.437), {solid}, resolution, progress);
 }
 
+// A pool that fills the lower part of a box whose sides are no whole number of cells, for 60 frames, with
+// every pair of a viscosity and a kind of wall, with and without heat. The worst of each figure.
+Result viscousPool(int resolution, const Progress& progress) {
+  constexpr double kViscosities[] = {1e-3, 1.0, 1e2, 1e4, 1e6};
+  constexpr sim::WallKind kWalls[] = {sim::WallKind::slip, sim::WallKind::friction, sim::WallKind::noSlip};
+  constexpr int kFrames = 60, kRuns = 2 * int(std::size(kViscosities) * std::size(kWalls));
+  constexpr double kLevel = 0.31;
+  const std::string test = "rest_viscous";
+  double fastest = 0.0, drift = 0.0, volume = 0.0;
+  int run = 0;
+  for (const double viscosity : kViscosities) {
+    for (const sim::WallKind wall : kWalls) {
+      for (const bool heat : {false, true}) {
+        sim::Options options;
+        options.size = Vec3d(1.0, 0.53, 0.77);
+        options.resolution = resolution;
+        options.viscosity = viscosity;
+        options.walls = {{sim::DomainFace::all, {.kind = wall}}};
+        options.heat.simulated = heat;
+        options.liquid = {{{sim::Box{Vec3d(0.0), Vec3d(1.0, 0.53, kLevel)}}}};
+        sim::Solver solver(options);
+        const double first = solver.next().stats.volume;
+        for (int n = 0; n < kFrames; ++n) {
+          const double last = solver.next().stats.volume;
+          volume = std::max(volume, std::abs(last / first - 1.0));
+          fastest = std::max(fastest, farthestFrom(solver.state(), [](const Vec3d&) { return Vec3d(0.0); }));
+          if (progress) progress((run + (n + 1.0) / kFrames) / kRuns);
+        }
+        for (int i = 1; i < resolution; i += 3)
+          drift = std::max(drift, std::abs(surfaceHeight(solver.state(), i, 2, resolution) - kLevel));
+        ++run;
+      }
+    }
+  }
+  Result result;
+  result.rows = {
+      {test, resolution, "max |u| / sqrt(g L)", fastest / std::sqrt(kGravity), 1e-5, 1e-6, false, {}, 0.0},
+      {test, resolution, "surface off its place, h", drift * resolution, 0.5, 0.05, false, {}, 0.0},
+      {test, resolution, "volume change", volume, 1e-4, 1e-6, false, {}, 0.0}};
+  return result;
+}
+
 // A ball of liquid falls 0.4 m.
 Result fall(const std::string& test, const Vec3d& down, const Vec3d& start, int resolution,
             const Progress& progress) {
@@ -125,6 +169,13 @@ std::vector<Case> restCases() {
       {"rest_tilted", "fluid", "A pool at rest under gravity tilted by 30 degrees", {32, 64}, {}, tilted, {}},
       {"rest_bowl", "fluid", "A pool at rest in a round bowl", {32, 64}, {}, bowl, {}},
       {"rest_ball", "fluid", "A pool at rest around a solid ball", {32, 64}, {}, aroundBall, {}},
+      {"rest_viscous",
+       "fluid",
+       "A pool at rest, of any viscosity and with any wall, in a box of no whole number of cells",
+       {16, 32, 48},
+       {},
+       viscousPool,
+       {}},
       {"free_fall", "fluid", "A ball of liquid falls 0.4 m", {64}, {64}, fallStraight, {}},
       {"free_fall_45", "fluid", "The same along a diagonal", {64}, {}, fallAslant, {}}};
 }

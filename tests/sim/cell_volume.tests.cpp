@@ -1,0 +1,82 @@
+#include "sim/cell_volume.h"
+#include "sim/level_set.h"
+#include "tests/sim/solver_scenes.h"
+
+#include <catch2/catch_all.hpp>
+
+#include <cmath>
+
+using namespace fluidtex::sim;
+using Catch::Approx;
+
+TEST_CASE("cell volume: a film that no cell centre is in is not counted, one with a centre is") {
+  Options options = tank(8, {});
+  const auto solid = Solids(options).at(0.0);
+  const auto film = [&](double depth) {
+    FloatGrid::Ptr phi = makePhi(0.125, 1.0);
+    for (int n = 0; n < 512; ++n)
+      phi->tree().setValue(Coord(n >> 6, n >> 3 & 7, n & 7), float(((n & 7) + 0.5) * 0.125 - depth));
+    return liquidVolume(*phi, *solid);
+  };
+  CHECK(film(0.05) == 0.0);
+  CHECK(film(0.1) == Approx(0.1).epsilon(1e-5));
+  CHECK(film(0.3) == Approx(0.3).epsilon(1e-5));
+}
+
+TEST_CASE("cell volume: nothing is open in a wall thinner than a cell") {
+  Options options = tank(8, {});
+  options.solids.resize(1);
+  options.solids[0].shape = {Box{Vec3d(0.52, -1.0, -1.0), Vec3d(0.60, 2.0, 2.0)}};  // around centre 4.5
+  const auto solid = Solids(options).at(0.0);
+  LeafShares open;
+  openShares(*solid, Coord(0), open);
+  for (int c = 0; c < 64; ++c) {
+    CHECK(open[4 * 64 + c] == 0.0f);
+    CHECK(open[3 * 64 + c] > 0.5f);
+    CHECK(open[5 * 64 + c] > 0.5f);
+  }
+}
+
+TEST_CASE("volume: a solid that appears in liquid pushes it aside, and says so") {
+  Options options = tank(24, {box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.4))});
+  options.solids.resize(1);
+  options.solids[0].shape = {Box{Vec3d(0.3, 0.3, -0.1), Vec3d(0.7, 0.7, 0.6)}};
+  options.solids[0].from = 0.1;
+  Solver solver(options);
+  const double first = solver.next().stats.volume;
+  for (int n = 0; n < 8; ++n) {
+    const FrameStats stats = solver.next().stats;
+    REQUIRE((stats.volume + stats.owed) / first == Approx(1.0).epsilon(1e-4));
+  }
+  REQUIRE_FALSE(solver.warnings().empty());
+  CHECK_THAT(solver.warnings()[0], Catch::Matchers::ContainsSubstring("a solid appears in 0.06"));
+}
+
+TEST_CASE("volume: a paddle that stirs a pool neither makes liquid nor loses any") {
+  Options options = tank(24, {box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.25))});
+  options.size = Vec3d(1.0, 1.0, 0.6);
+  options.solids.resize(1);
+  options.solids[0].shape = {Box{Vec3d(0.15, 0.42, -0.1), Vec3d(0.85, 0.58, 0.4)}};
+  options.solids[0].pivot = Vec3d(0.5, 0.5, 0.0);
+  options.solids[0].keyframes = {{0.0, Vec3d(0.0), 0.0}, {1.5, Vec3d(0.0), 360.0}};
+  Solver solver(options);
+  const double first = solver.next().stats.volume;
+  for (int n = 0; n < 12; ++n) {
+    const FrameStats stats = solver.next().stats;
+    REQUIRE(std::abs((stats.volume + stats.owed) / first - 1.0) < 0.01);
+    REQUIRE(std::abs(stats.volume / first - 1.0) < 0.02);
+  }
+}
+
+TEST_CASE("volume: a drop that is lost is owed, and the run says so") {
+  Options options = tank(16, {{Shape{Sphere{Vec3d(0.5, 0.5, 0.2), 0.06}}, Vec3d(0.0), 0.0}});
+  Solver solver(options);
+  const double first = solver.next().stats.volume;
+  REQUIRE(first > 0.0);
+  FrameStats last;
+  for (int n = 0; n < 12; ++n) last = solver.next().stats;
+  CHECK((last.volume + last.owed) / first == Approx(1.0).epsilon(1e-3));
+  CHECK(last.owed > 0.02 * first);
+  REQUIRE(solver.warnings().size() == 1);
+  CHECK_THAT(solver.warnings()[0], Catch::Matchers::ContainsSubstring("m3 less than it should"));
+}

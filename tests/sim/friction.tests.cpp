@@ -1,0 +1,60 @@
+// Viscous liquid at rest: see the derivation in sim/friction.h.
+#include "sim/friction.h"
+#include "tests/sim/solver_scenes.h"
+
+#include <catch2/catch_all.hpp>
+
+#include <cmath>
+
+using namespace fluidtex::sim;
+
+namespace {
+
+// The largest velocity component between two cells of liquid, m/s.
+double fastest(const State& state) {
+  double most = 0.0;
+  const auto phi = state.phi->getConstUnsafeAccessor();
+  for (const auto& [grid, axis] : {std::pair(&state.u, 0), std::pair(&state.v, 1), std::pair(&state.w, 2)}) {
+    for (auto it = (*grid)->cbeginValueOn(); it; ++it) {
+      Coord below = it.getCoord();
+      below[axis] -= 1;
+      if (phi.getValue(it.getCoord()) < 0.0f && phi.getValue(below) < 0.0f)
+        most = std::max(most, std::abs(double(*it)));
+    }
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("friction: a pool rests, whatever its viscosity and walls, also where walls cut cells") {
+  const WallKind kind = GENERATE(WallKind::slip, WallKind::friction, WallKind::noSlip);
+  const double viscosity = GENERATE(0.0, 1.0, 100.0, 1e6);
+  Options options = tank(16, {box(Vec3d(0.0), Vec3d(1.0, 0.53, 0.31))});
+  options.size = Vec3d(1.0, 0.53, 0.77);  // 8.48 and 12.32 cells
+  options.viscosity = viscosity;
+  options.walls = {{DomainFace::all, {.kind = kind, .slipLength = 0.02}}};
+  Solver solver(options);
+  const double first = solver.next().stats.volume;
+  CAPTURE(int(kind), viscosity);
+  CHECK(fastest(solver.state()) < 1e-5);
+  for (int n = 0; n < 10; ++n) {
+    const Frame frame = solver.next();
+    REQUIRE(fastest(solver.state()) < 1e-5);
+    REQUIRE(std::abs(frame.stats.volume / first - 1.0) < 1e-5);
+  }
+}
+
+TEST_CASE("friction: nothing is touched where it is negligible") {
+  Options options = tank(8, {box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.5))});
+  Solver solver(options);
+  solver.next();
+  const State& state = solver.state();
+  Velocity velocity{{state.u->deepCopy(), state.v->deepCopy(), state.w->deepCopy()}};
+  Solids solids(options);
+  const FrictionReport report = applyFriction(velocity, *state.phi, *solids.at(0.0), 0.01, 1000.0,
+                                              {.constant = 1e-3, .variable = nullptr}, {});
+  CHECK(report.viscosity.skipped);
+  CHECK(report.converged());
+  for (int a = 0; a < 3; ++a) CHECK(same(*velocity.component[a], *std::array{state.u, state.v, state.w}[a]));
+}

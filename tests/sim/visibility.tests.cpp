@@ -1,0 +1,110 @@
+#include "sim/visibility.h"
+#include "sim/level_set.h"
+#include "tests/sim/solver_scenes.h"
+
+#include "sim/solids.h"
+
+#include <catch2/catch_all.hpp>
+
+#include <cmath>
+
+using namespace fluidtex::sim;
+
+namespace {
+
+constexpr int kUp = VisibleCells::kStride[0];
+
+// A plate across x from 0.5 m on, that high, in a tank of 1 m.
+Options plate(double thickness, double height, int resolution) {
+  Options options = tank(resolution, {});
+  options.solids.resize(1);
+  options.solids[0].shape = {Box{Vec3d(0.5, -1.0, -1.0), Vec3d(0.5 + thickness, 2.0, height)}};
+  return options;
+}
+
+// A cup of 0.495 m across and with that much wall, filled to 0.5 m; on a foot as thick as the wall.
+Options cup(double wall, int resolution) {
+  const Vec3d middle(0.5, 0.5, 0.0);
+  const auto at = [&](double z) { return middle + Vec3d(0.0, 0.0, z); };
+  Options options = tank(resolution, {{Shape{Cylinder{at(0.2525), at(0.5), 0.2475}}, Vec3d(0.0), 0.0}});
+  options.solids.resize(1);
+  options.solids[0].shape = {Difference{
+      {{Cylinder{at(0.2525 - wall), at(0.6), 0.2475 + wall}}, {Cylinder{at(0.2525), at(0.7), 0.2475}}}}};
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("visibility: where walls are thick or there are none, all is seen") {
+  Options options = tank(16, {});
+  CHECK(Solids(options).at(0.0)->visibility == nullptr);
+  CHECK(Solids(plate(0.45, 2.0, 16)).at(0.0)->visibility == nullptr);
+}
+
+TEST_CASE("visibility: cells on two sides of a wall do not see each other") {
+  // From 16 to 17.6 of 32 cells: 16 lies wholly in it, 17 with its centre.
+  const auto field = Solids(plate(0.05, 2.0, 32)).at(0.0);
+  REQUIRE(field->visibility != nullptr);
+  const VisibleCells* before = field->visibility->around(Coord(15, 10, 10));
+  REQUIRE(before != nullptr);
+  CHECK(before->sees(VisibleCells::kMiddle));
+  CHECK(before->sees(VisibleCells::kMiddle - 2 * kUp));
+  CHECK(before->sees(VisibleCells::kMiddle + 2 * VisibleCells::kStride[1]));
+  CHECK_FALSE(before->sees(VisibleCells::kMiddle + 2 * kUp));
+  const VisibleCells* behind = field->visibility->around(Coord(18, 10, 10));
+  REQUIRE(behind != nullptr);
+  CHECK(behind->sees(VisibleCells::kMiddle + kUp));
+  CHECK_FALSE(behind->sees(VisibleCells::kMiddle - 2 * kUp));
+}
+
+TEST_CASE("visibility: over a wall's rim one sees the other side, below it one does not") {
+  const auto field = Solids(plate(0.025, 0.5, 32)).at(0.0);
+  REQUIRE(field->visibility != nullptr);
+  CHECK(field->visibility->around(Coord(15, 10, 20)) == nullptr);
+  const VisibleCells* below = field->visibility->around(Coord(15, 10, 14));
+  REQUIRE(below != nullptr);
+  CHECK_FALSE(below->sees(VisibleCells::kMiddle + 2 * kUp));
+}
+
+TEST_CASE("visibility: a level set goes on linearly behind a wall, and does not change its sign there") {
+  VisibleCells visible;
+  for (int j = 0; j < 25; ++j)
+    for (const int i : {3, 4}) visible.hide(i * kUp + j);
+  Stencil values;
+  for (int at = 0; at < VisibleCells::kCount; ++at) values[at] = 5.0f + float(at / kUp);
+  for (int at = 3 * kUp; at < VisibleCells::kCount; ++at) values[at] = -100.0f;
+  goOnBehind(values, visible);
+  CHECK(values[VisibleCells::kMiddle + kUp] == 8.0f);
+  CHECK(values[VisibleCells::kMiddle + 2 * kUp] == 9.0f);
+  for (int at = 0; at < VisibleCells::kCount; ++at) values[at] = 2.5f - float(at / kUp);
+  goOnBehind(values, visible);  // 2.5, 1.5, 0.5 to the middle
+  CHECK(values[VisibleCells::kMiddle + kUp] == 0.5f);
+}
+
+TEST_CASE("visibility: closed cups with walls of half a cell and more hold what is in them") {
+  // 2.1, 1.05, 0.63 and 0.55 cells.
+  const auto [wall, resolution] =
+      GENERATE(std::pair(0.0525, 40), std::pair(0.0525, 20), std::pair(0.0525, 12), std::pair(0.0275, 20));
+  CAPTURE(wall, resolution);
+  Options options = cup(wall, resolution);
+  Solver solver(options);
+  CHECK(solver.warnings().empty());
+  const double first = solver.next().stats.volume, h = options.voxelSize();
+  for (int n = 0; n < 24; ++n) {
+    const Frame frame = solver.next();
+    REQUIRE(std::abs((frame.stats.volume + frame.stats.owed) / first - 1.0) < 0.01);
+    REQUIRE(std::abs(frame.stats.volume / first - 1.0) < 0.02);
+  }
+  const auto solid = Solids(options).at(0.0);
+  int outside = 0;
+  const auto& phi = solver.state().phi->tree();
+  for (auto leaf = phi.cbeginLeaf(); leaf; ++leaf) {
+    for (auto it = leaf->cbeginValueAll(); it; ++it) {
+      const Vec3d x = (it.getCoord().asVec3d() + Vec3d(0.5)) * h;
+      const bool beyond =
+          std::hypot(x[0] - 0.5, x[1] - 0.5) > 0.2475 + 0.5 * wall || x[2] < 0.2525 - 0.5 * wall;
+      outside += *it < 0.0f && beyond && solid->phi->tree().getValue(it.getCoord()) > 0.0f;
+    }
+  }
+  CHECK(outside == 0);
+}
