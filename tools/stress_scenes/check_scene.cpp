@@ -32,6 +32,8 @@ constexpr double kOwedOfSurface = 0.03;
 constexpr double kJets = 3.0;
 // Of the energy of motion and place: what the surface's volume, read off phi, is not exact by.
 constexpr double kEnergyTolerance = 0.01;
+// Of the energy of the surface: of films thinner than two cells only half is seen, and all of it is set free.
+constexpr double kFilms = 0.1;
 // Of the speed at which a ripple of a cell's height falls, which is sqrt(g h): what is left at rest is less.
 constexpr double kStill = 0.1;
 // In a frame. Liquid of the greatest speed that is allowed takes less.
@@ -190,7 +192,7 @@ class Checks {
     const double sum = now.kinetic + now.potential + now.surface - now.falling * state.ahead;
     const double lifted =
         m_options.density * std::abs(frame.stats.owed) * (m_surroundings.highest(frame.time) - now.lowest);
-    const double allowed = kEnergyTolerance * (now.kinetic + now.potential + now.surface) + lifted +
+    const double allowed = kEnergyTolerance * (now.kinetic + now.potential) + kFilms * now.surface + lifted +
                            0.5 * now.mass * fall * fall;
     if (m_frame == 1 || isEvent(m_options, m_time, frame.time)) m_energy = sum;
     // A volume that is wrong has a wrong energy.
