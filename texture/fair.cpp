@@ -28,13 +28,18 @@ class Fairer {
   Fairer(EditableMesh& mesh, const LevelSet& phi) : m_mesh(mesh), m_phi(phi) {}
 
   void run() {
-    constexpr int kRounds = 40, kSweeps = 40;
+    constexpr int kRounds = 40, kSweeps = 40, kHopeless = 12;
+    constexpr std::size_t kSplitsPerFault = 8, kSomeSplits = 64;
     constexpr int kRefined = 4;                     // rounds, until all edges around are split
     constexpr double kShrink = 0.5, kKeep = -0.53;  // second half of a pass of smooth()
     Faults faults = faultsOf(m_mesh);
     if (faults.none()) return;
     if (roundOffDrops(m_mesh, m_phi, around(faults, 0))) faults = faultsOf(m_mesh);
-    for (int round = 0; round < kRounds && !faults.none(); ++round) {
+    // Where there is less hope than that, as in noise, time and vertices must have an end.
+    m_splitsLeft = kSomeSplits + kSplitsPerFault * countOf(faults);
+    std::size_t fewest = countOf(faults);
+    int best = 0;
+    for (int round = 0; round < kRounds && round - best <= kHopeless && !faults.none(); ++round) {
       // What is crumpled comes apart when it shrinks; what is thin must not.
       const std::vector<std::uint32_t> region = around(faults, 2);
       const bool refined = round > 1 && round % kRefined == 1;
@@ -55,10 +60,13 @@ class Fairer {
         }
       }
       faults = faultsAt(m_mesh, touched());
+      if (countOf(faults) < fewest) fewest = countOf(faults), best = round;
     }
   }
 
  private:
+  static std::size_t countOf(const Faults& faults) { return faults.folds.size() + faults.spikes.size(); }
+
   std::vector<std::uint32_t> withNeighbors(const std::vector<std::uint32_t>& vertices) {
     m_listed.resize(m_mesh.vertexCount(), 0);
     std::vector<std::uint32_t> result;
@@ -211,14 +219,15 @@ class Fairer {
     }
   }
 
-  std::uint32_t split(std::uint32_t h) {
+  void split(std::uint32_t h) {
+    if (m_splitsLeft == 0) return;
+    --m_splitsLeft;
     const std::uint32_t a = m_mesh.origin[h], b = m_mesh.target(h);
     const Vec3f middle = (m_mesh.position[a] + m_mesh.position[b]) * 0.5f;
     Vec3f normal = m_mesh.normal[a] + m_mesh.normal[b];
     normal.normalize();
     const std::uint32_t m = m_mesh.splitEdge(h, middle, normal);
     if (!m_mesh.scale.empty()) m_mesh.scale[m] = m_phi.scale(middle);
-    return m;
   }
 
   double length2(std::uint32_t h) const {
@@ -273,6 +282,7 @@ class Fairer {
   const LevelSet& m_phi;
   std::vector<std::uint8_t> m_listed;  // #V, 0 between calls
   std::vector<std::uint32_t> m_moved;
+  std::size_t m_splitsLeft = 0;
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ struct TexelGradient {
 struct SurfaceMesh {
   double spacing = 0.0;  // sigma: side of the square that one vertex stands for; one exemplar pixel, metres
   std::vector<Vec3f> positions;    // #V
-  std::vector<Vec3f> normals;      // #V, unit, outward: grad(phi) normalised
+  std::vector<Vec3f> normals;      // #V, unit, outward: grad(phi), or the mesh's own on rims
   std::vector<Vec3I> triangles;    // #T, counter-clockwise seen from outside
   std::vector<Vec3f> orientation;  // #V, unit, tangent; empty before orient()
   std::vector<float> scale;  // #V: an exemplar pixel's side is spacing * scale there; empty: 1 everywhere
