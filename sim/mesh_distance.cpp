@@ -13,6 +13,8 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <optional>
 #include <sstream>
 
@@ -302,6 +304,62 @@ MeshDistance meshDistanceIn(const BBoxd& region, const TriangleMesh& mesh, doubl
     fillInside(*grid, inside, box, h);
   }
   return {grid, box};
+}
+
+std::vector<TriangleMesh> piecesApart(const TriangleMesh& mesh, double gap) {
+  constexpr std::size_t kMostParts = 64, kMostPieces = 8;
+  // Vertices that triangles join.
+  std::vector<openvdb::Index32> parent(mesh.positions.size());
+  std::iota(parent.begin(), parent.end(), openvdb::Index32{0});
+  const auto rootOf = [&](openvdb::Index32 v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const Vec3I& t : mesh.triangles) {
+    for (int c = 1; c < 3; ++c) {
+      const openvdb::Index32 a = rootOf(t[0]), b = rootOf(t[c]);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  // Of each piece the box, and the roots of the parts that are in it; those whose boxes touch become one.
+  std::map<openvdb::Index32, BBoxd> boxes;
+  for (const Vec3I& t : mesh.triangles) {
+    BBoxd& box = boxes[rootOf(t[0])];
+    for (int c = 0; c < 3; ++c) box.expand(Vec3d(mesh.positions[t[c]]));
+    if (boxes.size() > kMostParts) return {mesh};
+  }
+  std::vector<std::pair<BBoxd, std::vector<openvdb::Index32>>> pieces;
+  for (auto& [root, box] : boxes) {
+    box.expand(0.5 * gap);
+    std::pair<BBoxd, std::vector<openvdb::Index32>> piece{box, {root}};
+    for (bool grew = true; grew;) {
+      grew = false;
+      for (std::size_t n = 0; n < pieces.size(); ++n) {
+        if (!pieces[n].first.hasOverlap(piece.first)) continue;
+        piece.first.expand(pieces[n].first);
+        piece.second.insert(piece.second.end(), pieces[n].second.begin(), pieces[n].second.end());
+        pieces.erase(pieces.begin() + std::ptrdiff_t(n));
+        grew = true;
+        break;
+      }
+    }
+    pieces.push_back(std::move(piece));
+  }
+  if (pieces.size() < 2 || pieces.size() > kMostPieces) return {mesh};
+  std::map<openvdb::Index32, std::size_t> pieceOf;
+  for (std::size_t n = 0; n < pieces.size(); ++n)
+    for (const openvdb::Index32 root : pieces[n].second) pieceOf[root] = n;
+  std::vector<TriangleMesh> apart(pieces.size());
+  std::vector<openvdb::Index32> place(mesh.positions.size());
+  for (openvdb::Index32 v = 0; v < mesh.positions.size(); ++v) {
+    const auto piece = pieceOf.find(rootOf(v));
+    if (piece == pieceOf.end()) continue;  // of no triangle
+    place[v] = static_cast<openvdb::Index32>(apart[piece->second].positions.size());
+    apart[piece->second].positions.push_back(mesh.positions[v]);
+  }
+  for (const Vec3I& t : mesh.triangles)
+    apart[pieceOf.at(rootOf(t[0]))].triangles.emplace_back(place[t[0]], place[t[1]], place[t[2]]);
+  return apart;
 }
 
 }  // namespace fluidtex::sim

@@ -22,4 +22,9 @@ void checkCells(const TriangleMesh& mesh, const Vec3d& extents, double voxelSize
 MeshDistance meshDistanceIn(const openvdb::BBoxd& region, const TriangleMesh& mesh, double voxelSize,
                             double band);
 
+// The mesh in pieces whose boxes do not touch, so that a level set of each tells what lies between them
+// better than one that is interpolated across the gap; as a whole where these would be many.
+// gap: metres by which boxes that touch may be apart.
+std::vector<TriangleMesh> piecesApart(const TriangleMesh& mesh, double gap);
+
 }  // namespace fluidtex::sim

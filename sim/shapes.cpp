@@ -131,7 +131,10 @@ ShapeDistance::Node ShapeDistance::Node::of(const HeightField& ground, double vo
 
 ShapeDistance::Node ShapeDistance::Node::of(const TriangleMesh& mesh, double voxelSize,
                                             const openvdb::BBoxd& reach) {
-  return {meshDistanceIn(reach, mesh, voxelSize, kMeshBand)};
+  Any all;
+  for (const TriangleMesh& piece : piecesApart(mesh, 0.01 * voxelSize))
+    all.parts.push_back({meshDistanceIn(reach, piece, voxelSize, kMeshBand)});
+  return all.parts.size() == 1 ? all.parts.front() : Node{std::move(all)};
 }
 
 double ShapeDistance::Node::distance(const Vec3d& x) const {
