@@ -1,6 +1,6 @@
-// What the text or bytes of mesh files say. All three formats are read here: no library at hand keeps the vertices
-// of an OBJ as they are (texture is written back onto them), reads all that programs write, and stays within bounds
-// on damaged files (docs/architecture.md).
+// What the text or bytes of mesh files say. All three formats are read here: no library at hand keeps the
+// vertices of an OBJ as they are (texture is written back onto them), reads all that programs write, and
+// stays within bounds on damaged files (docs/architecture.md).
 #pragma once
 
 #include "sim/read_mesh.h"
