@@ -15,7 +15,9 @@ constexpr int kThickest = 5;
 // What is known around a block: the cells that are asked about, the way from one in the solid to the open,
 // and from there on.
 constexpr int kHalo = 8, kSide = kLeafDim + 2 * kHalo;
-constexpr int kStride[3] = {kSide * kSide, kSide, 1};
+constexpr int kStride[3] = {kSide * kSide, kSide, 1}, kLastCell = kSide * kSide * kSide - 1;
+// Farther from solids than this, in cells, a distance may be one that nobody has asked for.
+constexpr float kSurelyKnown = 2.9f;
 // From the open cell that looks.
 constexpr int kFar = 5, kBox = 2 * kFar + 1;
 constexpr int kBoxStride[3] = {kBox * kBox, kBox, 1};
@@ -40,7 +42,14 @@ struct Surroundings {
   bool anySolid() const {
     return std::any_of(distance.begin(), distance.end(), [](float d) { return d < 0.87f; });
   }
-  bool isOpen(int cell) const { return distance[cell] >= -kDeepInSolid; }
+  // In the open. Beyond what is known of the solids distances are those of the open, but no face is.
+  bool isOpen(int cell) const {
+    if (distance[cell] < -kDeepInSolid) return false;
+    if (distance[cell] < kSurelyKnown) return true;
+    for (int a = 0; a < 3; ++a)
+      if (openness[a][cell] > 0.0f || openness[a][std::min(cell + kStride[a], kLastCell)] > 0.0f) return true;
+    return false;
+  }
   // Whether a way leads from a cell to the next one along an axis.
   bool leadsUp(int cell, int axis) const {
     const int next = cell + kStride[axis];

@@ -2,7 +2,7 @@
 #include "sim/friction.h"
 #include "tests/sim/solver_scenes.h"
 
-#include <catch2/catch_all.hpp>
+#include <catch2/catch.hpp>
 
 #include <cmath>
 

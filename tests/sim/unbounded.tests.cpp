@@ -92,7 +92,8 @@ TEST_CASE("unbounded: a wall goes on beside a side without an end", "[sim]") {
     a = inHall.next();
     b = outside.next();
   }
-  CHECK(b.stats.volume == Approx(a.stats.volume).epsilon(1e-3));
+  // How much of a splash the surface encloses differs by rounding; with what is owed it is all there.
+  CHECK(b.stats.volume + b.stats.owed == Approx(a.stats.volume + a.stats.owed).epsilon(1e-3));
   const Vec3d middle = middleOf(*outside.state().phi);
   CHECK((middle + Vec3d(8.0, 0.0, 0.0) - middleOf(*inHall.state().phi)).length() < 0.2 * kVoxel);
   CHECK(middle.x() < -5.0);

@@ -4,7 +4,7 @@
 
 #include "sim/solids.h"
 
-#include <catch2/catch_all.hpp>
+#include <catch2/catch.hpp>
 
 #include <cmath>
 
@@ -38,7 +38,7 @@ Options cup(double wall, int resolution) {
 TEST_CASE("visibility: where walls are thick or there are none, all is seen") {
   Options options = tank(16, {});
   CHECK(Solids(options).at(0.0)->visibility == nullptr);
-  CHECK(Solids(plate(0.45, 2.0, 16)).at(0.0)->visibility == nullptr);
+  CHECK(Solids(plate(0.6, 2.0, 16)).at(0.0)->visibility == nullptr);
 }
 
 TEST_CASE("visibility: cells on two sides of a wall do not see each other") {
@@ -92,8 +92,9 @@ TEST_CASE("visibility: closed cups with walls of half a cell and more hold what 
   const double first = solver.next().stats.volume, h = options.voxelSize();
   for (int n = 0; n < 24; ++n) {
     const Frame frame = solver.next();
-    REQUIRE(std::abs((frame.stats.volume + frame.stats.owed) / first - 1.0) < 0.01);
-    REQUIRE(std::abs(frame.stats.volume / first - 1.0) < 0.02);
+    REQUIRE(std::abs((frame.stats.volume + frame.stats.owed) / first - 1.0) < 3e-3);
+    // What is poured into a cup of six cells across is not level at its wall, and sloshes.
+    REQUIRE(std::abs(frame.stats.volume / first - 1.0) < (resolution < 40 ? 0.03 : 0.005));
   }
   const auto solid = Solids(options).at(0.0);
   int outside = 0;
