@@ -1,5 +1,6 @@
 #include "sim/owed_volume.h"
 
+#include "sim/cell_volume.h"
 #include "sim/leaf_patch.h"
 #include "sim/level_set.h"
 #include "sim/require.h"
@@ -222,6 +223,34 @@ double totalOwed(const FloatGrid& owed) {
   for (auto leaf = owed.constTree().cbeginLeaf(); leaf; ++leaf)
     cells += std::accumulate(leaf->buffer().data(), leaf->buffer().data() + kLeafSize, 0.0);
   return cells * std::pow(owed.voxelSize()[0], 3);
+}
+
+FloatGrid::Ptr withUnseen(const FloatGrid* owed, const FloatGrid& phi, const FloatGrid& poured,
+                          const SolidField& solid) {
+  const float h = static_cast<float>(solid.voxelSize);
+  FloatGrid::Ptr result = owed != nullptr ? owed->deepCopy() : FloatGrid::create(0.0f);
+  result->setTransform(cellTransform(solid.voxelSize));
+  result->setName("owed");
+  for (auto leaf = poured.constTree().cbeginLeaf(); leaf; ++leaf) {
+    const Coord& origin = leaf->origin();
+    LeafShares seen, open;
+    liquidShares(phi, solid, origin, seen);
+    openShares(solid, origin, open);
+    float scratch[kLeafSize];
+    const float* p = leafValues(phi.constTree(), origin, scratch);
+    FloatLeaf* to = nullptr;
+    for (int i = 0; i < kLeafSize; ++i) {
+      const float liquid = std::min(open[i], 0.5f - p[i] / h);
+      if (p[i] < 0.0f || liquid <= 0.0f || seen[i] > 0.0f || leaf->getValue(i) >= 0.5f * h) continue;
+      if (!solid.domain.isInside(leaf->offsetToGlobalCoord(i))) continue;
+      if (to == nullptr) {
+        to = result->tree().touchLeaf(origin);
+        to->setValuesOn();
+      }
+      to->setValueOnly(i, to->getValue(i) + liquid);
+    }
+  }
+  return result;
 }
 
 Vec3d placeOfMost(const FloatGrid& owed) {

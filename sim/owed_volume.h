@@ -27,6 +27,11 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
 // centres, of half a cell at most.
 FloatGrid::Ptr growthOf(const FloatGrid& owed, double time);
 
+// Adds to what is owed (null for nothing) the liquid of `poured` that phi's surface does not show where it
+// was put in: films and drops that no cell's centre is in. poured: distances, metres, in leaves around it.
+FloatGrid::Ptr withUnseen(const FloatGrid* owed, const FloatGrid& phi, const FloatGrid& poured,
+                          const SolidField& solid);
+
 // Where most is owed: the middle of the cell that owes most, either way, of the block that does.
 Vec3d placeOfMost(const FloatGrid& owed);
 

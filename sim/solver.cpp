@@ -300,6 +300,7 @@ void Solver::applyEvents() {
     liquid.owed =
         owedVolume(*whole, *liquid.phi, liquid.owed.get(), makeVelocity(h), *before, *m_solid, flows, 0.0);
   }
+  if (!due.empty()) liquid.owed = withUnseen(liquid.owed.get(), *liquid.phi, dueLiquid, *m_solid);
   store(m_state, std::move(liquid), h);
 }
 

@@ -10,7 +10,7 @@ namespace fluidtex::sim {
 namespace {
 
 // A wall thinner than this many cells may be missed (see solid_field.cpp).
-constexpr double kHolds = 0.5;
+constexpr double kHolds = 0.6;
 // How finely a wall's thickness is looked for, and how far beside a place it has to be as thin, in cells.
 constexpr double kStep = 0.05, kBeside = 1.5;
 
@@ -129,7 +129,7 @@ std::vector<std::string> Solids::warnings() const {
     } else if (all.thickness < kForever) {
       const int holds = static_cast<int>(std::ceil(m_options.resolution * kHolds * h / all.thickness));
       text << " is only about " << all.thickness << " m thick at (" << all.place[0] << ", " << all.place[1]
-           << ", " << all.place[2] << "), less than half a cell of " << h
+           << ", " << all.place[2] << "), less than 0.6 cells of " << h
            << " m: liquid may pass through it; make it thicker, or give domain.resolution = " << holds;
     } else {
       continue;

@@ -32,7 +32,7 @@ double meanFall(const State& state) {
 Frame frameAfter(const Options& options, int frames) {
   Solver solver(options);
   Frame frame = solver.next();
-  REQUIRE(frame.stats.volume > 0.0);
+  REQUIRE(frame.stats.volume + frame.stats.owed > 0.0);
   while (frame.index < frames) frame = solver.next();
   return frame;
 }
@@ -92,8 +92,10 @@ TEST_CASE("solver: a column that collapses keeps its volume") {
   const double first = solver.next().stats.volume;
   double late = 0.0;
   for (int n = 2; n <= 40; ++n) {
-    const double change = solver.next().stats.volume / first - 1.0;
-    CHECK(std::abs(change) < 0.025);
+    const FrameStats stats = solver.next().stats;
+    const double change = stats.volume / first - 1.0;
+    CHECK(std::abs(change) < 0.03);  // with the films that no cell's centre is in
+    CHECK((stats.volume + stats.owed) / first == Catch::Detail::Approx(1.0).epsilon(1e-4));
     if (n > 30) late += 0.1 * change;
   }
   // What is missing in one frame is on its way, and there in another.
@@ -185,7 +187,8 @@ TEST_CASE("solver: nothing hangs at a ceiling, however little it is") {
     options = tank(24, {box(Vec3d(0.3, 0.3, 1.0 - 1.3 * h), Vec3d(0.7, 0.7, 1.0))});
   }
   Solver solver(options);
-  REQUIRE(solver.next().stats.volume > 0.0);
+  const FrameStats first = solver.next().stats;
+  REQUIRE(first.volume + first.owed > 0.0);
   Frame frame;
   for (int n = 2; n <= 7; ++n) frame = solver.next();
   CHECK(cellsAbove(frame, 1.0 - 2.0 * h) == 0);
@@ -197,7 +200,7 @@ TEST_CASE("solver: a film on a wall goes when no liquid feeds it, on the floor i
   const Frame onFloor = frameAfter(tank(24, {box(Vec3d(0.3, 0.3, 0.0), Vec3d(0.7, 0.7, 0.3 * h))}), 4);
   CHECK(onWall.stats.volume < 0.2 * 0.16 * 0.3 * h);  // what its markers leave is not seen
   CHECK(cellsAbove(onWall, 0.0) == 0);
-  CHECK(onFloor.stats.volume > 0.5 * 0.16 * 0.3 * h);
+  CHECK(onFloor.stats.volume + onFloor.stats.owed == Catch::Detail::Approx(0.16 * 0.3 * h).epsilon(0.2));
   // A column in a corner falls; no thread of it stays behind.
   const Frame inCorner = frameAfter(tank(24, {box(Vec3d(0.0, 0.0, 0.5), Vec3d(0.6 * h, 0.6 * h, 1.0))}), 12);
   CHECK(cellsAbove(inCorner, 0.3) == 0);

@@ -204,7 +204,8 @@ TEST_CASE("renewal: a proposal that repairs is taken, one that tears is not") {
   std::vector<std::uint8_t> renewed;
   const Labels mended = settle(model, hole, good, trust, renewed);
   CHECK(renewed == inside);
-  for (std::uint32_t v = 0; v < hole.size(); ++v) CHECK(mended[v].texel == good[v].texel);
+  // Labels that go on from other vertices get there by their gradients.
+  for (std::uint32_t v = 0; v < hole.size(); ++v) CHECK((mended[v].texel - good[v].texel).length() < 0.1f);
 
   const Labels kept = settle(model, good, hole, trust, renewed);
   CHECK(std::count(renewed.begin(), renewed.end(), 1) == 0);

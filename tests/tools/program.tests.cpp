@@ -131,8 +131,9 @@ TEST_CASE("fluidtex: wrong input exits with 1 and one sentence on stderr", "[too
   refused({"run", kSmallScene, "--frames", "3:1", "--out", out}, "ends before it begins");
   refused({"run", kSmallScene, "--frames", "1:99", "--out", out}, "the scene has 5 frames");
   refused({"run", kSmallScene, "--frames", "x", "--out", out}, "is no range of frames");
-  refused({"run", kSmallScene, "--exemplar", kSmallScene, "--out", out}, "small.toml");
-  refused({"check", kSmallScene, "--exemplar", kSmallScene}, "small.toml");
+  refused({"run", kSmallScene, "--exemplar", kSmallScene, "--out", out},
+          "small.toml cannot be read as an image: ");
+  refused({"check", kSmallScene, "--exemplar", kSmallScene}, "small.toml cannot be read as an image: ");
   refused({"walk"}, "walk: no such command");
   CHECK_FALSE(fs::exists(fs::path(out) / "frames"));
 }
@@ -212,8 +213,8 @@ TEST_CASE("fluidtex run: goes on where nothing can be printed, and the log is as
         runProgramWith(streams[n], {"run", kSmallScene, "--frames", "1:1", "--out", out.string()}).exitCode ==
         0);
     const std::string log = readBytes(out / "log.txt");
-    CHECK(occurrences(log, "\n") == 2);
-    CHECK(occurrences(log, "[info]") == 2);
+    CHECK(occurrences(log, "\n") == 3);  // the run, its spacing, the frame
+    CHECK(occurrences(log, "[info]") == 3);
     CHECK(fs::exists(out / "small.mp4"));
   }
   // A reader that goes away is no reason to stop either.
