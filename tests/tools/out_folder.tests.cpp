@@ -80,7 +80,7 @@ TEST_CASE("fluidtex: two into one folder, the second is refused and the first go
   const std::vector<std::string> run{"run",        kSmallScene, "--no-render", "--set",
                                      "frames=500", "--out",     out.string()};
   const Program first(run);
-  first.waitForLines(out / "log.txt", 0, 2);
+  first.waitForLines(out / "log.txt", 0, 3);
   const std::string log = readBytes(out / "log.txt");
   std::vector<std::string> resume = run;
   resume.emplace_back("--resume");

@@ -78,7 +78,7 @@ TEST_CASE("fluidtex run --resume: interrupted, it exits with 130 and goes on to 
   // Many more frames than can be done before the signal comes; the camera does not turn, so that it may have
   // fewer afterwards.
   const Program program({"run", kSmallScene, "--set", "frames=500", "--out", broken.string()});
-  program.waitForLines(broken / "log.txt", 0, 2);
+  program.waitForLines(broken / "log.txt", 0, 3);
   program.signal(SIGINT);
   const Finished interrupted = program.wait();
   CHECK(interrupted.exitCode == 130);
