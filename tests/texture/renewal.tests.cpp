@@ -199,13 +199,15 @@ TEST_CASE("renewal: a proposal that repairs is taken, one that tears is not") {
   for (std::uint32_t v = 0; v < hole.size(); ++v) {
     const Vec3f& x = surface.mesh.positions[v];
     inside.push_back(x.z() > 1.9f && (x - Vec3f(12, 12, 2)).length() < 5);
-    if (inside[v]) hole[v].texel = Vec2f(float(randomUnit(1, v)), float(randomUnit(2, v))) * 99.0f;
+    if (!inside[v]) continue;
+    hole[v].texel = Vec2f(float(randomUnit(1, v)), float(randomUnit(2, v))) * 99.0f;
+    // What is right by chance would be kept.
+    if ((hole[v].texel - good[v].texel).length() < 10.0f) hole[v].texel += Vec2f(20.0f, 20.0f);
   }
   std::vector<std::uint8_t> renewed;
   const Labels mended = settle(model, hole, good, trust, renewed);
   CHECK(renewed == inside);
-  // Labels that go on from other vertices get there by their gradients.
-  for (std::uint32_t v = 0; v < hole.size(); ++v) CHECK((mended[v].texel - good[v].texel).length() < 0.1f);
+  for (std::uint32_t v = 0; v < hole.size(); ++v) CHECK(mended[v].texel == good[v].texel);
 
   const Labels kept = settle(model, good, hole, trust, renewed);
   CHECK(std::count(renewed.begin(), renewed.end(), 1) == 0);
