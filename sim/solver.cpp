@@ -22,8 +22,8 @@
 namespace fluidtex::sim {
 namespace {
 
-// More of the liquid than this share should never be owed.
-constexpr double kMostOwed = 0.02;
+// More of the liquid than this share should never be owed; less than so many cells goes unmentioned.
+constexpr double kMostOwed = 0.02, kFewCells = 8.0;
 // Solids that come over no more than this share of the liquid go unmentioned.
 constexpr double kMentioned = 1e-3;
 // How often a step that fails is halved.
@@ -307,7 +307,7 @@ void Solver::applyEvents() {
 void Solver::tellOfDeficit() {
   if (m_toldOfDeficit || m_state.owed == nullptr) return;
   const double owed = totalOwed(*m_state.owed);
-  if (std::abs(owed) <= kMostOwed * m_whole) return;
+  if (std::abs(owed) <= std::max(kMostOwed * m_whole, kFewCells * std::pow(m_options.voxelSize(), 3))) return;
   m_toldOfDeficit = true;
   const Vec3d place = placeOfMost(*m_state.owed);
   std::ostringstream text;
