@@ -78,9 +78,9 @@ std::vector<FloatLeaf*> leavesOf(FloatTree& tree);
 std::vector<const FloatLeaf*> leavesOf(const FloatTree& tree);
 
 // Copies the values of the box [origin - halo, origin + 8 + halo) into `out`, (8 + 2 halo)^3 floats, z
-// fastest. origin: of a leaf; missing leaves give the tree's value there (background, tile). halo at most 8, else
-// std::invalid_argument is thrown.
-// crossOnly: leaves out the parts of the box that are off the origin's leaf along more than one axis.
+// fastest. origin: of a leaf; missing leaves give the tree's value there (background, tile). halo at most 8,
+// else std::invalid_argument is thrown. crossOnly: leaves out the parts of the box that are off the origin's
+// leaf along more than one axis.
 void gather(const FloatTree& tree, const Coord& origin, int halo, float* out, bool crossOnly = false);
 
 // Largest |component| over the active values; infinity when one is not finite.

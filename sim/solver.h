@@ -43,8 +43,8 @@ struct SolverError : std::runtime_error {
 
 class Solver {
  public:
-  // Throws std::invalid_argument where the options (see sim/check_options.h) or the state's grids are none that
-  // it could work with.
+  // Throws std::invalid_argument where the options (see sim/check_options.h) or the state's grids are none
+  // that it could work with.
   explicit Solver(const Options& options);
   // Continues from a restored state. Throws SolverError when it was made at another resolution, or without
   // the heat that the options ask for.

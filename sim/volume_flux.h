@@ -37,8 +37,8 @@ std::vector<float> openRoom(const SolidField& solid, const LeafTable& leaves);
 // The share of each cell's open part that phi makes liquid.
 std::vector<float> wetShares(const FloatGrid& phi, const SolidField& solid, const LeafTable& leaves);
 
-// At the step's end: the shares, and what solids have swept into each cell, which counts in the shares but has
-// not come from anywhere. The sum over share times room less `swept` changes by what crosses the leaves'
+// At the step's end: the shares, and what solids have swept into each cell, which counts in the shares but
+// has not come from anywhere. The sum over share times room less `swept` changes by what crosses the leaves'
 // outline only.
 struct CarriedShares {
   std::vector<float> share, swept;  // `swept` is empty where all solids are at rest

@@ -9,9 +9,9 @@
 #include "tools/console.h"
 #include "tools/errors.h"
 #include "tools/finished_run.h"
+#include "tools/image_notes.h"
 #include "tools/journal.h"
 #include "tools/out_folder.h"
-#include "tools/image_notes.h"
 #include "tools/ply.h"
 
 #include <fmt/core.h>

@@ -92,7 +92,8 @@ void check(const CommonOptions& options) {
   // How much sources bring cannot be told beforehand.
   if (!scene.sim.sources.empty()) print(", and {:.0f} kB a cell of what flows in", kBytesPerLiquidCell / 1e3);
   print("\n");
-  for (const std::string& note : imageNotes(colorPictures(scene.texture.exemplar))) say("warning: {}\n", note);
+  for (const std::string& note : imageNotes(colorPictures(scene.texture.exemplar)))
+    say("warning: {}\n", note);
   for (const std::string& warning : sim::warningsOf(scene.sim, scene.motion)) say("warning: {}\n", warning);
 }
 

@@ -4,9 +4,9 @@
 #include "tools/common_options.h"
 #include "tools/errors.h"
 #include "tools/frame_loop.h"
-#include "tools/stop_signal.h"
 #include "tools/memory_plan.h"
 #include "tools/out_folder.h"
+#include "tools/stop_signal.h"
 #include "tools/work.h"
 
 #include <fmt/core.h>

@@ -9,8 +9,8 @@
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
-using fluidtex::randomUnit;
 using Catch::Matchers::WithinAbs;
+using fluidtex::randomUnit;
 
 namespace {
 

@@ -13,8 +13,8 @@
 #include <functional>
 
 using namespace fluidtex::testing;
-using fluidtex::randomUnit;
 using Catch::Matchers::WithinAbs;
+using fluidtex::randomUnit;
 
 namespace {
 

@@ -9,10 +9,10 @@
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
-using fluidtex::randomBelow;
-using fluidtex::randomUnit;
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
+using fluidtex::randomBelow;
+using fluidtex::randomUnit;
 
 namespace {
 

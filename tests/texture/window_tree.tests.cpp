@@ -9,8 +9,8 @@
 #include <set>
 
 using namespace fluidtex::texture;
-using fluidtex::randomUnit;
 using Catch::Matchers::WithinRel;
+using fluidtex::randomUnit;
 
 TEST_CASE("codes: sixteen at once are the sums of the squared differences of the upper bits", "[texture]") {
   constexpr std::size_t kCount = 4 * kCodeBlock;

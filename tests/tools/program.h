@@ -23,8 +23,8 @@ struct Finished {
 
 class Program {
  public:
-  // `fluidtex ARGS...`, in the folder `from` where given, with `path` in front of PATH where given. `setUp`: done in
-  // the new process, last of all.
+  // `fluidtex ARGS...`, in the folder `from` where given, with `path` in front of PATH where given. `setUp`:
+  // done in the new process, last of all.
   explicit Program(const std::vector<std::string>& args, const std::filesystem::path& from = {},
                    const std::filesystem::path& path = {}, const std::function<void()>& setUp = {}) {
     const std::string searched = path.empty() ? "" : path.string() + ":" + std::getenv("PATH");

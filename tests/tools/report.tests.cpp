@@ -33,14 +33,37 @@ TEST_CASE("run.json: what was written is read back, frame by frame", "[tools]") 
 
 TEST_CASE("run.json: a frame has every key, and null where nothing is known", "[tools]") {
   const std::string text = record().dump();
-  for (const char* key : {"frame",        "time",       "substeps",          "dt_min",
-                          "cells",        "volume",     "vertices",          "triangles",
-                          "components",   "edge_mean",  "edge_cv",           "singularities",
-                          "energy_start", "energy_end", "iterations",        "renewed",
-                          "likeness",     "sharpness",  "change_along_flow", "seconds",
-                          "simulate",     "prepare",    "transport",         "synthesize",
-                          "spacing",      "render",       "write",      "peak_rss",          "singular_points",
-                          "folded",       "spikes"})
+  for (const char* key : {"frame",
+                          "time",
+                          "substeps",
+                          "dt_min",
+                          "cells",
+                          "volume",
+                          "vertices",
+                          "triangles",
+                          "components",
+                          "edge_mean",
+                          "edge_cv",
+                          "singularities",
+                          "energy_start",
+                          "energy_end",
+                          "iterations",
+                          "renewed",
+                          "likeness",
+                          "sharpness",
+                          "change_along_flow",
+                          "seconds",
+                          "simulate",
+                          "prepare",
+                          "transport",
+                          "synthesize",
+                          "spacing",
+                          "render",
+                          "write",
+                          "peak_rss",
+                          "singular_points",
+                          "folded",
+                          "spikes"})
     CHECK_THAT(text, Catch::Contains("\"" + std::string(key) + "\":"));
   CHECK_THAT(text, Catch::Contains("\"energy_end\":null"));
 }
