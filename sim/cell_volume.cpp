@@ -3,12 +3,34 @@
 #include "sim/leaf_patch.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fluidtex::sim {
 namespace {
 
 // At half a cell's diagonal from its centre a solid leaves the cell alone.
 constexpr float kClear = 0.87f;
+
+// The share of a cell on the inner side of two planes that leave shares a and b of it by themselves. cosine:
+// between the normals, outwards. Right where one lies behind the other, where they cross at a right angle and
+// where they face each other, as the two sides of a film do; linear between.
+float shareWithin(float a, float b, float cosine) {
+  const float same = std::min(a, b), opposite = std::max(0.0f, a + b - 1.0f);
+  return a * b + (cosine > 0.0f ? cosine * (same - a * b) : cosine * (a * b - opposite));
+}
+
+// cos of the angle between a surface and a solid at a cell: 1 where both end the liquid on the same side.
+float cosineBetween(const LeafPatch& phi, const LeafPatch& solid, int at) {
+  float dot = 0.0f, ofPhi = 0.0f, ofSolid = 0.0f;
+  for (const int stride : kPatchStride) {
+    const float p = phi[at + stride] - phi[at - stride], s = solid[at - stride] - solid[at + stride];
+    dot += p * s;
+    ofPhi += p * p;
+    ofSolid += s * s;
+  }
+  const float lengths = std::sqrt(ofPhi * ofSolid);
+  return lengths > 0.0f ? dot / lengths : 1.0f;
+}
 
 LeafPatch patchOf(const FloatTree& tree, const Coord& origin) {
   LeafPatch patch{};
@@ -50,7 +72,10 @@ void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& or
       liquid[i] = 0.0f;
       continue;
     }
-    liquid[i] = std::min(liquid[i], std::min(1.0f, 0.5f - p[at] / h));
+    const float wet = std::min(1.0f, 0.5f - p[at] / h);
+    liquid[i] = liquid[i] == 1.0f || liquid[i] == 0.0f || wet == 1.0f
+                    ? std::min(liquid[i], wet)
+                    : shareWithin(liquid[i], wet, cosineBetween(p, s, at));
     if (p[at] < 0.0f || liquid[i] == 0.0f) continue;
     bool beside = false;
     for (const int stride : kPatchStride) beside = beside || isLiquid(at - stride) || isLiquid(at + stride);

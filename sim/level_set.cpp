@@ -211,7 +211,8 @@ void unite(FloatGrid& phi, const std::function<double(const Vec3d&)>& distance, 
   for (FloatLeaf* leaf : leavesOf(phi.tree())) leaf->setValuesOn();
 }
 
-void unite(FloatGrid& phi, const ShapeDistance& shape, const CoordBBox& domain) {
+void unite(FloatGrid& phi, const ShapeDistance& shape, const CoordBBox& domain,
+           const std::function<double(const Vec3d&)>& distance) {
   const double h = phi.voxelSize()[0];
   const CoordBBox reach = grown(domain, kLeafDim);
   openvdb::BBoxd room(reach.min().asVec3d() * h, reach.max().offsetBy(1).asVec3d() * h);
@@ -226,7 +227,7 @@ void unite(FloatGrid& phi, const ShapeDistance& shape, const CoordBBox& domain) 
   if (!within.empty() && isEndless(within))
     throw std::invalid_argument("a shape has no end on a side on which the domain has none");
   unite(
-      phi, [&](const Vec3d& x) { return shape(x); }, within);
+      phi, distance ? distance : [&](const Vec3d& x) { return shape(x); }, within);
 }
 
 FloatGrid::Ptr visibleSurface(const FloatGrid& phi, const SolidField& solid, int halfWidth) {

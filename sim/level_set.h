@@ -66,8 +66,10 @@ void trimBand(FloatGrid& phi, const FloatGrid& solidPhi);
 // world positions; at least its sign and a lower bound of its magnitude are right.
 void unite(FloatGrid& phi, const std::function<double(const Vec3d&)>& distance, const CoordBBox& within);
 // The same wherever the shape is in the domain (see domainCells) and a leaf beyond. Throws
-// std::invalid_argument where it has no end.
-void unite(FloatGrid& phi, const ShapeDistance& shape, const CoordBBox& domain);
+// std::invalid_argument where it has no end. distance: to what of the shape's surface counts, all of it where
+// none is given.
+void unite(FloatGrid& phi, const ShapeDistance& shape, const CoordBBox& domain,
+           const std::function<double(const Vec3d&)>& distance = {});
 
 // The textured surface: liquid with solids taken out, max(phi, -solidPhi), a distance `halfWidth` voxels
 // either side.

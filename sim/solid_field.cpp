@@ -104,37 +104,52 @@ class CentreDistances {
   std::array<double, kCentres> m_value;
 };
 
-// Whether a place in a solid, that deep, lies in a wall thinner than a cell's diagonal: such a wall leaves
-// parts of a cell open on both of its sides.
-bool isInThinWall(const SolidDistance& distance, const Vec3d& x, double depth, double h) {
-  constexpr double kStep = 0.25;  // cells
-  const double thickest = std::sqrt(3.0) * h;
-  if (depth > 0.5 * thickest) return false;
-  Vec3d inwards;
-  for (int a = 0; a < 3; ++a) {
-    Vec3d step(0.0);
-    step[a] = 0.1 * h;
-    inwards[a] = distance(x - step) - distance(x + step);
+// Corners of a cell: number n lies at the upper end of axis a where bit a is set.
+constexpr int kCorners = 8;
+
+// Whether a wall parts the open corners of a cell whose centre lies in a solid: such a cell would join the
+// wall's two sides. Corners are together where the edge between them is open.
+bool partsCell(const SolidDistance& distance, const Vec3d& centre, double h) {
+  std::array<Vec3d, kCorners> place;
+  std::array<double, kCorners> d;
+  for (int n = 0; n < kCorners; ++n) {
+    place[n] = centre + Vec3d((n & 1) - 0.5, (n >> 1 & 1) - 0.5, (n >> 2) - 0.5) * h;
+    d[n] = distance(place[n]);
+    if (d[n] < kOnWall * h) d[n] = 0.0;
   }
-  const double length = inwards.length();
-  // In the middle of the wall there is no direction, but half of the way is enough to know.
-  if (length < 0.02 * h) return true;
-  for (double way = kStep * h; depth + way < thickest; way += kStep * h)
-    if (distance(x + inwards * (way / length)) > 0.0) return true;
+  unsigned reached = 0;
+  for (int n = 0; n < kCorners && reached == 0; ++n)
+    if (d[n] > 0.0) reached = 1u << n;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (int n = 0; n < kCorners; ++n) {
+      if ((reached >> n & 1u) == 0) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        const int other = n ^ (1 << axis);
+        if (d[other] <= 0.0 || (reached >> other & 1u) != 0) continue;
+        if (isCrossed(distance, place[n], place[other], d[n], d[other], h, kThinnestWall * h)) continue;
+        reached |= 1u << other;
+        grows = true;
+      }
+    }
+  }
+  for (int n = 0; n < kCorners; ++n)
+    if (d[n] > 0.0 && (reached >> n & 1u) == 0) return true;
   return false;
 }
 
 // A wall thinner than a cell may have no corner of a cell in it, and yet nothing passes: shuts the faces
-// between cells that it parts, and all faces of cells whose centre lies in it.
+// between cells that it parts, and all faces of cells whose centre lies in it and that are open on both of
+// its sides.
 void shutBehindThinWalls(const SolidDistance& distance, double h, const Coord& origin, Faces& faces) {
   CentreDistances centre(distance, origin, h);
-  std::array<signed char, kCentres> inWall;
-  inWall.fill(-1);
-  const auto isShut = [&](const Coord& local) {
-    signed char& known = inWall[CentreDistances::index(local)];
+  std::array<signed char, kCentres> parted;
+  parted.fill(-1);
+  const auto isParted = [&](const Coord& local) {
+    signed char& known = parted[CentreDistances::index(local)];
     if (known < 0) {
       const double d = centre.at(local);
-      known = d < 0.0 && isInThinWall(distance, centre.place(local), -d, h) ? 1 : 0;
+      known = d < 0.0 && d > -0.5 * std::sqrt(3.0) * h && partsCell(distance, centre.place(local), h);
     }
     return known == 1;
   };
@@ -146,11 +161,11 @@ void shutBehindThinWalls(const SolidDistance& distance, double h, const Coord& o
       Coord below = local;
       below[axis] -= 1;
       const double low = centre.at(below), high = centre.at(local);
-      const bool parted =
+      const bool shut =
           low > 0.0 && high > 0.0
               ? isCrossed(distance, centre.place(below), centre.place(local), low, high, h, kThinnestWall * h)
-              : isShut(below) || isShut(local);
-      if (parted) open = 0.0f;
+              : isParted(below) || isParted(local);
+      if (shut) open = 0.0f;
     }
   }
 }
@@ -198,6 +213,11 @@ void forPieces(const Coord& chunk, const CoordBBox& box, const Body& body) {
   }
 }
 
+// At these shares of a cell along the axes.
+Vec3d placeOf(const Coord& cell, const Vec3d& share, double h) {
+  return (cell.asVec3d() + share) * h;
+}
+
 Vec3d middleOf(const Coord& origin, int size, double h) {
   return (origin.asVec3d() + Vec3d(0.5 * size)) * h;
 }
@@ -205,6 +225,16 @@ Vec3d middleOf(const Coord& origin, int size, double h) {
 // Which level of a tree has tiles of this many cells.
 int levelOf(int size) {
   return size == kChunkDim ? 2 : 1;
+}
+
+// The distance at a cell's centre, where that is in a solid no less than half a cell if all corners are, too:
+// solids that touch know only their own surfaces, and where they meet there is none.
+double centreDistance(const SolidDistance& distance, const Coord& cell, double h) {
+  const double d = distance(placeOf(cell, Vec3d(0.5), h));
+  if (d > 0.0 || d <= -0.5 * h) return d;
+  for (int n = 0; n < kCorners; ++n)
+    if (distance(placeOf(cell, Vec3d(n & 1, n >> 1 & 1, n >> 2), h)) > kOnWall * h) return d;
+  return -0.5 * h;
 }
 
 FloatGrid::Ptr cellDistances(const SolidDistance& distance, const CoordBBox& domain, const Chunks& chunks,
@@ -231,8 +261,7 @@ FloatGrid::Ptr cellDistances(const SolidDistance& distance, const CoordBBox& dom
       if (size > kLeafDim) return false;
       auto leaf = std::make_unique<FloatLeaf>(origin, band, false);
       for (int c = 0; c < kLeafSize; ++c) {
-        const Coord at = leaf->offsetToGlobalCoord(c);
-        const double d = distance(Vec3d((at[0] + 0.5) * h, (at[1] + 0.5) * h, (at[2] + 0.5) * h));
+        const double d = centreDistance(distance, leaf->offsetToGlobalCoord(c), h);
         leaf->setValueOnly(c, std::clamp(static_cast<float>(d), -band, band));
         if (std::abs(d) < band) leaf->setActiveState(c, true);
       }

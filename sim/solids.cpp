@@ -28,8 +28,8 @@ bool isNoMirror(Side side) {
 }
 
 // Of a mesh sequence as it is on the way from a file to the next.
-ShapeDistance distanceAt(const MovingMesh& mesh, int file, double part, const Solid& solid,
-                         const Options& options) {
+ShapeDistance shapeAt(const MovingMesh& mesh, int file, double part, const Solid& solid,
+                      const Options& options) {
   try {
     return ShapeDistance(mesh.at(file, part), options.voxelSize(), reachOf(solid, domainBox(options)));
   } catch (const std::runtime_error& error) {
@@ -57,7 +57,7 @@ Solids::Solids(const Options& options) : m_options(options), m_domain(domainCell
     m_sequences.emplace_back();
     if (const auto* sequence = std::get_if<MeshSequence>(&solid.shape.kind)) {
       MovingMesh mesh(*sequence);
-      const ShapeDistance first = distanceAt(mesh, 0, 0.0, solid, m_options);
+      const ShapeDistance first = shapeAt(mesh, 0, 0.0, solid, m_options);
       m_sequences.back() = {std::move(mesh), 0, 0.0, first};
     } else {
       const openvdb::BBoxd domain = domainBox(m_options);
@@ -104,7 +104,7 @@ Solids::Placed Solids::placed(std::size_t index, double t) const {
   const std::scoped_lock lock(m_sequencesInUse);
   Sequence& sequence = *m_sequences[index];
   if (sequence.file != pose.file || sequence.part != pose.part) {
-    sequence.shape = distanceAt(sequence.mesh, pose.file, pose.part, m_options.solids[index], m_options);
+    sequence.shape = shapeAt(sequence.mesh, pose.file, pose.part, m_options.solids[index], m_options);
     sequence.file = pose.file;
     sequence.part = pose.part;
   }
@@ -134,14 +134,18 @@ Vec3d Solids::mirrored(Vec3d x) const {
   return x;
 }
 
+// Of a high side, along its axis.
+double Solids::sideAt(int side) const {
+  // One that is no wall lies in the plane of faces.
+  return m_options.sides[side] == Side::wall ? m_options.size[side / 2] : lastFace(side / 2);
+}
+
 double Solids::sideDistance(const Vec3d& x, SideSet counts) const {
   double distance = kForever, outside = 0.0;
   for (int side = 0; side < 6; ++side) {
     if (m_options.sides[side] == Side::unbounded || !counts(m_options.sides[side])) continue;
     const int a = side / 2;
-    // A side that is no wall lies in the plane of faces.
-    const double high = m_options.sides[side] == Side::wall ? m_options.size[a] : lastFace(a);
-    const double d = side % 2 == 0 ? x[a] : high - x[a];
+    const double d = side % 2 == 0 ? x[a] : sideAt(side) - x[a];
     distance = std::min(distance, d);
     if (d < 0.0) outside += d * d;
   }
@@ -150,9 +154,19 @@ double Solids::sideDistance(const Vec3d& x, SideSet counts) const {
 }
 
 double Solids::distanceTo(const std::vector<Placed>& solids, const Vec3d& x, SideSet counts) const {
-  double distance = sideDistance(x, counts);
-  for (const Placed& solid : solids) distance = std::min(distance, distanceTo(solid, x));
-  return distance;
+  const double toSide = sideDistance(x, counts);
+  // Behind a side a solid goes on as it is at the side: how far a scene lets it reach out there says nothing
+  // about how deep the place is.
+  Vec3d place = x;
+  for (int side = 0; side < 6 && toSide < 0.0; ++side) {
+    if (m_options.sides[side] == Side::unbounded || !counts(m_options.sides[side])) continue;
+    const int a = side / 2;
+    place[a] = side % 2 == 0 ? std::max(place[a], 0.0) : std::min(place[a], sideAt(side));
+  }
+  double toSolid = kForever;
+  for (const Placed& solid : solids) toSolid = std::min(toSolid, distanceTo(solid, place));
+  if (toSide < 0.0 && toSolid < 0.0) return -std::hypot(toSide, toSolid);
+  return std::min(toSide, toSolid);
 }
 
 const Wall& Solids::nearestWall(const std::vector<Placed>& solids, const Vec3d& x) const {
@@ -174,7 +188,11 @@ const Wall& Solids::nearestWall(const std::vector<Placed>& solids, const Vec3d& 
 }
 
 double Solids::distance(const Vec3d& x, double t) const {
-  return distanceTo(placed(t, active(t)), x, everySide);
+  return distanceAt(t)(x);
+}
+
+std::function<double(const Vec3d&)> Solids::distanceAt(double t) const {
+  return [this, solids = placed(t, active(t))](const Vec3d& x) { return distanceTo(solids, x, everySide); };
 }
 
 // At a place so far from the solid. change: how its shape changes, null where it does not.

@@ -14,6 +14,7 @@
 #include <openvdb/openvdb.h>
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -91,6 +92,8 @@ class Solids {
 
   // Signed distance at world position x to the active solids and the domain's walls, metres, negative inside.
   double distance(const Vec3d& x, double t) const;
+  // The same for many positions; as long as this is there.
+  std::function<double(const Vec3d&)> distanceAt(double t) const;
 
   // Distances, open faces and speeds and walls at time t, in [0, size]; kept, and made anew only when the set
   // has changed or a solid has moved since the last call.
@@ -121,6 +124,7 @@ class Solids {
   // Which sides of the domain count; unbounded ones never do.
   using SideSet = bool (*)(Side);
   double sideDistance(const Vec3d& x, SideSet counts) const;
+  double sideAt(int side) const;
   double distanceTo(const std::vector<Placed>& solids, const Vec3d& x, SideSet counts) const;
   // Where the last face of the domain lies along an axis, seen from a side that is no wall.
   double lastFace(int axis) const;

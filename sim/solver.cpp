@@ -10,6 +10,7 @@
 #include "sim/mac_grid.h"
 #include "sim/move_surface.h"
 #include "sim/owed_volume.h"
+#include "sim/poured_surface.h"
 #include "sim/require.h"
 #include "sim/shapes.h"
 #include "sim/solids.h"
@@ -267,7 +268,8 @@ void Solver::applyEvents() {
   changed = changed || (isEmpty(liquid) && !flows.sources.empty());
   for (const auto& [body, shape] : due) {
     // As far ahead of the present as the velocity of what is there.
-    pour(liquid, shape, body->velocity + m_options.gravity * liquid.ahead, body->temperature, *m_solid);
+    pour(liquid, shape, pouredSurface(shape, m_solids->distanceAt(now), h),
+         body->velocity + m_options.gravity * liquid.ahead, body->temperature, *m_solid);
     changed = true;
   }
   if (!changed) return;

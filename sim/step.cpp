@@ -12,6 +12,7 @@
 #include "sim/move_surface.h"
 #include "sim/open_gaps.h"
 #include "sim/owed_volume.h"
+#include "sim/regained_surface.h"
 #include "sim/require.h"
 #include "sim/walls.h"
 
@@ -269,6 +270,7 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
     moveSurface(*next.phi, next.markers, moving, solid, dt, markerSeed(options.seed, next.steps), flows);
     dropBeyond(next.markers, solid);
     next.owed = owedVolume(*liquid.phi, *next.phi, liquid.owed.get(), moving, before, solid, flows, dt);
+    regainSurface(*next.phi, next.markers, *next.owed, solid);
   }
   next.velocity = velocityFor(*next.phi, solid);
   carryVelocity(liquid, next, dt);
@@ -300,9 +302,9 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
   return next;
 }
 
-void pour(Liquid& liquid, const ShapeDistance& body, const Vec3d& velocity, double temperature,
-          const SolidField& solid) {
-  unite(*liquid.phi, body, solid.domain);
+void pour(Liquid& liquid, const ShapeDistance& body, const std::function<double(const Vec3d&)>& surface,
+          const Vec3d& velocity, double temperature, const SolidField& solid) {
+  unite(*liquid.phi, body, solid.domain, surface);
   const Velocity before = liquid.velocity;
   liquid.velocity = velocityFor(*liquid.phi, solid);
   if (liquid.temperature) {

@@ -9,6 +9,7 @@
 #include "sim/solids.h"
 #include "sim/viscosity.h"
 
+#include <functional>
 #include <optional>
 
 namespace fluidtex::sim {
@@ -64,8 +65,9 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
                            const RunningFlows& flows = {});
 
 // Adds a body of liquid of that velocity and temperature. The velocity of the whole is projected by settle().
-void pour(Liquid& liquid, const ShapeDistance& body, const Vec3d& velocity, double temperature,
-          const SolidField& solid);
+// surface: the body's distance, but for where it ends at solids (sim/poured_surface.h).
+void pour(Liquid& liquid, const ShapeDistance& body, const std::function<double(const Vec3d&)>& surface,
+          const Vec3d& velocity, double temperature, const SolidField& solid);
 
 // Empties the places that solids leave when `before` turns into `after`.
 void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& after);

@@ -1,0 +1,19 @@
+// Where a body of liquid that is poured has a surface of its own.
+#pragma once
+
+#include "sim/shapes.h"
+
+#include <functional>
+
+namespace fluidtex::sim {
+
+// Distance at world positions to the surface of a body of liquid, as unite() takes it: metres, negative
+// inside. A body ends at solids, or within a twentieth of a cell of them, without a surface there: near a
+// corner between wall and surface its own distance would be that to the wall, and cells there would say that
+// the surface lies too low. There it is the distance to where the surface crosses the ways to the six cells
+// beside, exact for a plane; where it crosses none of them, no more than a bound. solids: their distance, that
+// of the domain's sides among them. h: the cells' size.
+std::function<double(const Vec3d&)> pouredSurface(const ShapeDistance& body,
+                                                  std::function<double(const Vec3d&)> solids, double h);
+
+}  // namespace fluidtex::sim

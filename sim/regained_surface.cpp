@@ -1,0 +1,126 @@
+#include "sim/regained_surface.h"
+
+#include "sim/cell_volume.h"
+#include "sim/leaf_patch.h"
+#include "sim/mac_grid.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace fluidtex::sim {
+namespace {
+
+// Of a cell's volume. More of it than half reaches its centre; a little more, so that rounding does not
+// matter.
+constexpr float kReachesCentre = 0.501f;
+// Cells of which a solid leaves less than this share are too small for a surface of their own.
+constexpr float kRoomy = 0.75f;
+
+struct Regained {
+  Coord cell;
+  float share;  // of it that is liquid
+};
+
+LeafPatch patchOf(const FloatTree& tree, const Coord& origin) {
+  LeafPatch patch{};
+  gather(tree, origin, 1, patch.data(), true);
+  return patch;
+}
+
+std::vector<Regained> regainedIn(const FloatLeaf& owed, const FloatTree& phi, const SolidField& solid) {
+  const float* due = owed.buffer().data();
+  std::vector<Regained> found;
+  if (std::none_of(due, due + kLeafSize, [](float v) { return v > kReachesCentre; })) return found;
+  LeafShares open;
+  openShares(solid, owed.origin(), open);
+  const LeafPatch distance = patchOf(phi, owed.origin());
+  const LeafPatch wall = patchOf(solid.phi->constTree(), owed.origin());
+  // Behind a solid's surface phi says how the liquid would go on.
+  const auto isLiquid = [&](int at) { return distance[at] < 0.0f && wall[at] > 0.0f; };
+  for (int i = 0; i < kLeafSize; ++i) {
+    const int at = patchIndex(i);
+    const Coord cell = owed.offsetToGlobalCoord(i);
+    if (due[i] <= kReachesCentre || open[i] < kRoomy || !solid.domain.isInside(cell)) continue;
+    bool dry = distance[at] >= 0.0f;
+    for (const int stride : kPatchStride) dry = dry && !isLiquid(at - stride) && !isLiquid(at + stride);
+    if (dry) found.push_back({cell, std::min(due[i], 1.0f)});
+  }
+  return found;
+}
+
+// A cell and the six beside it.
+std::array<Coord, 7> star(const Coord& cell) {
+  std::array<Coord, 7> cells;
+  cells.fill(cell);
+  for (int n = 0; n < 6; ++n) cells[n][n / 2] += n % 2 == 0 ? -1 : 1;
+  return cells;
+}
+
+void dropAirMarkers(Markers& markers, const std::set<Coord>& cells) {
+  for (MarkerBlock& block : markers) {
+    std::erase_if(block.markers, [&](const Marker& m) {
+      const Coord cell =
+          block.origin.offsetBy(static_cast<int>(std::lround(m.x)), static_cast<int>(std::lround(m.y)),
+                                static_cast<int>(std::lround(m.z)));
+      return m.radius > 0.0f && cells.contains(cell);
+    });
+  }
+  std::erase_if(markers, [](const MarkerBlock& block) { return block.markers.empty(); });
+}
+
+}  // namespace
+
+void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const SolidField& solid) {
+  const auto leaves = leavesOf(owed.constTree());
+  std::vector<std::vector<Regained>> parts(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(),
+                    [&](std::size_t n) { parts[n] = regainedIn(*leaves[n], phi.constTree(), solid); });
+  std::vector<Regained> regained;
+  for (const auto& part : parts) regained.insert(regained.end(), part.begin(), part.end());
+  if (regained.empty()) return;
+
+  std::set<Coord> cells, blocks;
+  for (const Regained& r : regained) {
+    for (const Coord& cell : star(r.cell)) {
+      cells.insert(cell);
+      // Beside what changes, a cell can be seen that was not.
+      for (const Coord& beside : star(cell)) blocks.insert(beside & ~(kLeafDim - 1));
+    }
+  }
+  const auto seen = [&] {
+    std::vector<LeafShares> shares(blocks.size());
+    std::size_t n = 0;
+    for (const Coord& origin : blocks) liquidShares(phi, solid, origin, shares[n++]);
+    return shares;
+  };
+  const std::vector<LeafShares> before = seen();
+  const float h = static_cast<float>(phi.voxelSize()[0]);
+  for (const Coord& cell : cells) phi.tree().touchLeaf(cell);
+  for (const Regained& r : regained) {
+    const float here = (0.5f - r.share) * h;
+    for (const Coord& cell : star(r.cell)) {
+      const float distance = cell == r.cell ? here : here + h;
+      phi.tree().setValueOn(cell, std::min(phi.tree().getValue(cell), distance));
+    }
+  }
+  dropAirMarkers(markers, cells);
+  const std::vector<LeafShares> after = seen();
+  std::size_t n = 0;
+  for (const Coord& origin : blocks) {
+    FloatLeaf* leaf = nullptr;
+    for (int i = 0; i < kLeafSize; ++i) {
+      const float more = after[n][i] - before[n][i];
+      if (more == 0.0f) continue;
+      if (leaf == nullptr) leaf = owed.tree().touchLeaf(origin);
+      leaf->setValueOn(i, leaf->getValue(i) - more);
+    }
+    ++n;
+  }
+}
+
+}  // namespace fluidtex::sim
