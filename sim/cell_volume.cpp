@@ -19,11 +19,16 @@ float shareWithin(float a, float b, float cosine) {
   return a * b + (cosine > 0.0f ? cosine * (same - a * b) : cosine * (a * b - opposite));
 }
 
-// cos of the angle between a surface and a solid at a cell: 1 where both end the liquid on the same side.
+// cos of the angle between a surface and a solid at a cell: 1 where both end the liquid on the same side. Of
+// phi only what is in the open counts: behind a wall it says how the liquid would go on.
 float cosineBetween(const LeafPatch& phi, const LeafPatch& solid, int at) {
   float dot = 0.0f, ofPhi = 0.0f, ofSolid = 0.0f;
   for (const int stride : kPatchStride) {
-    const float p = phi[at + stride] - phi[at - stride], s = solid[at - stride] - solid[at + stride];
+    const int low = solid[at - stride] > 0.0f ? at - stride : at,
+              high = solid[at + stride] > 0.0f ? at + stride : at;
+    const bool both = low != at && high != at;
+    const float p = (both ? 0.5f : 1.0f) * (phi[high] - phi[low]),
+                s = solid[at - stride] - solid[at + stride];
     dot += p * s;
     ofPhi += p * p;
     ofSolid += s * s;

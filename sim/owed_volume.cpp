@@ -148,13 +148,13 @@ void spreadInLiquid(const LeafTable& leaves, const std::vector<float>& phi, cons
   }
 }
 
-// Nothing is owed within a cell of what is always full or always empty.
+// Nothing is owed in cells that what is always full or always empty has a part of.
 void forgive(const LeafTable& leaves, const FloatGrid& shape, float h, std::vector<float>& owed) {
   for (std::size_t n = 0; n < leaves.size(); ++n) {
     float scratch[kLeafSize];
     const float* phi = leafValues(shape.constTree(), leaves.origins[n], scratch);
     for (int i = 0; i < kLeafSize; ++i) {
-      if (phi[i] < h) owed[n * kLeafSize + i] = 0.0f;
+      if (phi[i] < 0.5f * h) owed[n * kLeafSize + i] = 0.0f;
     }
   }
 }
@@ -251,6 +251,39 @@ FloatGrid::Ptr withUnseen(const FloatGrid* owed, const FloatGrid& phi, const Flo
     }
   }
   return result;
+}
+
+ShownLiquid shownAround(const MaskGrid& where, const FloatGrid& phi, const SolidField& solid) {
+  MaskGrid::TreeType blocks;
+  for (auto leaf = where.constTree().cbeginLeaf(); leaf; ++leaf) {
+    if (leaf->isEmpty()) continue;
+    for (int n = 0; n < 27; ++n)
+      blocks.touchLeaf(leaf->origin().offsetBy(kLeafDim * (n / 9 - 1), kLeafDim * (n / 3 % 3 - 1),
+                                               kLeafDim * (n % 3 - 1)));
+  }
+  ShownLiquid shown;
+  for (auto leaf = blocks.cbeginLeaf(); leaf; ++leaf) shown.blocks.push_back(leaf->origin());
+  shown.shares.resize(shown.blocks.size());
+  tbb::parallel_for(std::size_t{0}, shown.blocks.size(),
+                    [&](std::size_t n) { liquidShares(phi, solid, shown.blocks[n], shown.shares[n]); });
+  return shown;
+}
+
+void oweChange(FloatGrid& owed, const ShownLiquid& before, const FloatGrid& phi, const SolidField& solid) {
+  std::vector<FloatLeaf*> leaves(before.blocks.size());
+  for (std::size_t n = 0; n < leaves.size(); ++n) leaves[n] = owed.tree().touchLeaf(before.blocks[n]);
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    LeafShares after;
+    liquidShares(phi, solid, before.blocks[n], after);
+    leaves[n]->setValuesOn();
+    for (int i = 0; i < kLeafSize; ++i)
+      leaves[n]->setValueOnly(i, leaves[n]->getValue(i) + before.shares[n][i] - after[i]);
+  });
+  for (std::size_t n = 0; n < leaves.size(); ++n) {
+    const float* values = leaves[n]->buffer().data();
+    if (std::all_of(values, values + kLeafSize, [](float v) { return v == 0.0f; }))
+      delete owed.tree().stealNode<FloatLeaf>(before.blocks[n], 0.0f, false);
+  }
 }
 
 Vec3d placeOfMost(const FloatGrid& owed) {

@@ -7,9 +7,12 @@
 // axisymmetric incompressible two-phase flows", 2000.
 #pragma once
 
+#include "sim/cell_volume.h"
 #include "sim/flows.h"
 #include "sim/mac_grid.h"
 #include "sim/solids.h"
+
+#include <vector>
 
 namespace fluidtex::sim {
 
@@ -31,6 +34,16 @@ FloatGrid::Ptr growthOf(const FloatGrid& owed, double time);
 // was put in: films and drops that no cell's centre is in. poured: distances, metres, in leaves around it.
 FloatGrid::Ptr withUnseen(const FloatGrid* owed, const FloatGrid& phi, const FloatGrid& poured,
                           const SolidField& solid);
+
+// What the surface shows in some blocks; for where phi is changed by other than flow.
+struct ShownLiquid {
+  std::vector<Coord> blocks;
+  std::vector<LeafShares> shares;
+};
+// In the blocks that the cells active in `where` lie in, and those beside.
+ShownLiquid shownAround(const MaskGrid& where, const FloatGrid& phi, const SolidField& solid);
+// Owes what was shown and is no more, or the other way round; what is shown and owed together stays.
+void oweChange(FloatGrid& owed, const ShownLiquid& before, const FloatGrid& phi, const SolidField& solid);
 
 // Where most is owed: the middle of the cell that owes most, either way, of the block that does.
 Vec3d placeOfMost(const FloatGrid& owed);

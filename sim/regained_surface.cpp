@@ -3,6 +3,7 @@
 #include "sim/cell_volume.h"
 #include "sim/leaf_patch.h"
 #include "sim/mac_grid.h"
+#include "sim/owed_volume.h"
 
 #include <tbb/parallel_for.h>
 
@@ -84,21 +85,13 @@ void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const Soli
   for (const auto& part : parts) regained.insert(regained.end(), part.begin(), part.end());
   if (regained.empty()) return;
 
-  std::set<Coord> cells, blocks;
+  std::set<Coord> cells;
+  MaskGrid where;
   for (const Regained& r : regained) {
-    for (const Coord& cell : star(r.cell)) {
-      cells.insert(cell);
-      // Beside what changes, a cell can be seen that was not.
-      for (const Coord& beside : star(cell)) blocks.insert(beside & ~(kLeafDim - 1));
-    }
+    where.tree().setValueOn(r.cell);
+    for (const Coord& cell : star(r.cell)) cells.insert(cell);
   }
-  const auto seen = [&] {
-    std::vector<LeafShares> shares(blocks.size());
-    std::size_t n = 0;
-    for (const Coord& origin : blocks) liquidShares(phi, solid, origin, shares[n++]);
-    return shares;
-  };
-  const std::vector<LeafShares> before = seen();
+  const ShownLiquid before = shownAround(where, phi, solid);
   const float h = static_cast<float>(phi.voxelSize()[0]);
   for (const Coord& cell : cells) phi.tree().touchLeaf(cell);
   for (const Regained& r : regained) {
@@ -109,18 +102,7 @@ void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const Soli
     }
   }
   dropAirMarkers(markers, cells);
-  const std::vector<LeafShares> after = seen();
-  std::size_t n = 0;
-  for (const Coord& origin : blocks) {
-    FloatLeaf* leaf = nullptr;
-    for (int i = 0; i < kLeafSize; ++i) {
-      const float more = after[n][i] - before[n][i];
-      if (more == 0.0f) continue;
-      if (leaf == nullptr) leaf = owed.tree().touchLeaf(origin);
-      leaf->setValueOn(i, leaf->getValue(i) - more);
-    }
-    ++n;
-  }
+  oweChange(owed, before, phi, solid);
 }
 
 }  // namespace fluidtex::sim

@@ -199,7 +199,10 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, double kick, co
   balanceAirLayers(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
   constrainToSolids(*u, *v, *w, *liquid.phi, solid, projection.valid, *projection.separating);
   if (viscous) stickToWalls(liquid.velocity, solid, projection.valid);
+  const bool lets = driven && !projection.separating->empty();
+  const ShownLiquid shown = lets ? shownAround(*projection.separating, *liquid.phi, solid) : ShownLiquid{};
   openGaps(*liquid.phi, liquid.velocity, solid, *projection.separating, options.gravity * dt);
+  if (lets) oweChange(*liquid.owed, shown, *liquid.phi, solid);
   return std::isfinite(maxAbs(liquid.velocity));
 }
 

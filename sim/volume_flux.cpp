@@ -51,7 +51,7 @@ inline float liquidThrough(float flux, const Beside& below, const Beside& above)
   const float across = std::min(rise * rise, 1.0f), even = volume * share;
   const float atFace = std::min(volume, share * room),
               offFace = std::max(0.0f, volume - (room - share * room));
-  // A cell without an open face has no room; nothing flows out of it.
+  // What has no room has no open face, and nothing flows out of it.
   const float swept = volume / std::max(room, kLeastRoom);
   const float beside = std::clamp(even - 0.5f * volume * (1.0f - swept) * rise, offFace, atFace);
   const float mixed = beside + across * ((rise < 0.0f ? atFace : offFace) - beside);
@@ -171,11 +171,12 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
     for (int i = 0; i < kLeafSize; ++i) {
       const std::size_t cell = n * kLeafSize + i;
       const int at = patchIndex(i);
-      float out = 0.0f, swept = 0.0f, throughFace = 0.0f;
+      float out = 0.0f, in = 0.0f, swept = 0.0f, throughFace = 0.0f;
       for (int axis = 0; axis < 3; ++axis) {
         const float* flux = result.flux[n][axis].data() + faceIndex(i, axis);
         const int above = at + kPatchStride[axis];
         out += std::max(0.0f, -flux[0]) + std::max(0.0f, flux[kNextFace[axis]]);
+        in += std::max(0.0f, flux[0]) + std::max(0.0f, -flux[kNextFace[axis]]);
         throughFace = std::max({throughFace, -flux[0], flux[kNextFace[axis]]});
         if (moving) {
           swept += step * ((1.0f - share[axis][at]) * pushed[axis][at] -
@@ -183,7 +184,11 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
         }
       }
       result.phi[cell] = 0.5f * (from[i] + to[i]) / h;
-      if (result.open[cell] <= 0.0f) continue;
+      if (result.open[cell] <= 0.0f) {
+        // A corner of it may be open all the same: what comes through there has to be somewhere.
+        leaving[cell] = std::max(out, in);
+        continue;
+      }
       if (moving) result.swept[cell] = swept;
       leaving[cell] = out + std::abs(swept);
       if (result.room[cell] > kSliver) most[n] = std::max(most[n], throughFace / result.room[cell]);
