@@ -28,6 +28,17 @@ struct Extension {
   std::vector<float> depth;          // #voxels: -solidPhi
   VoxelMask known;                   // all that is not deep in solids, and what has been found there
   std::unique_ptr<Vec3[]> gradient;  // #voxels: of phi in solids, as far as it may be used
+  std::vector<const Visibility::Leaf*> sight;  // #leaves; null where each cell sees all around it
+
+  // The cell beside on that side (0 to 5); -1 where there is none, or it is on the other side of a thin wall.
+  std::int64_t beside(std::int64_t cell, int side) const {
+    if (const Visibility::Leaf* leaf = sight[cell / kLeafSize]) {
+      const int stride = VisibleCells::kStride[side / 2];
+      const VisibleCells& seen = (*leaf)[cell % kLeafSize];
+      if (!seen.sees(VisibleCells::kMiddle + (side % 2 == 0 ? -stride : stride))) return -1;
+    }
+    return table.neighbor(cell, side);
+  }
 
   // Gradient of phi at a cell in the open, from those of its neighbours that are in the open too.
   Vec3 openGradient(std::int64_t cell) const {
@@ -36,7 +47,7 @@ struct Extension {
       float low = value[cell], high = value[cell];
       int steps = 0;
       for (int up = 0; up < 2; ++up) {
-        const std::int64_t n = table.neighbor(cell, 2 * axis + up);
+        const std::int64_t n = beside(cell, 2 * axis + up);
         if (n < 0 || depth[n] > deepest) continue;
         (up != 0 ? high : low) = value[n];
         ++steps;
@@ -84,7 +95,7 @@ struct Extension {
     int count = 0;
     for (int axis = 0; axis < 3; ++axis) {
       for (int up = 0; up < 2; ++up) {
-        const std::int64_t n = table.neighbor(cell, 2 * axis + up);
+        const std::int64_t n = beside(cell, 2 * axis + up);
         if (n < 0) continue;
         const float shallower = depth[cell] - depth[n];
         if (!isSet(known, n)) {
@@ -97,6 +108,8 @@ struct Extension {
         nearest[axis] = n;
       }
     }
+    // Walled in on all sides: it stays as it is.
+    if (count == 0) return withoutNearest;
     const float length = way.length();
     const Vec3 normal = length > 0.0f ? way / length : Vec3(0.0f);
     float weights = 0.0f, sum = 0.0f;
@@ -125,12 +138,15 @@ struct Extension {
 
 }  // namespace
 
-void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo, float deep) {
+void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo, float deep,
+                      const Visibility* visibility) {
   const LeafTable table = makeLeafTable(phi.constTree());
   const float h = static_cast<float>(phi.voxelSize()[0]), background = phi.background();
   Extension extension{
-      table, letGo,  deep * h, h, sampleOn(table, phi.constTree()), sampleOn(table, solidPhi.constTree()),
-      {},    nullptr};
+      table, letGo,   deep * h, h, sampleOn(table, phi.constTree()), sampleOn(table, solidPhi.constTree()),
+      {},    nullptr, {}};
+  for (std::size_t n = 0; n < table.size(); ++n)
+    extension.sight.push_back(visibility != nullptr ? visibility->leaf(table.origins[n]) : nullptr);
   forLeaves(table, [&](std::size_t n) {
     for (std::size_t i = n * kLeafSize; i < (n + 1) * kLeafSize; ++i)
       extension.depth[i] = -extension.depth[i];
@@ -140,7 +156,7 @@ void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& le
   for (std::size_t n = 0; n < table.size(); ++n)
     if (!allSet(extension.known[n])) open.push_back(n);
   if (open.empty()) return;
-  extension.gradient = std::make_unique_for_overwrite<Vec3[]>(table.voxels());
+  extension.gradient = std::make_unique<Vec3[]>(table.voxels());
 
   // From the open inwards, all cells beside known ones at once.
   bool progress = true, withoutNearest = false;

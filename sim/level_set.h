@@ -45,9 +45,10 @@ using LetGo = std::function<bool(const Coord&)>;
 // normal where liquid closes on the solid nearly along it (the last gap is taken for closed), nor where a
 // film thinner than half a cell would begin that flows out of the solid. Where the liquid let go, phi rises
 // along the normal, so that the gap is kept. Without `letGo` everything stays as it is: a gap or a film that
-// is there is kept, and none begins. deep: from how deep in a solid on, in voxels.
+// is there is kept, and none begins. deep: from how deep in a solid on, in voxels. visibility: of the solids;
+// nothing comes through a thin one.
 void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo = {},
-                      float deep = kDeepInSolid);
+                      float deep = kDeepInSolid, const Visibility* visibility = nullptr);
 
 // The same for solids and sides of the domain: beyond sides of symmetry phi is its own mirror image.
 void extendBeyond(FloatGrid& phi, const SolidField& solid, const LetGo& letGo = {},

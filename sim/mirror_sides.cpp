@@ -35,7 +35,7 @@ void mirrorAtSides(FloatGrid& phi, const SolidField& solid) {
 }  // namespace
 
 void extendBeyond(FloatGrid& phi, const SolidField& solid, const LetGo& letGo, float deep) {
-  extendIntoSolids(phi, *solid.phi, letGo, deep);
+  extendIntoSolids(phi, *solid.phi, letGo, deep, solid.visibility.get());
   mirrorAtSides(phi, solid);
 }
 

@@ -26,6 +26,8 @@ constexpr int kGatherRounds = 4;
 constexpr int kSpreadRounds = 10;
 // Less than this share of a cell is nothing.
 constexpr float kNothing = 1e-6f;
+// Rounds in which what a cell cannot hold goes on, a cell each.
+constexpr int kPileRounds = 6;
 // Solid, to what looks for the liquid, in cells.
 constexpr float kFar = 1e3f;
 
@@ -59,6 +61,13 @@ bool isZero(const LeafPatch& patch) {
 template <class Body>
 void forRows(const Body& body) {
   for (int row = 0; row < kLeafSize; row += kLeafDim) body(row, patchIndex(row));
+}
+
+// Whether liquid can go from a cell to the one beside it along an axis. faces: open shares.
+bool isWay(const LeafPatch& faces, const LeafPatch& room, int at, int axis, bool up) {
+  const int stride = kPatchStride[axis];
+  return faces[up ? at + stride : at] > 0.0f && room[up ? at + stride : at - stride] > 0.0f &&
+         room[at] > 0.0f;
 }
 
 // What is owed in cells of air falls towards the liquid, to the neighbours that are nearer to it. phi: `far`
@@ -101,6 +110,60 @@ void gatherInLiquid(const LeafTable& leaves, const std::vector<float>& phi, floa
           next[n * kLeafSize + row + k] = sum;
         }
       });
+    });
+    owed.swap(next);
+  }
+}
+
+// No cell holds more than its volume, or lacks more: where drops land, or liquid is pressed together, what is
+// beyond that goes to the cells beside that it can reach. A round takes it a cell further.
+void spreadPiles(const LeafTable& leaves, const SolidField& solid, const std::vector<float>& room,
+                 std::vector<float>& owed) {
+  const auto excess = [](float due, float space) { return due - std::clamp(due, -space, space); };
+  const FloatGrid* const open[3] = {solid.openU.get(), solid.openV.get(), solid.openW.get()};
+  for (int round = 0; round < kPileRounds; ++round) {
+    // Of each cell's excess what goes through each side that is open.
+    std::vector<float> given(owed.size(), 0.0f);
+    std::vector<char> gives(leaves.size(), 0);
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      const std::size_t first = n * kLeafSize;
+      for (std::size_t at = first; at < first + kLeafSize && gives[n] == 0; ++at)
+        gives[n] = room[at] > 0.0f && excess(owed[at], room[at]) != 0.0f;
+      if (gives[n] == 0) return;
+      std::array<LeafPatch, 3> faces;
+      for (int a = 0; a < 3; ++a) gather(open[a]->constTree(), leaves.origins[n], 1, faces[a].data(), true);
+      LeafPatch space{};
+      loadPatch(leaves, room, n, space, [](float) { return 0.0f; });
+      for (int i = 0; i < kLeafSize; ++i) {
+        const int at = patchIndex(i);
+        int ways = 0;
+        for (int a = 0; a < 3; ++a)
+          ways += int(isWay(faces[a], space, at, a, false)) + int(isWay(faces[a], space, at, a, true));
+        if (space[at] > 0.0f && ways > 0)
+          given[first + i] = excess(owed[first + i], space[at]) / static_cast<float>(ways);
+      }
+    });
+    if (std::none_of(gives.begin(), gives.end(), [](char c) { return c != 0; })) return;
+    std::vector<float> next(owed.size());
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      const std::size_t first = n * kLeafSize;
+      std::copy_n(owed.data() + first, kLeafSize, next.data() + first);
+      LeafPatch from{}, space{};
+      const auto none = [](float) { return 0.0f; };
+      loadPatch(leaves, given, n, from, none);
+      if (isZero(from)) return;
+      loadPatch(leaves, room, n, space, none);
+      std::array<LeafPatch, 3> faces;
+      for (int a = 0; a < 3; ++a) gather(open[a]->constTree(), leaves.origins[n], 1, faces[a].data(), true);
+      for (int i = 0; i < kLeafSize; ++i) {
+        const int at = patchIndex(i);
+        float sum = 0.0f;
+        for (int a = 0; a < 3; ++a) {
+          if (isWay(faces[a], space, at, a, false)) sum += from[at - kPatchStride[a]] - from[at];
+          if (isWay(faces[a], space, at, a, true)) sum += from[at + kPatchStride[a]] - from[at];
+        }
+        next[first + i] += sum;
+      }
     });
     owed.swap(next);
   }
@@ -214,6 +277,7 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
   for (const auto& running : flows.sources) forgive(leaves, *running.source->phi, h, due);
   for (const FloatGrid* drain : flows.drains) forgive(leaves, *drain, h, due);
   gatherInLiquid(leaves, phi, kFar * h, due);
+  spreadPiles(leaves, solidAfter, openAfter, due);
   spreadInLiquid(leaves, phi, openAfter, due);
   return toGrid(leaves, due, solid.voxelSize);
 }
