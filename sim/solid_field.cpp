@@ -16,8 +16,6 @@ namespace fluidtex::sim {
 
 namespace {
 
-constexpr int kNodes = kLeafDim + 1;
-
 // Open shares below this count as closed: they would let next to nothing through and spoil the matrix.
 constexpr double kClosed = 1e-3;
 
@@ -77,127 +75,149 @@ bool isCrossed(const SolidDistance& distance, const Vec3d& from, const Vec3d& to
          isCrossed(distance, middle, to, there, high, half, least);
 }
 
-// Distances at the centres of a block's cells and of those beside it, found when they are asked for.
-constexpr int kCentreSide = kLeafDim + 2, kCentres = kCentreSide * kCentreSide * kCentreSide;
-class CentreDistances {
+// Distances at the corners and centres of a block's cells and of those below it, found when they are asked
+// for.
+class CellPlaces {
  public:
-  CentreDistances(const SolidDistance& distance, const Coord& origin, double h)
+  CellPlaces(const SolidDistance& distance, const Coord& origin, double h)
       : m_distance(distance), m_origin(origin), m_h(h) {
-    m_value.fill(kUnknown);
+    m_corner.fill(kUnknown);
+    m_centre.fill(kUnknown);
   }
-  static int index(const Coord& local) {
-    return ((local[0] + 1) * kCentreSide + local[1] + 1) * kCentreSide + local[2] + 1;
+  static constexpr int kCells = kLeafDim + 1;  // -1 to 7
+  static int index(const Coord& cell) {
+    return ((cell[0] + 1) * kCells + cell[1] + 1) * kCells + cell[2] + 1;
   }
-  Vec3d place(const Coord& local) const { return ((m_origin + local).asVec3d() + Vec3d(0.5)) * m_h; }
+  Vec3d cornerPlace(const Coord& at) const { return (m_origin + at).asVec3d() * m_h; }
+  Vec3d centrePlace(const Coord& cell) const { return ((m_origin + cell).asVec3d() + Vec3d(0.5)) * m_h; }
   // Each from -1 to 8.
-  double at(const Coord& local) {
-    double& value = m_value[index(local)];
-    if (value == kUnknown) value = m_distance(place(local));
+  double corner(const Coord& at) {
+    double& value = m_corner[((at[0] + 1) * kCorners + at[1] + 1) * kCorners + at[2] + 1];
+    if (value == kUnknown) {
+      value = m_distance(cornerPlace(at));
+      if (std::abs(value) < kOnWall * m_h) value = 0.0;
+    }
+    return value;
+  }
+  // Each from -1 to 7.
+  double centre(const Coord& cell) {
+    double& value = m_centre[index(cell)];
+    if (value == kUnknown) value = m_distance(centrePlace(cell));
     return value;
   }
 
  private:
+  static constexpr int kCorners = kLeafDim + 2;
   static constexpr double kUnknown = std::numeric_limits<double>::max();
   const SolidDistance& m_distance;
   Coord m_origin;
   double m_h;
-  std::array<double, kCentres> m_value;
+  std::array<double, kCorners * kCorners * kCorners> m_corner;
+  std::array<double, kCells * kCells * kCells> m_centre;
 };
 
 // Corners of a cell: number n lies at the upper end of axis a where bit a is set.
-constexpr int kCorners = 8;
+constexpr int kCellCorners = 8;
+constexpr unsigned kAllCorners = 0xff;
 
-// Whether a wall parts the open corners of a cell whose centre lies in a solid: such a cell would join the
-// wall's two sides. Corners are together where the edge between them is open.
-bool partsCell(const SolidDistance& distance, const Vec3d& centre, double h) {
-  std::array<Vec3d, kCorners> place;
-  std::array<double, kCorners> d;
-  for (int n = 0; n < kCorners; ++n) {
-    place[n] = centre + Vec3d((n & 1) - 0.5, (n >> 1 & 1) - 0.5, (n >> 2) - 0.5) * h;
-    d[n] = distance(place[n]);
-    if (d[n] < kOnWall * h) d[n] = 0.0;
-  }
-  unsigned reached = 0;
-  for (int n = 0; n < kCorners && reached == 0; ++n)
-    if (d[n] > 0.0) reached = 1u << n;
-  for (bool grows = true; grows;) {
-    grows = false;
-    for (int n = 0; n < kCorners; ++n) {
-      if ((reached >> n & 1u) == 0) continue;
-      for (int axis = 0; axis < 3; ++axis) {
-        const int other = n ^ (1 << axis);
-        if (d[other] <= 0.0 || (reached >> other & 1u) != 0) continue;
-        if (isCrossed(distance, place[n], place[other], d[n], d[other], h, kThinnestWall * h)) continue;
-        reached |= 1u << other;
-        grows = true;
-      }
-    }
-  }
-  for (int n = 0; n < kCorners; ++n)
-    if (d[n] > 0.0 && (reached >> n & 1u) == 0) return true;
-  return false;
+Coord cornerOf(const Coord& cell, int n) {
+  return cell.offsetBy(n & 1, n >> 1 & 1, n >> 2);
 }
 
-// A wall thinner than a cell may have no corner of a cell in it, and yet nothing passes: shuts the faces
-// between cells that it parts, and all faces of cells whose centre lies in it and that are open on both of
-// its sides.
-void shutBehindThinWalls(const SolidDistance& distance, double h, const Coord& origin, Faces& faces) {
-  CentreDistances centre(distance, origin, h);
-  std::array<signed char, kCentres> parted;
-  parted.fill(-1);
-  const auto isParted = [&](const Coord& local) {
-    signed char& known = parted[CentreDistances::index(local)];
-    if (known < 0) {
-      const double d = centre.at(local);
-      known = d < 0.0 && d > -0.5 * std::sqrt(3.0) * h && partsCell(distance, centre.place(local), h);
+// Of a cell that a thin wall parts, the open corners on one side, a bit each: that of its centre, or where
+// that lies in the wall, the roomier one. Corners are together where the edge between them is open. All
+// corners where nothing parts them. A cell must not join both sides of a wall.
+unsigned cornersOfOneSide(CellPlaces& places, const SolidDistance& distance, const Coord& cell, double h) {
+  const double diagonal = 0.5 * std::sqrt(3.0) * h, middle = places.centre(cell);
+  if (std::abs(middle) >= diagonal) return kAllCorners;
+  std::array<double, kCellCorners> d;
+  std::array<Vec3d, kCellCorners> place;
+  unsigned open = 0;
+  for (int n = 0; n < kCellCorners; ++n) {
+    d[n] = places.corner(cornerOf(cell, n));
+    place[n] = places.cornerPlace(cornerOf(cell, n));
+    if (d[n] > 0.0) open |= 1u << n;
+  }
+  const auto grown = [&](unsigned side) {
+    for (unsigned before = 0; before != side;) {
+      before = side;
+      for (int n = 0; n < kCellCorners; ++n) {
+        if ((side >> n & 1u) == 0) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+          const int other = n ^ (1 << axis);
+          if ((open >> other & 1u) == 0 || (side >> other & 1u) != 0) continue;
+          if (!isCrossed(distance, place[n], place[other], d[n], d[other], h, kThinnestWall * h))
+            side |= 1u << other;
+        }
+      }
     }
-    return known == 1;
+    return side;
+  };
+  unsigned best = 0;
+  if (middle > 0.0) {
+    const Vec3d x = places.centrePlace(cell);
+    for (int n = 0; n < kCellCorners; ++n) {
+      if ((open >> n & 1u) != 0 &&
+          !isCrossed(distance, x, place[n], middle, d[n], diagonal, kThinnestWall * h))
+        best |= 1u << n;
+    }
+    best = grown(best);
+  } else {
+    double most = 0.0;
+    for (unsigned left = open; left != 0;) {
+      const unsigned side = grown(left & (~left + 1u));
+      double room = 0.0;
+      for (int n = 0; n < kCellCorners; ++n)
+        if ((side >> n & 1u) != 0) room += d[n];
+      if (room > most) {
+        most = room;
+        best = side;
+      }
+      left &= ~side;
+    }
+  }
+  return best == open ? kAllCorners : best;
+}
+
+// From distances at the corners of the block's cells. A wall thinner than a cell may have no corner in it,
+// and yet nothing passes: faces between cells that it parts are shut, and of a cell that it runs through,
+// what is not on the cell's own side.
+Faces openShares(const SolidDistance& distance, const CoordBBox& domain, double h, const Coord& origin) {
+  Faces faces;
+  CellPlaces places(distance, origin, h);
+  constexpr int kCells = CellPlaces::kCells;
+  std::array<unsigned, kCells * kCells * kCells> side;
+  side.fill(0);
+  const auto sideOf = [&](const Coord& cell) {
+    unsigned& known = side[CellPlaces::index(cell)];
+    // A cell without an open corner has all of them on its side.
+    if (known == 0) known = cornersOfOneSide(places, distance, cell, h);
+    return known;
   };
   for (int c = 0; c < kLeafSize; ++c) {
     const Coord local(c >> 6, (c >> 3) & 7, c & 7);
     for (int axis = 0; axis < 3; ++axis) {
-      float& open = faces[axis][c];
-      if (open <= 0.0f) continue;
+      // Only the faces of the domain's own cells are open, also where a side is no wall.
       Coord below = local;
       below[axis] -= 1;
-      const double low = centre.at(below), high = centre.at(local);
-      const bool shut =
-          low > 0.0 && high > 0.0
-              ? isCrossed(distance, centre.place(below), centre.place(local), low, high, h, kThinnestWall * h)
-              : isParted(below) || isParted(local);
-      if (shut) open = 0.0f;
+      faces[axis][c] = 0.0f;
+      if (!domain.isInside(origin + local) && !domain.isInside(origin + below)) continue;
+      // Around the face: the corners of the cell at the lower end of the axis.
+      const int s = 1 << (axis + 1) % 3, t = 1 << (axis + 2) % 3, corners[4] = {0, s, s | t, t};
+      std::array<double, 4> d;
+      for (int n = 0; n < 4; ++n) d[n] = places.corner(cornerOf(local, corners[n]));
+      if (std::max({d[0], d[1], d[2], d[3]}) <= 0.0) continue;
+      const double low = places.centre(below), high = places.centre(local);
+      if (low > 0.0 && high > 0.0 &&
+          isCrossed(distance, places.centrePlace(below), places.centrePlace(local), low, high, h,
+                    kThinnestWall * h))
+        continue;
+      const unsigned lowSide = sideOf(below) >> (1 << axis), highSide = sideOf(local);
+      for (int n = 0; n < 4; ++n)
+        if ((lowSide & highSide & 1u << corners[n]) == 0) d[n] = -std::abs(d[n]);
+      faces[axis][c] = static_cast<float>(openAreaFraction(d[0], d[1], d[2], d[3]));
     }
   }
-}
-
-// From distances at the block's 9^3 nodes.
-Faces openShares(const SolidDistance& distance, const CoordBBox& domain, double h, const Coord& origin) {
-  Faces faces;
-  std::vector<double> node(kNodes * kNodes * kNodes);
-  for (int i = 0, n = 0; i < kNodes; ++i) {
-    for (int j = 0; j < kNodes; ++j) {
-      for (int k = 0; k < kNodes; ++k, ++n) {
-        const Coord at = origin.offsetBy(i, j, k);
-        const double d = distance(Vec3d(at[0] * h, at[1] * h, at[2] * h));
-        node[n] = std::abs(d) < kOnWall * h ? 0.0 : d;
-      }
-    }
-  }
-  constexpr int kStep[3] = {kNodes * kNodes, kNodes, 1};
-  for (int c = 0; c < kLeafSize; ++c) {
-    const Coord local(c >> 6, (c >> 3) & 7, c & 7);
-    const double* d = node.data() + local[0] * kStep[0] + local[1] * kStep[1] + local[2] * kStep[2];
-    for (int axis = 0; axis < 3; ++axis) {
-      const int s = kStep[(axis + 1) % 3], t = kStep[(axis + 2) % 3];
-      // Only the faces of the domain's own cells are open, also where a side is no wall.
-      const Coord above = origin + local;
-      Coord below = above;
-      below[axis] -= 1;
-      const bool inside = domain.isInside(above) || domain.isInside(below);
-      faces[axis][c] = inside ? static_cast<float>(openAreaFraction(d[0], d[s], d[s + t], d[t])) : 0.0f;
-    }
-  }
-  shutBehindThinWalls(distance, h, origin, faces);
   return faces;
 }
 
@@ -232,7 +252,7 @@ int levelOf(int size) {
 double centreDistance(const SolidDistance& distance, const Coord& cell, double h) {
   const double d = distance(placeOf(cell, Vec3d(0.5), h));
   if (d > 0.0 || d <= -0.5 * h) return d;
-  for (int n = 0; n < kCorners; ++n)
+  for (int n = 0; n < kCellCorners; ++n)
     if (distance(placeOf(cell, Vec3d(n & 1, n >> 1 & 1, n >> 2), h)) > kOnWall * h) return d;
   return -0.5 * h;
 }
