@@ -108,14 +108,69 @@ void mirrorInSolids(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord
   }
 }
 
+// The 27 values around `at` of a block, as a cell sees them: those behind a thin wall are mirrored at the
+// wall's plane, which lies `wall` cells away along `normal`, both measured from the cell. Into `seen`, at the
+// same place.
+void mirrorUnseen(const float* block, int at, const VisibleCells& visible, double wall, const Vec3d& normal,
+                  float* seen) {
+  for (int n = 0; n < 27; ++n) {
+    const int i = n / 9 - 1, j = n / 3 % 3 - 1, k = n % 3 - 1;
+    const int offset = i * kStride[0] + j * kStride[1] + k * kStride[2];
+    const int bit = VisibleCells::kMiddle + i * VisibleCells::kStride[0] + j * VisibleCells::kStride[1] +
+                    k * VisibleCells::kStride[2];
+    if (visible.sees(bit)) {
+      seen[at + offset] = block[at + offset];
+      continue;
+    }
+    const Vec3d way(i, j, k);
+    const Vec3d image = way - 2.0 * std::min(0.0, wall + normal.dot(way)) * normal;
+    int low[3];
+    double part[3];
+    for (int a = 0; a < 3; ++a) {
+      low[a] = image[a] < 0.0 ? -1 : 0;
+      part[a] = std::clamp(image[a] - low[a], 0.0, 1.0);
+    }
+    // Of the cube of cells around the image those that are seen count.
+    double sum = 0.0, weights = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+      double weight = 1.0;
+      int to = at, seenAt = VisibleCells::kMiddle;
+      for (int a = 0; a < 3; ++a) {
+        const int up = corner >> a & 1;
+        weight *= up != 0 ? part[a] : 1.0 - part[a];
+        to += (low[a] + up) * kStride[a];
+        seenAt += (low[a] + up) * VisibleCells::kStride[a];
+      }
+      if (!visible.sees(seenAt)) continue;
+      sum += weight * block[to];
+      weights += weight;
+    }
+    seen[at + offset] = weights > 0.0 ? static_cast<float>(sum / weights) : block[at];
+  }
+}
+
+// The direction out of a solid, from its distance around a cell.
+Vec3d outOf(const FloatTree& solid, const Coord& cell) {
+  Vec3d slope;
+  for (int a = 0; a < 3; ++a) {
+    Coord low = cell, high = cell;
+    low[a] -= 1;
+    high[a] += 1;
+    slope[a] = double(solid.getValue(high)) - solid.getValue(low);
+  }
+  const double length = slope.length();
+  return length > 0.0 ? slope / length : Vec3d(0.0);
+}
+
 }  // namespace
 
-FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi) {
+FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi,
+                                const Visibility* visibility) {
   const auto h = static_cast<float>(phi.voxelSize()[0]);
   const auto leaves = leavesOf(phi.constTree());
   std::vector<std::unique_ptr<FloatLeaf>> made(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    static thread_local float block[kSide * kSide * kSide];
+    static thread_local float block[kSide * kSide * kSide], seen[kSide * kSide * kSide];
     const Coord origin = leaves[n]->origin();
     gather(phi.constTree(), origin, kHalo, block);
     const auto [low, high] = std::minmax_element(std::begin(block), std::end(block));
@@ -125,9 +180,17 @@ FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi)
     for (int c = 0; c < kLeafSize; ++c) {
       const int at =
           ((c >> 6) + kHalo) * kStride[0] + (((c >> 3) & 7) + kHalo) * kStride[1] + (c & 7) + kHalo;
-      if (!besideSurface(block + at)) continue;
+      const Coord cell = leaves[n]->offsetToGlobalCoord(static_cast<openvdb::Index>(c));
+      const VisibleCells* visible = visibility != nullptr ? visibility->around(cell) : nullptr;
+      const float* values = block;
+      if (visible != nullptr) {
+        mirrorUnseen(block, at, *visible, solidPhi.tree().getValue(cell) / h, outOf(solidPhi.tree(), cell),
+                     seen);
+        values = seen;
+      }
+      if (!besideSurface(values + at)) continue;
       if (!made[n]) made[n] = std::make_unique<FloatLeaf>(origin, 0.0f, false);
-      const Bend bend = bendAt(block + at);
+      const Bend bend = bendAt(values + at);
       made[n]->setValueOnly(c, static_cast<float>(bend.curvature / h));
       made[n]->setActiveState(c, bend.smooth);
     }
@@ -137,14 +200,6 @@ FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi)
   for (auto& leaf : made)
     if (leaf) curvature->tree().addLeaf(leaf.release());
   return curvature;
-}
-
-double curvatureBetween(const openvdb::tree::ValueAccessor<const FloatTree>& curvature, const Coord& from,
-                        const Coord& to, float theta) {
-  float first = 0.0f, second = 0.0f;
-  const bool firstSmooth = curvature.probeValue(from, first), secondSmooth = curvature.probeValue(to, second);
-  if (firstSmooth != secondSmooth) return firstSmooth ? first : second;
-  return (1.0 - theta) * first + double(theta) * second;
 }
 
 }  // namespace fluidtex::sim

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/mac_grid.h"
+#include "sim/visibility.h"
 
 namespace fluidtex::sim {
 
@@ -12,16 +13,13 @@ namespace fluidtex::sim {
 // and at corners a value is there, but it is not active. phi: metres, a distance two cells around the
 // surface. At walls, where solidPhi (metres, cell centres) changes its sign, phi is mirrored, so that the
 // surface is pulled until it meets them at a right angle. Without that nothing holds it upright there, and
-// drops between two walls tilt until they shake.
+// drops between two walls tilt until they shake. visibility: of the solids; beside a thin one, whose own
+// slope may lead to its other side, phi is mirrored at the wall's plane as the cell sees it.
 //
 // Source: Kang, Fedkiw, Liu, "A boundary condition capturing method for multiphase incompressible flow",
 // 2000, section 3; Gaussian curvature, to go from the level of phi at the cell to the surface: Goldman,
 // "Curvature formulas for implicit curves and surfaces", 2005.
-FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi);
-
-// Between two neighbouring cells on both sides of the surface, which lies a share `theta` of a cell from the
-// first. A value that is not active yields to one that is.
-double curvatureBetween(const openvdb::tree::ValueAccessor<const FloatTree>& curvature, const Coord& from,
-                        const Coord& to, float theta);
+FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi,
+                                const Visibility* visibility = nullptr);
 
 }  // namespace fluidtex::sim

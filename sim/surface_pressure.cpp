@@ -16,6 +16,23 @@ bool meetsAir(const SolidField& solid, const LiquidSides& cell, const Coord& pla
   return cell.theta[side] > 0.0f && solid.domain.isInside(neighborOf(place, side));
 }
 
+// Of the surface nearest to a cell: where phi does not bend smoothly there, the mean of those beside it in
+// the air where it does. It is one value for all sides: of a cell that the surface all but touches, the
+// pressures at its sides act over next to no way, and any difference between them would throw the liquid out.
+float ownCurvature(const openvdb::tree::ValueAccessor<const FloatTree>& curvature, const SolidField& solid,
+                   const LiquidSides& cell, const Coord& place) {
+  float own = 0.0f, sum = 0.0f;
+  if (curvature.probeValue(place, own)) return own;
+  int count = 0;
+  for (int s = 0; s < kSides; ++s) {
+    float beside = 0.0f;
+    if (!meetsAir(solid, cell, place, s) || !curvature.probeValue(neighborOf(place, s), beside)) continue;
+    sum += beside;
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<float>(count) : own;
+}
+
 }  // namespace
 
 SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi, const SolidField& solid,
@@ -31,15 +48,18 @@ SurfacePressure::SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi
     cells.push_back(i);
   }
   m_value.resize(cells.size());
-  const FloatGrid::Ptr curvature = surfaceCurvature(phi, *solid.phi);
+  const FloatGrid::Ptr curvature = surfaceCurvature(phi, *solid.phi, solid.visibility.get());
   tbb::parallel_for(Range(0, static_cast<int>(cells.size()), 1024), [&](const Range& range) {
     const openvdb::tree::ValueAccessor<const FloatTree> bend(curvature->constTree());
     for (int n = range.begin(); n < range.end(); ++n) {
       const LiquidSides& cell = liquid.sidesOf(cells[n]);
       const Coord place = liquid.numbering.cell(cells[n]);
+      const float own = ownCurvature(bend, solid, cell, place);
       for (int s = 0; s < kSides; ++s) {
         if (!meetsAir(solid, cell, place, s)) continue;
-        m_value[n][s] = scale * curvatureBetween(bend, place, neighborOf(place, s), cell.theta[s]);
+        float beside = 0.0f;
+        const bool smooth = bend.probeValue(neighborOf(place, s), beside);
+        m_value[n][s] = scale * (own + (smooth ? double(cell.theta[s]) * (beside - own) : 0.0));
       }
     }
   });
