@@ -26,6 +26,8 @@ constexpr int kGatherRounds = 4;
 constexpr int kSpreadRounds = 10;
 // Less than this share of a cell is nothing.
 constexpr float kNothing = 1e-6f;
+// What is owed in cells with less room than this share stays where it is.
+constexpr float kCarries = 1e-3f;
 // Rounds in which what a cell cannot hold goes on, a cell each.
 constexpr int kPileRounds = 6;
 // Solid, to what looks for the liquid, in cells.
@@ -211,13 +213,13 @@ void spreadInLiquid(const LeafTable& leaves, const std::vector<float>& phi, cons
   }
 }
 
-// Nothing is owed in cells that what is always full or always empty has a part of.
+// Nothing is owed within a cell of what is always full or always empty.
 void forgive(const LeafTable& leaves, const FloatGrid& shape, float h, std::vector<float>& owed) {
   for (std::size_t n = 0; n < leaves.size(); ++n) {
     float scratch[kLeafSize];
     const float* phi = leafValues(shape.constTree(), leaves.origins[n], scratch);
     for (int i = 0; i < kLeafSize; ++i) {
-      if (phi[i] < 0.5f * h) owed[n * kLeafSize + i] = 0.0f;
+      if (phi[i] < h) owed[n * kLeafSize + i] = 0.0f;
     }
   }
 }
@@ -252,7 +254,7 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
   if (owed != nullptr) {
     const std::vector<float> value = sampleOn(leaves, owed->constTree());
     for (std::size_t at = 0; at < shares.size(); ++at) {
-      if (flux.room[at] > 0.0f) {
+      if (flux.room[at] > kCarries) {
         shares[at] += value[at] / flux.room[at];
       } else {
         due[at] = value[at];

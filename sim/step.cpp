@@ -126,6 +126,19 @@ void limitTo(const Velocity& velocity, float limit) {
   }
 }
 
+// Beyond the band values are left over from extrapolation. None may lead farther than what the length of the
+// next step goes by.
+void boundInactive(const Velocity& velocity, float fastest) {
+  for (const FloatGrid::Ptr& grid : velocity.component) {
+    const auto leaves = leavesOf(grid->tree());
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      float* values = leaves[n]->buffer().data();
+      for (int i = 0; i < kLeafSize; ++i)
+        if (!leaves[n]->isValueOn(i)) values[i] = std::clamp(values[i], -fastest, fastest);
+    });
+  }
+}
+
 // Velocity, swelling and, where that is wanted, acceleration beyond the faces whose values the projection
 // knows. arrived: the velocity before friction or else before pressure.
 void extrapolateAll(Liquid& liquid, Projection& projection, const SolidField& solid, double dt, bool driven,
@@ -203,7 +216,10 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, double kick, co
   const ShownLiquid shown = lets ? shownAround(*projection.separating, *liquid.phi, solid) : ShownLiquid{};
   openGaps(*liquid.phi, liquid.velocity, solid, *projection.separating, options.gravity * dt);
   if (lets) oweChange(*liquid.owed, shown, *liquid.phi, solid);
-  return std::isfinite(maxAbs(liquid.velocity));
+  const double fastest = maxAbs(liquid.velocity);
+  if (!std::isfinite(fastest)) return false;
+  boundInactive(liquid.velocity, static_cast<float>(fastest));
+  return true;
 }
 
 // Markers beyond a side of the domain that is not closed are gone, and hold no film there.

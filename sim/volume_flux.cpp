@@ -15,6 +15,8 @@ namespace {
 // Cells with less room than this share do not make sub-steps shorter.
 constexpr float kSliver = 0.25f;
 constexpr float kLeastRoom = 1e-12f;
+// Less than this share of a cell is no flow.
+constexpr float kLeastFlow = 1e-6f;
 
 // From a face to the next one along the axis, and to those of the next row of cells along x and y.
 constexpr int kNextFace[3] = {64, 8, 1};
@@ -186,7 +188,8 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
       result.phi[cell] = 0.5f * (from[i] + to[i]) / h;
       if (result.open[cell] <= 0.0f) {
         // A corner of it may be open all the same: what comes through there has to be somewhere.
-        leaving[cell] = std::max(out, in);
+        const float through = std::max(out, in);
+        leaving[cell] = through > kLeastFlow ? through : 0.0f;
         continue;
       }
       if (moving) result.swept[cell] = swept;
