@@ -105,16 +105,6 @@ TEST_CASE("curvature: a drop on a wall bends as if it went on behind it as its m
   }
 }
 
-TEST_CASE("curvature: a film's middle yields to its outside") {
-  // 1.2 cells thick: its inside has no smooth distance.
-  const double h = 1.0 / 32;
-  const auto film = phiOf(32, [&](const Vec3d& x) { return std::abs(x[2] - 0.5 - 0.5 * h) - 0.6 * h; });
-  const auto curvature = curvatureOf(*film);
-  const openvdb::tree::ValueAccessor<const FloatTree> at(curvature->constTree());
-  REQUIRE_FALSE(at.isValueOn(Coord(16, 16, 16)));
-  CHECK(std::abs(curvatureBetween(at, Coord(16, 16, 16), Coord(16, 16, 17), 0.6f)) < 1e-3);
-}
-
 TEST_CASE("surface tension: none changes no bit, and a flat surface does not feel it") {
   const Velocity without = pool(0.0, true), flat = pool(10.0, false), rippled = pool(10.0, true);
   for (int a = 0; a < 3; ++a) {

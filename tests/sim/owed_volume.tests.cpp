@@ -167,3 +167,28 @@ TEST_CASE("owed volume: what leaves the domain and what sources put in is not ow
   const Velocity still = flow([](const Vec3d&) { return Vec3d(0.0); });
   CHECK(owedVolume(*nothing, *source.phi, nullptr, still, closed, closed, flows, 0.01)->empty());
 }
+
+TEST_CASE("owed volume: no cell owes more than it holds, and nothing goes through a wall") {
+  for (const float share : {5.0f, -5.0f}) {
+    Options options;
+    options.resolution = kCells;
+    options.solids.resize(1);
+    options.solids[0].shape = {Box{Vec3d(0.5, -1.0, -1.0), Vec3d(0.52, 2.0, 2.0)}};  // less than a cell
+    const SolidField solid = *Solids(options).at(0.0);
+    const auto phi = phiOf([](const Vec3d& x) { return (x - Vec3d(0.2)).length() - 0.1; });
+    auto owed = FloatGrid::create(0.0f);
+    owed->setTransform(cellTransform(kVoxel));
+    const Coord cell(15, 20, 0);  // beside the wall, on the floor
+    owed->tree().setValueOn(cell, share);
+    const auto after = owedVolume(*phi, *phi, owed.get(), flow([](const Vec3d&) { return Vec3d(0.0); }),
+                                  solid, solid, {}, 1e-6);
+    CHECK(totalOwed(*after) == Catch::Detail::Approx(share * std::pow(kVoxel, 3)).epsilon(1e-4));
+    double beyond = 0.0, most = 0.0;
+    for (auto it = after->cbeginValueOn(); it; ++it) {
+      if (it.getCoord()[0] > 16) beyond = std::max(beyond, std::abs(double(*it)));
+      most = std::max(most, std::abs(double(*it)));
+    }
+    CHECK(beyond == 0.0);
+    CHECK(most <= 1.01);
+  }
+}

@@ -220,3 +220,32 @@ TEST_CASE("constrain: closed faces keep the motion along the solid only", "[sim]
   CHECK_THAT(speedInto(-1.0, *everybody).z(), WithinAbs(std::tan(angle), 0.02));
   CHECK_THAT(speedInto(1.0, *everybody).z(), WithinAbs(std::tan(angle) + normal.z(), 1e-6));  // it may leave
 }
+
+TEST_CASE("solids: how far one reaches behind a side of the domain changes nothing there") {
+  const auto shelf = [](double end) {
+    Options options;
+    options.resolution = 24;
+    options.solids.resize(1);
+    options.solids[0].shape = {Box{Vec3d(-end, 0.2, 0.3), Vec3d(1.0 + end, 0.29, 2.0)}};
+    return Solids(options);
+  };
+  const Solids near = shelf(1.0 / 24.0), far = shelf(3.0);
+  for (int n = 0; n < 24; ++n) {
+    const Vec3d x(1.0 + 0.02 * (n % 3), 0.1 + 0.02 * n / 3, 0.5);
+    CHECK_THAT(near.distance(x, 0.0), WithinAbs(far.distance(x, 0.0), 1e-12));
+  }
+  // Straight behind the shelf's middle: as deep as its edge is away.
+  CHECK_THAT(near.distance(Vec3d(1.02, 0.245, 0.5), 0.0), WithinAbs(-std::hypot(0.02, 0.045), 1e-12));
+}
+
+TEST_CASE("solids: where two touch it is as solid as elsewhere") {
+  Options options;
+  options.resolution = 16;
+  const double h = 1.0 / 16;
+  options.solids.resize(2);
+  options.solids[0].shape = {Box{Vec3d(0.2, 0.2, 0.2), Vec3d(0.53, 0.8, 0.8)}};
+  options.solids[1].shape = {Box{Vec3d(0.53, 0.2, 0.2), Vec3d(0.8, 0.8, 0.8)}};
+  const auto field = Solids(options).at(0.0);
+  for (int j = 4; j < 12; ++j)
+    for (int k = 4; k < 12; ++k) CHECK(field->phi->tree().getValue(Coord(8, j, k)) < -0.49f * float(h));
+}

@@ -109,3 +109,58 @@ TEST_CASE("visibility: closed cups with walls of 0.6 cells and more hold what is
   }
   CHECK(outside == 0);
 }
+
+TEST_CASE("visibility: liquid at rest between thin walls stays so, whatever meets there", "[slow]") {
+  struct Case {
+    const char* name;
+    Options options;
+  };
+  std::vector<Case> cases;
+  const auto add = [&](const char* name, int resolution, const Vec3d& size, Shape solid,
+                       Shape liquid) -> Options& {
+    Options options = tank(resolution, {{std::move(liquid)}});
+    options.size = size;
+    options.solids.resize(1);
+    options.solids[0].shape = std::move(solid);
+    cases.push_back({name, std::move(options)});
+    return cases.back().options;
+  };
+  const auto within = [](const Shape& outer, const Shape& inner) {
+    return Shape{Difference{{outer, inner}}};
+  };
+  add("shut box, walls of 1.6 cells", 25, Vec3d(0.604984, 1.0, 0.628724),
+      within({Box{Vec3d(0.0806881, 0.235348, 0.254905), Vec3d(0.333457, 0.92355, 0.623007)}},
+             {Box{Vec3d(0.14388, 0.29854, 0.318098), Vec3d(0.270265, 0.860358, 0.559815)}}),
+      {Box{Vec3d(0.14388, 0.29854, 0.318098), Vec3d(0.270265, 0.860358, 0.440231)}});
+  add("divider that ends behind the domain's sides", 30, Vec3d(1.0, 0.466667, 0.766667),
+      {Box{Vec3d(-0.0333333, 0.159746, -0.0333333), Vec3d(1.03333, 0.232195, 0.776513)}},
+      {Box{Vec3d(0.0), Vec3d(1.0, 0.195971, 0.392809)}});
+  add("round cup, wall of 0.67 cells, poured half into it", 28, Vec3d(0.713941, 0.806144, 1.0),
+      within({Cylinder{Vec3d(0.280298, 0.588626, -0.0357143), Vec3d(0.280298, 0.588626, 0.728664), 0.126608}},
+             {Cylinder{Vec3d(0.280298, 0.588626, 0.166563), Vec3d(0.280298, 0.588626, 0.764379), 0.102585}}),
+      {Cylinder{Vec3d(0.280298, 0.588626, 0.154552), Vec3d(0.280298, 0.588626, 0.538298), 0.114597}});
+  add("shut box, walls of 1.7 cells, three cells deep", 27, Vec3d(1.0, 0.574684, 0.762249),
+      within({Box{Vec3d(0.0361692, 0.319417, 0.0112169), Vec3d(0.794923, 0.574488, 0.521739)}},
+             {Box{Vec3d(0.099937, 0.383184, 0.0749847), Vec3d(0.731155, 0.51072, 0.457971)}}),
+      {Box{Vec3d(0.099937, 0.383184, 0.0749847), Vec3d(0.731155, 0.51072, 0.170491)}});
+  for (Case& each : cases) {
+    CAPTURE(each.name);
+    each.options.viscosity = 0.0;
+    Solver solver(each.options);
+    const double poured = solver.next().stats.volume;
+    for (int n = 0; n < 15; ++n) {
+      const FrameStats stats = solver.next().stats;
+      REQUIRE(std::abs(stats.volume / poured - 1.0) < 0.01);
+      const State& state = solver.state();
+      const auto phi = state.phi->getConstUnsafeAccessor();
+      double energy = 0.0;
+      for (const FloatGrid::Ptr& grid : {state.u, state.v, state.w}) {
+        for (auto it = grid->cbeginValueOn(); it; ++it)
+          if (phi.getValue(it.getCoord()) < 0.0f) energy += 0.5 * double(*it) * *it;
+      }
+      // A ripple of a cell's height falls at sqrt(g h).
+      const double ripple = 9.81 * each.options.voxelSize();
+      REQUIRE(energy / static_cast<double>(stats.cells) < 1e-4 * ripple);
+    }
+  }
+}
