@@ -1,6 +1,7 @@
 #include "sim/cell_volume.h"
 
 #include "sim/leaf_patch.h"
+#include "sim/level_set.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,13 +20,15 @@ float shareWithin(float a, float b, float cosine) {
   return a * b + (cosine > 0.0f ? cosine * (same - a * b) : cosine * (a * b - opposite));
 }
 
-// cos of the angle between a surface and a solid at a cell: 1 where both end the liquid on the same side. Of
-// phi only what is in the open counts: behind a wall it says how the liquid would go on.
-float cosineBetween(const LeafPatch& phi, const LeafPatch& solid, int at) {
+// cos of the angle between a surface and a solid at a cell: 1 where both end the liquid on the same side, and
+// where phi has no slope. Deep in solids phi only says how the liquid would go on: it does not count. h:
+// metres.
+float cosineBetween(const LeafPatch& phi, const LeafPatch& solid, int at, float h) {
+  const float deep = -kDeepInSolid * h;
   float dot = 0.0f, ofPhi = 0.0f, ofSolid = 0.0f;
   for (const int stride : kPatchStride) {
-    const int low = solid[at - stride] > 0.0f ? at - stride : at,
-              high = solid[at + stride] > 0.0f ? at + stride : at;
+    const int low = solid[at - stride] > deep ? at - stride : at,
+              high = solid[at + stride] > deep ? at + stride : at;
     const bool both = low != at && high != at;
     const float p = (both ? 0.5f : 1.0f) * (phi[high] - phi[low]),
                 s = solid[at - stride] - solid[at + stride];
@@ -34,7 +37,7 @@ float cosineBetween(const LeafPatch& phi, const LeafPatch& solid, int at) {
     ofSolid += s * s;
   }
   const float lengths = std::sqrt(ofPhi * ofSolid);
-  return lengths > 0.0f ? dot / lengths : 1.0f;
+  return lengths > 1e-2f * h * h ? dot / lengths : 1.0f;
 }
 
 LeafPatch patchOf(const FloatTree& tree, const Coord& origin) {
@@ -80,7 +83,7 @@ void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& or
     const float wet = std::min(1.0f, 0.5f - p[at] / h);
     liquid[i] = liquid[i] == 1.0f || liquid[i] == 0.0f || wet == 1.0f
                     ? std::min(liquid[i], wet)
-                    : shareWithin(liquid[i], wet, cosineBetween(p, s, at));
+                    : shareWithin(liquid[i], wet, cosineBetween(p, s, at, h));
     if (p[at] < 0.0f || liquid[i] == 0.0f) continue;
     bool beside = false;
     for (const int stride : kPatchStride) beside = beside || isLiquid(at - stride) || isLiquid(at + stride);

@@ -279,8 +279,8 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
   for (const auto& running : flows.sources) forgive(leaves, *running.source->phi, h, due);
   for (const FloatGrid* drain : flows.drains) forgive(leaves, *drain, h, due);
   gatherInLiquid(leaves, phi, kFar * h, due);
-  spreadPiles(leaves, solidAfter, openAfter, due);
   spreadInLiquid(leaves, phi, openAfter, due);
+  spreadPiles(leaves, solidAfter, openAfter, due);
   return toGrid(leaves, due, solid.voxelSize);
 }
 

@@ -30,6 +30,9 @@ Vec3d crossing(const ShapeDistance& distance, Vec3d from, Vec3d to, double low) 
 // Of a plane from how far away it crosses the axes (ways to the six cells beside); 0 where it crosses none.
 double distanceAcross(const ShapeDistance& body, const Distance& solids, const Vec3d& x, double here,
                       double h) {
+  // Where the body ends at a solid itself, the solid is no way off; a surface beside one is as far from it as
+  // x.
+  const double apart = std::min(kTouching * h, 0.5 * solids(x));
   double squares = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     double nearest = kForever;
@@ -38,7 +41,7 @@ double distanceAcross(const ShapeDistance& body, const Distance& solids, const V
       beside[axis] += way;
       if ((body(beside) < 0.0) == (here < 0.0)) continue;
       const Vec3d place = crossing(body, x, beside, here);
-      if (solids(place) > kTouching * h) nearest = std::min(nearest, (place - x).length());
+      if (solids(place) > apart) nearest = std::min(nearest, (place - x).length());
     }
     // A surface through the centre itself is as far away as rounding.
     nearest = std::max(nearest, 1e-6 * h);
@@ -58,7 +61,7 @@ Distance pouredSurface(const ShapeDistance& body, Distance solids, double h) {
     if (room > std::abs(here) + touching) return here;
     // Between a body and a solid that it all but touches there is no air.
     Vec3d place = x;
-    if (here >= 0.0 && here < touching && room > 0.0 && room < touching) {
+    if (room > 0.0 && room < touching) {
       place += touching * normalAt(solids, x, 0.01 * h);
       here = body(place);
     }

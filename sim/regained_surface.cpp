@@ -16,9 +16,9 @@
 namespace fluidtex::sim {
 namespace {
 
-// Of a cell's volume. More of it than half reaches its centre; a little more, so that rounding does not
-// matter.
-constexpr float kReachesCentre = 0.501f;
+// Of a cell's volume. More than half would reach its centre; but drops that small are lost again at the next
+// step, and seem larger than they are meanwhile.
+constexpr float kFills = 0.9f;
 // Cells of which a solid leaves less than this share are too small for a surface of their own.
 constexpr float kRoomy = 0.75f;
 
@@ -36,7 +36,7 @@ LeafPatch patchOf(const FloatTree& tree, const Coord& origin) {
 std::vector<Regained> regainedIn(const FloatLeaf& owed, const FloatTree& phi, const SolidField& solid) {
   const float* due = owed.buffer().data();
   std::vector<Regained> found;
-  if (std::none_of(due, due + kLeafSize, [](float v) { return v > kReachesCentre; })) return found;
+  if (std::none_of(due, due + kLeafSize, [](float v) { return v > kFills; })) return found;
   LeafShares open;
   openShares(solid, owed.origin(), open);
   const LeafPatch distance = patchOf(phi, owed.origin());
@@ -46,7 +46,7 @@ std::vector<Regained> regainedIn(const FloatLeaf& owed, const FloatTree& phi, co
   for (int i = 0; i < kLeafSize; ++i) {
     const int at = patchIndex(i);
     const Coord cell = owed.offsetToGlobalCoord(i);
-    if (due[i] <= kReachesCentre || open[i] < kRoomy || !solid.domain.isInside(cell)) continue;
+    if (due[i] <= kFills || open[i] < kRoomy || !solid.domain.isInside(cell)) continue;
     bool dry = distance[at] >= 0.0f;
     for (const int stride : kPatchStride) dry = dry && !isLiquid(at - stride) && !isLiquid(at + stride);
     if (dry) found.push_back({cell, std::min(due[i], 1.0f)});

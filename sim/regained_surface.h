@@ -8,10 +8,10 @@
 namespace fluidtex::sim {
 
 // A level set alone loses films and drops thinner than its cells; they are owed where they were (see
-// sim/owed_volume.h). Where the flow gathers so much of that in a cell of the air, with no liquid beside it
-// that could take it, that its centre should be liquid, phi becomes a surface there again, as far from the
-// centre as a plane that parts so much from the cell. What it then holds is owed no more: the sum stays.
-// Markers of the air in and beside these cells are dropped, or they would take the surface away.
+// sim/owed_volume.h). Where the flow gathers so much of that in a cell of the air that it is all but full,
+// with no liquid beside it that could take it, phi becomes a surface there again, as far from the centre as a
+// plane that parts so much from the cell. What it then holds is owed no more: the sum stays. Markers of the
+// air in and beside these cells are dropped, or they would take the surface away.
 void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const SolidField& solid);
 
 }  // namespace fluidtex::sim

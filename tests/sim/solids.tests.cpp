@@ -229,7 +229,7 @@ TEST_CASE("solids: how far one reaches behind a side of the domain changes nothi
     options.solids[0].shape = {Box{Vec3d(-end, 0.2, 0.3), Vec3d(1.0 + end, 0.29, 2.0)}};
     return Solids(options);
   };
-  const Solids near = shelf(1.0 / 24.0), far = shelf(3.0);
+  const Solids near = shelf(2.0 / 24.0), far = shelf(3.0);
   for (int n = 0; n < 24; ++n) {
     const Vec3d x(1.0 + 0.02 * (n % 3), 0.1 + 0.02 * n / 3, 0.5);
     CHECK_THAT(near.distance(x, 0.0), WithinAbs(far.distance(x, 0.0), 1e-12));

@@ -190,16 +190,19 @@ TEST_CASE("solver: nothing hangs at a ceiling, however little it is") {
   const FrameStats first = solver.next().stats;
   REQUIRE(first.volume + first.owed > 0.0);
   Frame frame;
-  for (int n = 2; n <= 7; ++n) frame = solver.next();
+  for (int n = 2; n <= 12; ++n) frame = solver.next();
   CHECK(cellsAbove(frame, 1.0 - 2.0 * h) == 0);
+  CHECK(frame.stats.volume + frame.stats.owed ==
+        Catch::Detail::Approx(first.volume + first.owed).epsilon(1e-4));
 }
 
-TEST_CASE("solver: a film on a wall goes when no liquid feeds it, on the floor it stays") {
+TEST_CASE("solver: a film on a wall falls when no liquid feeds it, on the floor it stays") {
   const double h = 1.0 / 24;
   const Frame onWall = frameAfter(tank(24, {box(Vec3d(0.0, 0.3, 0.5), Vec3d(0.3 * h, 0.7, 0.9))}), 4);
   const Frame onFloor = frameAfter(tank(24, {box(Vec3d(0.3, 0.3, 0.0), Vec3d(0.7, 0.7, 0.3 * h))}), 4);
-  CHECK(onWall.stats.volume < 0.2 * 0.16 * 0.3 * h);  // what its markers leave is not seen
-  CHECK(cellsAbove(onWall, 0.0) == 0);
+  // Freely, for three frames.
+  CHECK(cellsAbove(onWall, 0.9 - 0.5 * 9.81 / 64.0 + 1.5 * h) == 0);
+  CHECK(onWall.stats.volume + onWall.stats.owed == Catch::Detail::Approx(0.16 * 0.3 * h).epsilon(0.05));
   CHECK(onFloor.stats.volume + onFloor.stats.owed == Catch::Detail::Approx(0.16 * 0.3 * h).epsilon(0.2));
   // A column in a corner falls; no thread of it stays behind.
   const Frame inCorner = frameAfter(tank(24, {box(Vec3d(0.0, 0.0, 0.5), Vec3d(0.6 * h, 0.6 * h, 1.0))}), 12);
@@ -305,7 +308,7 @@ TEST_CASE("solver: liquid inside a solid is cut out, and a wall that vanishes se
   CHECK(std::abs(first - 0.375 * 0.5) < 2e-3);
   for (int n = 2; n <= 3; ++n) {
     solver.next();
-    CHECK(maxAbs(velocityOf(solver.state())) < 5e-3);
+    CHECK(fastestOf(solver.state()) < 1e-5);
   }
   CHECK(std::abs(solver.next().stats.volume / first - 1.0) < 0.025);  // the wall has just gone
   for (int n = 5; n <= 8; ++n) solver.next();

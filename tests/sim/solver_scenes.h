@@ -3,6 +3,9 @@
 
 #include "sim/solver.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -36,6 +39,21 @@ bool same(const Grid& a, const Grid& b) {
     if (*tile != *tileB) return false;
   }
   return true;
+}
+
+// The largest velocity component between two cells of liquid, m/s.
+inline double fastestOf(const State& state) {
+  double most = 0.0;
+  const auto phi = state.phi->getConstUnsafeAccessor();
+  for (const auto& [grid, axis] : {std::pair(&state.u, 0), std::pair(&state.v, 1), std::pair(&state.w, 2)}) {
+    for (auto it = (*grid)->cbeginValueOn(); it; ++it) {
+      Coord below = it.getCoord();
+      below[axis] -= 1;
+      if (phi.getValue(it.getCoord()) < 0.0f && phi.getValue(below) < 0.0f)
+        most = std::max(most, std::abs(double(*it)));
+    }
+  }
+  return most;
 }
 
 }  // namespace fluidtex::sim
