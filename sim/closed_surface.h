@@ -1,9 +1,8 @@
-// From the faces of a mesh file to a surface that bounds a solid.
+// From the faces of a mesh file to polygons that bound a solid.
 #pragma once
 
 #include "sim/shapes.h"
 
-#include <optional>
 #include <vector>
 
 namespace fluidtex::sim {
@@ -33,10 +32,5 @@ struct Fan {
   bool isWhole = false;
 };
 Fan bestFan(const std::vector<Vec3d>& x);
-
-// The triangles of a mesh without open edges, turned outward, whichever way they were: counter-clockwise
-// from outside the solid. A part that lies within another one is the wall of a cavity, one within that a
-// solid again; parts that cross or touch are one solid. Nothing where a part has one side only.
-std::optional<std::vector<openvdb::Vec3I>> turnedOutward(const TriangleMesh& mesh);
 
 }  // namespace fluidtex::sim

@@ -7,6 +7,7 @@
 #include "sim/mesh_formats.h"
 #include "sim/shapes.h"
 #include "sim/text_scan.h"
+#include "sim/turned_outward.h"
 
 #include <algorithm>
 #include <cmath>

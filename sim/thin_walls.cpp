@@ -1,4 +1,5 @@
 // How thin solids are, and what is said of those that cells cannot hold.
+#include "sim/normal.h"
 #include "sim/solids.h"
 
 #include <algorithm>
@@ -32,17 +33,6 @@ CoordBBox cornersOf(const Coord& cells, const CoordBBox& domain, const CoordBBox
   return corners;
 }
 
-Vec3d outwards(const Distance& distance, const Vec3d& x, double h) {
-  Vec3d slope;
-  for (int a = 0; a < 3; ++a) {
-    Vec3d step(0.0);
-    step[a] = 0.02 * h;
-    slope[a] = distance(x + step) - distance(x - step);
-  }
-  const double length = slope.length();
-  return length > 0.0 ? slope / length : Vec3d(0.0);
-}
-
 // From the surface near x straight into the solid to its other side, in metres; kForever where that is
 // farther than walls that hold are thick, or where no surface is near.
 struct ThinPlace {
@@ -52,7 +42,7 @@ struct ThinPlace {
 ThinPlace wallAt(const Distance& distance, const Vec3d& x, double h) {
   const double d = distance(x);
   if (std::abs(d) > h) return {};
-  const Vec3d normal = outwards(distance, x, h), place = x - d * normal;
+  const Vec3d normal = normalAt(distance, x, 0.02 * h), place = x - d * normal;
   if (normal.length() == 0.0 || std::abs(distance(place)) > 0.1 * h) return {};
   if (distance(place - kHolds * h * normal) < 0.0) return {};
   for (double way = kStep * h; way <= kHolds * h; way += kStep * h)

@@ -1,6 +1,8 @@
 // Slip lengths: Navier, "Memoire sur les lois du mouvement des fluides", 1823.
 #include "sim/walls.h"
 
+#include "sim/normal.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -17,17 +19,6 @@ std::vector<Coord> surfaceBlocks(const SolidField& field) {
   std::vector<Coord> origins;
   for (auto leaf = field.phi->constTree().cbeginLeaf(); leaf; ++leaf) origins.push_back(leaf->origin());
   return origins;
-}
-
-Vec3d normalAt(const std::function<double(const Vec3d&)>& distance, const Vec3d& x, double h) {
-  Vec3d normal;
-  for (int a = 0; a < 3; ++a) {
-    Vec3d step(0.0);
-    step[a] = 0.1 * h;
-    normal[a] = distance(x + step) - distance(x - step);
-  }
-  const double length = normal.length();
-  return length > 0.0 ? normal / length : Vec3d(0.0);
 }
 
 }  // namespace
@@ -67,7 +58,7 @@ void setWalls(SolidField& field, const std::function<const Wall&(const Vec3d&)>&
         const Vec3d x = field.slide[a]->indexToWorld(it.getCoord());
         const Wall& wall = wallAt(x);
         if (!grips(wall) || wall.velocity.length() == 0.0) continue;
-        const Vec3d normal = normalAt(distance, x, h);
+        const Vec3d normal = normalAt(distance, x, 0.1 * h);
         const double along = wall.velocity[a] - wall.velocity.dot(normal) * normal[a];
         slide[a][n]->setValueOn(it.pos(), static_cast<float>(along));
         sliding[n] = 1;

@@ -11,6 +11,7 @@
 #include "tools/check_relief.h"
 #include "tools/color_between.h"
 #include "tools/console.h"
+#include "tools/earlier_frames.h"
 #include "tools/earlier_run.h"
 #include "tools/errors.h"
 #include "tools/fingerprint.h"
@@ -322,57 +323,17 @@ class FrameLoop {
 
   // False where there is nothing to go on from.
   bool continueFromState() {
-    removeLeftovers(m_options.out);
-    std::optional<RunState> state = loadState(m_options.out / "state");
-    if (!state) return false;
-    Report report = parseReport(state->report);
-    if (report.frames.empty())
-      throw std::runtime_error("run.json of the state is damaged: it holds no frame");
-    const auto refuse = [&](const std::string& why) {
-      throw UsageError(
-          fmt::format("{}: {}; run without --resume to start anew", m_options.out.string(), why));
-    };
-    const std::string difference = sceneDifference(report.scene, m_report.scene, report.inputs);
-    if (!difference.empty()) refuse("was made by other settings: " + difference);
-    const std::string changed = contentDifference(report.inputs, m_report.inputs, m_scene);
-    if (!changed.empty()) refuse(changed);
-    const int done = state->solver.frame, last = std::min(done, m_last);
-    const Journal journal = readJournal(m_options.out);
-    const std::optional<Broken> broken =
-        firstBroken(m_options.out, journal, m_options.firstFrame, last, m_options.render, putsOnto());
-    // Of the last frame all is there that its files are made of.
-    const bool again = broken && broken->written && broken->frame == done;
-    if (broken && !again)
-      refuse(fmt::format("frames 1 to {} are done, but {} is not {}", done, broken->name,
-                         broken->there ? "as the run wrote it" : "there"));
-    m_report.frames = framesUpTo(done, std::move(report.frames.back()), journal);
-    m_motion = sim::makeMotion(m_scene.sim, m_scene.motion, std::move(state->solver));
-    m_surface = std::move(state->surface);
-    if (again) {
+    std::optional<EarlierFrames> earlier = earlierFrames(m_scene, m_options, m_report, m_last);
+    if (!earlier) return false;
+    m_report.frames = std::move(earlier->records);
+    m_motion = sim::makeMotion(m_scene.sim, m_scene.motion, std::move(earlier->solver));
+    m_surface = std::move(earlier->surface);
+    if (earlier->writeLastAgain) {
       StageSeconds seconds;
-      writeResults(done, m_report.frames.back().at("time").get<double>(), seconds);
+      writeResults(sim::stateOf(*m_motion).frame, m_report.frames.back().at("time").get<double>(), seconds);
     }
     m_reportFile.write(m_report);
     return true;
-  }
-
-  // The records of all frames that are done. That of the last is in the state; the journal lacks it after a
-  // kill right behind that.
-  std::vector<Json> framesUpTo(int done, Json last, const Journal& journal) const {
-    std::vector<Json> frames;
-    for (int frame = 1; frame < done; ++frame) {
-      const auto record = journal.frames.find(frame);
-      if (record == journal.frames.end())
-        throw std::runtime_error(fmt::format("{}: lacks frame {}; remove the state folder to start anew",
-                                             (m_options.out / "state" / "journal.txt").string(), frame));
-      frames.push_back(record->second);
-    }
-    if (const auto record = journal.frames.find(done); record != journal.frames.end())
-      last = record->second;
-    else
-      addToJournal(m_options.out, {lineOfFrame(last)});
-    frames.push_back(std::move(last));
-    return frames;
   }
 
   std::function<void(double)> reporter(const char* stage) {

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fluidtex::sim {
@@ -25,6 +26,21 @@ inline std::string boxObj(const Vec3d& a, const Vec3d& b, const std::string& fac
     text +=
         vertex(a.x(), a.y(), z) + vertex(b.x(), a.y(), z) + vertex(b.x(), b.y(), z) + vertex(a.x(), b.y(), z);
   return text + faces;
+}
+
+// A prism over an L: of volume 3, its ends concave.
+inline std::string prismObj() {
+  std::string text;
+  for (const double z : {0.0, 1.0})
+    for (const auto& [x, y] : {std::pair{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}})
+      text += vertex(x, y, z);
+  text += "f 6 5 4 3 2 1\nf 7 8 9 10 11 12\n";
+  for (int n = 1; n <= 6; ++n) {
+    const int next = n % 6 + 1;
+    text += "f " + std::to_string(n) + " " + std::to_string(next) + " " + std::to_string(next + 6) + " " +
+            std::to_string(n + 6) + "\n";
+  }
+  return text;
 }
 
 // Files 1, 2, ... in a folder that is gone when the test ends.

@@ -116,21 +116,6 @@ std::string nestedObj() {
   return boxObj(Vec3d(0.0), Vec3d(1.0), "") + boxObj(Vec3d(0.2), Vec3d(0.8), "") + faces;
 }
 
-// A prism over an L.
-std::string concaveObj() {
-  std::string text;
-  for (const double z : {0.0, 1.0})
-    for (const auto& [x, y] : {std::pair{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}})
-      text += vertex(x, y, z);
-  text += "f 6 5 4 3 2 1\nf 7 8 9 10 11 12\n";
-  for (int n = 1; n <= 6; ++n) {
-    const int next = n % 6 + 1;
-    text += "f " + std::to_string(n) + " " + std::to_string(next) + " " + std::to_string(next + 6) + " " +
-            std::to_string(n + 6) + "\n";
-  }
-  return text;
-}
-
 // An image in 16 bits, and one in floats with a number for no data.
 std::string greyTiff() {
   std::string pixels;
@@ -179,7 +164,7 @@ constexpr int kOnGrid = 8;
 void readMutatedMeshes(int count) {
   double longest = 0.0;
   int good = 0;
-  const std::pair<std::string, std::string> files[] = {{"a.obj", nestedObj()}, {"b.obj", concaveObj()},
+  const std::pair<std::string, std::string> files[] = {{"a.obj", nestedObj()}, {"b.obj", prismObj()},
                                                        {"a.ply", textPly()},   {"b.ply", binaryPly()},
                                                        {"a.stl", textStl()},   {"b.stl", binaryStl()}};
   for (const auto& [name, bytes] : files)

@@ -158,7 +158,7 @@ TEST_CASE("unbounded: along the edge between two walls phi follows the liquid an
   CHECK(leaves.max().z() < 16);
 }
 
-TEST_CASE("unbounded: goes on from a state as if it had not stopped", "[sim]") {
+TEST_CASE("unbounded: goes on from a state as if it had not stopped", "[sim][slow]") {
   // Thick liquid that sticks to the floor on its way, with a rotor in it.
   Options options = ballAt(Vec3d(0.5, 0.5, 0.25), Vec3d(-8.0, 0.0, 0.0), Side::unbounded);
   options.sides[4] = Side::wall;

@@ -1,87 +1,19 @@
 #include "tools/stress_scenes/random_scene.h"
 
-#include "sim/options.h"
+#include "tools/stress_scenes/dice.h"
+#include "tools/stress_scenes/scene_text.h"
 
 #include <fmt/core.h>
 
 #include <array>
 #include <cmath>
-#include <initializer_list>
-#include <iterator>
 #include <numbers>
 
 namespace fluidtex::stress {
 namespace {
 
-using sim::Vec3d;
-
 constexpr int kFrames = 20;
 constexpr double kGravity = 9.81;
-
-// SplitMix64: Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014. The distributions
-// of the standard library differ from one library to the next.
-class Random {
- public:
-  Random(std::uint64_t seed, int number) : m_state(seed) {
-    m_state = next() ^ (static_cast<std::uint64_t>(number) * 0x9e3779b97f4a7c15u);
-    next();
-  }
-  double number(double low, double high) {
-    return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53;
-  }
-  int whole(int low, int high) {
-    return low + static_cast<int>(next() % static_cast<std::uint64_t>(high - low + 1));
-  }
-  bool chance(double share) { return number(0.0, 1.0) < share; }
-  // As likely in each power of ten.
-  double power(double low, double high) { return std::exp(number(std::log(low), std::log(high))); }
-  Vec3d inBox(const Vec3d& low, const Vec3d& high) {
-    Vec3d x;
-    for (int a = 0; a < 3; ++a) x[a] = number(low[a], high[a]);
-    return x;
-  }
-  Vec3d direction() {
-    const double z = number(-1.0, 1.0), turn = number(0.0, 2.0 * std::numbers::pi),
-                 r = std::sqrt(1.0 - z * z);
-    return {r * std::cos(turn), r * std::sin(turn), z};
-  }
-
- private:
-  std::uint64_t next() {
-    m_state += 0x9e3779b97f4a7c15u;
-    std::uint64_t z = m_state;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-  std::uint64_t m_state;
-};
-
-std::string text(double x) {
-  return fmt::format("{:.6g}", x);  // as many digits as the domain's size: what reaches its sides does so
-}
-
-std::string text(const Vec3d& x) {
-  return fmt::format("[{}, {}, {}]", text(x[0]), text(x[1]), text(x[2]));
-}
-
-std::string box(const Vec3d& low, const Vec3d& high) {
-  return fmt::format("box = {{ min = {}, max = {} }}", text(low), text(high));
-}
-
-std::string sphere(const Vec3d& center, double radius) {
-  return fmt::format("sphere = {{ center = {}, radius = {} }}", text(center), text(radius));
-}
-
-std::string cylinder(const Vec3d& from, const Vec3d& to, double radius) {
-  return fmt::format("cylinder = {{ from = {}, to = {}, radius = {} }}", text(from), text(to), text(radius));
-}
-
-std::string joined(const char* how, std::initializer_list<std::string> parts) {
-  std::string all;
-  for (const std::string& part : parts) all += (all.empty() ? "{ " : ", { ") + part + " }";
-  return fmt::format("{} = [{}]", how, all);
-}
 
 class Writer {
  public:
@@ -393,7 +325,7 @@ class Writer {
     }
   }
 
-  Random m_random;
+  Dice m_random;
   SceneParts m_parts;
   Vec3d m_size;
   double m_h = 0.0, m_frameRate = 24.0, m_speed = 0.0;
