@@ -75,7 +75,7 @@ struct Running {
 std::optional<std::string> complaint(int status) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNoMemory)
-    return "cannot be read: that takes more than 1.5 GB of memory";
+    return "cannot be read: that takes more memory than a file of its size warrants, or than 1.5 GB";
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
     if (signal == SIGKILL) return "cannot be read: its reader was killed, perhaps for lack of memory";

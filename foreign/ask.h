@@ -14,6 +14,7 @@ namespace fluidtex::foreign {
 enum class Wanted : char {
   colors = 'c',      // a picture, as light
   numbers = 'n',     // a picture, as what is stored
+  heights = 'h',     // only the first channel of that, and what stands for none
   color_note = 'k',  // of a picture only what there is to say of its colours
   floats = 'f',      // the first grid of floats of an OpenVDB file
   vectors = 'v',     // the first one of float vectors
@@ -21,7 +22,8 @@ enum class Wanted : char {
 
 // Has the file read, and gives the answer to `take` in pieces, in order. Throws Unreadable: what the reader
 // finds wrong, and where it crashes, takes longer than the file's size warrants (6 s and one more a megabyte
-// and 5 million pixels) or more than 1.5 GB. From several threads the files are read one after another.
+// and 5 million pixels) or more than 1.5 GB (grids: than 8 MB and 256 times the file). From several threads
+// the files are read one after another.
 void ask(Wanted wanted, const std::filesystem::path& file, const std::function<void(std::string_view)>& take);
 
 }  // namespace fluidtex::foreign

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdint>
+#include <ctime>
 #include <fstream>
 #include <system_error>
 
@@ -23,8 +24,6 @@
 namespace fluidtex::foreign {
 namespace {
 
-constexpr rlim_t kMostMemory = 1536ull << 20;
-
 void limit(__rlimit_resource what, rlim_t most, rlim_t hardest) {
   const rlimit value{most, hardest};
   setrlimit(what, &value);
@@ -36,6 +35,12 @@ rlim_t addressesNow() {
   return pages * rlim_t(sysconf(_SC_PAGESIZE));
 }
 
+// Not for good, since the next file may take more.
+void limitMemory(rlim_t addresses) {
+  rlimit now{};
+  if (getrlimit(RLIMIT_AS, &now) == 0) limit(RLIMIT_AS, std::min(addresses, now.rlim_max), now.rlim_max);
+}
+
 constexpr rlim_t kLongest = 1200;  // s, beyond which nothing can be asked for
 
 void limitSeconds(rlim_t seconds) {
@@ -45,15 +50,14 @@ void limitSeconds(rlim_t seconds) {
 
 }  // namespace
 
-void limitThisProcess(const std::filesystem::path& file) {
+void limitThisProcess(const std::filesystem::path& file, std::uint64_t memory) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   std::error_code unknown;
   const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
-  limitSeconds(6 + (unknown ? 0 : rlim_t(bytes >> 20)));
+  limitSeconds(rlim_t(std::clock() / CLOCKS_PER_SEC) + 6 + (unknown ? 0 : rlim_t(bytes >> 20)));
   limit(RLIMIT_CORE, 0, 0);
   limit(RLIMIT_FSIZE, 0, 0);
-  const rlim_t memory = addressesNow() + kMostMemory;
-  if (FLUIDTEX_LIMITS_MEMORY) limit(RLIMIT_AS, memory, memory);
+  if (FLUIDTEX_LIMITS_MEMORY) limitMemory(addressesNow() + memory);
 }
 
 void allowTimeFor(std::int64_t pixels) {

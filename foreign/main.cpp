@@ -17,6 +17,12 @@
 #include <new>
 #include <string>
 
+// One, but in the build of the fuzz targets: a process takes longer to start and to end than a small file to
+// read.
+#ifndef FLUIDTEX_FILES_A_PROCESS
+#define FLUIDTEX_FILES_A_PROCESS 1
+#endif
+
 namespace {
 
 using namespace fluidtex::foreign;
@@ -30,8 +36,9 @@ void say(Packet packet, std::string_view bytes) {
 void answer(Wanted wanted, const std::filesystem::path& file) {
   switch (wanted) {
     case Wanted::colors:
-    case Wanted::numbers: {
-      const Picture picture = here::readPicture(file, wanted == Wanted::numbers);
+    case Wanted::numbers:
+    case Wanted::heights: {
+      const Picture picture = here::readPicture(file, wanted);
       const PictureHead& head = picture;
       say(Packet::data, {reinterpret_cast<const char*>(&head), sizeof head});
       say(Packet::data, picture.samples);
@@ -47,8 +54,9 @@ void answer(Wanted wanted, const std::filesystem::path& file) {
   }
 }
 
-[[noreturn]] void readAndEnd(Wanted wanted, const std::filesystem::path& file) {
-  limitThisProcess(file);
+void read(Wanted wanted, const std::filesystem::path& file) {
+  const bool isGrid = wanted == Wanted::floats || wanted == Wanted::vectors;
+  limitThisProcess(file, isGrid ? here::mostMemoryOfGrid(file) : kMostMemory);
   try {
     answer(wanted, file);
   } catch (const Unreadable& error) {
@@ -57,6 +65,24 @@ void answer(Wanted wanted, const std::filesystem::path& file) {
     _exit(kNoMemory);
   } catch (const std::exception& error) {
     say(Packet::wrong, "cannot be read: " + asClause(error.what()));
+  }
+}
+
+void sayEnded(int status) {
+  say(Packet::ended, {reinterpret_cast<const char*>(&status), sizeof status});
+}
+
+// In a process of its own, which goes on to further questions where it may read more than one file. How it
+// ends is said by the one that has started it.
+[[noreturn]] void readAndEnd(Wanted wanted, const std::filesystem::path& file) {
+  read(wanted, file);
+  for (int more = FLUIDTEX_FILES_A_PROCESS - 1; more > 0; --more) {
+    sayEnded(0);
+    static char bytes[kLongestPacket];
+    char letter = 0;
+    const ssize_t size = receivePacket(kSocket, letter, bytes);
+    if (size < 0) break;
+    read(Wanted(letter), std::string(bytes, std::size_t(size)));
   }
   _exit(0);  // Nothing of the libraries' needs to be tidied up.
 }
@@ -80,7 +106,12 @@ int main() {
   // A process that has forked has no threads but one.
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);
-  OIIO::get_string_attribute("format_list");  // Its readers are listed once, and not by each process.
+  // What is made with the first file is made once, and not by each process: the list of readers, the tables
+  // that some load when they look at a file, and OpenVDB's kinds of grids.
+  OIIO::get_string_attribute("format_list");
+  OIIO::ImageInput::open("/dev/null");
+  OIIO::geterror();
+  here::prepareForGrids();
   static char bytes[kLongestPacket];
   for (;;) {
     char letter = 0;
@@ -93,6 +124,6 @@ int main() {
     if (child < 0) say(Packet::wrong, "cannot be read: no process can be started for it");
     while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    say(Packet::ended, {reinterpret_cast<const char*>(&status), sizeof status});
+    sayEnded(status);
   }
 }

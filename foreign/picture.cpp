@@ -14,11 +14,12 @@ std::size_t bytesOf(const Picture& picture) {
 }
 
 // What has read a damaged file is not to be believed blindly.
-bool isPossible(const PictureHead& head) {
+bool isPossible(const PictureHead& head, Wanted wanted) {
   const auto between = [](auto value, auto low, auto high) { return value >= low && value <= high; };
   return between(head.width, 1, kLargestSide) && between(head.height, 1, kLargestSide) &&
-         std::int64_t(head.width) * head.height <= kLargestArea && between(head.channels, 1, 4) &&
-         between(head.sample, Sample::byte, Sample::real) && between(head.curve, Curve::linear, Curve::power);
+         (wanted == Wanted::heights || std::int64_t(head.width) * head.height <= kLargestArea) &&
+         between(head.channels, 1, 4) && between(head.sample, Sample::byte, Sample::real) &&
+         between(head.curve, Curve::linear, Curve::power);
 }
 
 Picture readPicture(Wanted wanted, const std::filesystem::path& file) {
@@ -34,7 +35,7 @@ Picture readPicture(Wanted wanted, const std::filesystem::path& file) {
     begun = true;
     if (piece.size() != sizeof(PictureHead)) throw wrongAnswer;
     std::memcpy(static_cast<PictureHead*>(&picture), piece.data(), sizeof(PictureHead));
-    if (!isPossible(picture)) throw wrongAnswer;
+    if (!isPossible(picture, wanted)) throw wrongAnswer;
     picture.samples.reserve(bytesOf(picture));
   });
   if (!begun || picture.samples.size() != bytesOf(picture)) throw wrongAnswer;
@@ -49,6 +50,10 @@ Picture readColors(const std::filesystem::path& file) {
 
 Picture readNumbers(const std::filesystem::path& file) {
   return readPicture(Wanted::numbers, file);
+}
+
+Picture readHeights(const std::filesystem::path& file) {
+  return readPicture(Wanted::heights, file);
 }
 
 std::string colorNote(const std::filesystem::path& file) {

@@ -3,10 +3,18 @@
 
 #include "foreign/unreadable.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
 namespace fluidtex::foreign::here {
+
+// What is the same for all files; to be called once.
+void prepareForGrids();
+
+// Bytes that reading the file may take: as much as grids can that are as empty as can be, at most
+// kMostMemory.
+std::uint64_t mostMemoryOfGrid(const std::filesystem::path& file);
 
 // The first grid of floats, or of float vectors, of an OpenVDB file, written anew as a stream: what comes
 // back is whole, however damaged the file was that could still be read. Throws Unreadable.

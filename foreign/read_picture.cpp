@@ -5,6 +5,7 @@
 #include "foreign/ink_jpeg.h"
 #include "foreign/layers.h"
 #include "foreign/limits.h"
+#include "foreign/no_data.h"
 #include "foreign/own_alpha.h"
 #include "foreign/webp_notes.h"
 
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -81,11 +83,15 @@ std::vector<Part> partsOf(OIIO::ImageInput& input) {
   return parts;
 }
 
-void checkSize(const ImageSpec& spec) {
+void checkSize(const ImageSpec& spec, Wanted wanted) {
   if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.deep || spec.depth > 1)
     throw Unreadable("is not a flat picture");
-  if (spec.width > kLargestSide || spec.height > kLargestSide ||
-      std::int64_t(spec.width) * spec.height > kLargestArea)
+  const bool large = spec.width > kLargestSide || spec.height > kLargestSide;
+  if (large && wanted == Wanted::heights)
+    throw Unreadable("is too large: it has " + std::to_string(spec.width) + " x " +
+                     std::to_string(spec.height) + " pixels, and at most " + std::to_string(kLargestSide) +
+                     " a side can be used");
+  if (large || (wanted != Wanted::heights && std::int64_t(spec.width) * spec.height > kLargestArea))
     throw Unreadable("is too large: it has " + std::to_string(spec.width) + " x " +
                      std::to_string(spec.height) + " pixels, and at most " + std::to_string(kLargestSide) +
                      " a side and " + std::to_string(kLargestArea >> 20) + " million in all can be used");
@@ -133,26 +139,54 @@ void findProfile(Opened& opened) {
   }
 }
 
-Opened openPicture(const std::filesystem::path& file, bool asNumbers) {
+Opened openPicture(const std::filesystem::path& file, Wanted wanted) {
   Opened opened{file, openFile(file), {}, {}, false, {}, {}};
   opened.spec = opened.input->spec();
   if (opened.is("openexr")) {
-    opened.layer = chooseLayer(partsOf(*opened.input), asNumbers);
+    opened.layer = chooseLayer(partsOf(*opened.input), wanted != Wanted::colors);
     if (!opened.input->seek_subimage(opened.layer.part, 0))
       throw Unreadable("is damaged: " + asClause(opened.input->geterror()));
     opened.spec = opened.input->spec();
   } else {
     opened.layer = plainLayer(opened.spec);
   }
-  checkSize(opened.spec);
+  if (wanted == Wanted::heights) opened.layer.channels.resize(1);
+  checkSize(opened.spec, wanted);
   if (opened.is("webp")) addWebpNotes(file, opened.spec);
   if (opened.is("heif")) addHeifNotes(file, opened.spec);
   if (opened.is("jpeg") && opened.spec.get_string_attribute("jpeg:ColorSpace") == "CMYK") {
     opened.inks = true;
     opened.layer = {0, {0, 1, 2, 3}};
   }
-  if (!asNumbers) findProfile(opened);
+  if (wanted == Wanted::colors) findProfile(opened);
   return opened;
+}
+
+// The largest number of a type, which is read as 1.
+double whiteOf(TypeDesc type) {
+  switch (type.basetype) {
+    case TypeDesc::UINT8:
+      return std::numeric_limits<std::uint8_t>::max();
+    case TypeDesc::INT8:
+      return std::numeric_limits<std::int8_t>::max();
+    case TypeDesc::UINT16:
+      return std::numeric_limits<std::uint16_t>::max();
+    case TypeDesc::INT16:
+      return std::numeric_limits<std::int16_t>::max();
+    case TypeDesc::UINT32:
+      return std::numeric_limits<std::uint32_t>::max();
+    case TypeDesc::INT32:
+      return std::numeric_limits<std::int32_t>::max();
+    default:
+      return 1.0;
+  }
+}
+
+void addNoData(const Opened& opened, PictureHead& head) {
+  head.white = whiteOf(opened.spec.format);
+  const std::optional<double> noData = opened.is("tiff") ? noDataOf(opened.file) : std::nullopt;
+  head.hasNoData = noData.has_value();
+  head.noData = noData.value_or(0.0);
 }
 
 // How stored values become linear ones, where no profile says.
@@ -186,13 +220,40 @@ Window shownOf(const Opened& opened) {
   return {x - spec.x, y - spec.y, int(right - x), int(bottom - y)};
 }
 
+// Channels first to last, band by band: a file that says much and holds little then takes little. Fewer rows
+// than there are where it fails.
+std::string readRows(Opened& opened, int first, int last, TypeDesc type) {
+  constexpr std::size_t kBand = 4 << 20;  // bytes
+  const ImageSpec& spec = opened.spec;
+  const std::size_t row = std::size_t(spec.width) * std::size_t(last - first + 1) * type.size();
+  const int unit = spec.tile_width > 0 ? std::max(1, spec.tile_height) : 64;
+  const int rows = std::max(1, int(kBand / row) / unit) * unit;
+  std::string all;
+  all.reserve(row * std::size_t(spec.height));
+  for (int y = 0; y < spec.height; y += rows) {
+    const int end = std::min(y + rows, spec.height), part = opened.layer.part;
+    const std::size_t before = all.size();
+    all.resize(row * std::size_t(end));
+    const bool read =
+        spec.tile_width > 0
+            ? opened.input->read_tiles(part, 0, spec.x, spec.x + spec.width, spec.y + y, spec.y + end, spec.z,
+                                       spec.z + 1, first, last + 1, type, &all[before])
+            : opened.input->read_scanlines(part, 0, spec.y + y, spec.y + end, spec.z, first, last + 1, type,
+                                           &all[before]);
+    if (read) continue;
+    all.resize(before);
+    break;
+  }
+  return all;
+}
+
 // The layer's channels inside of the window, each sample `size` bytes.
 std::string samplesOf(Opened& opened, const Window& window, TypeDesc type) {
   const auto [first, last] = std::minmax_element(opened.layer.channels.begin(), opened.layer.channels.end());
   const std::size_t size = type.size(), stored = std::size_t(*last - *first + 1),
                     kept = opened.layer.channels.size(), row = std::size_t(opened.spec.width) * stored * size;
-  std::string all(row * std::size_t(opened.spec.height), '\0');
-  const bool read = opened.input->read_image(opened.layer.part, 0, *first, *last + 1, type, all.data());
+  std::string all = readRows(opened, *first, *last, type);
+  const bool read = all.size() == row * std::size_t(opened.spec.height);
   // Readers of JPEG and TIFF call a file whose end is missing read, and fill the rest with grey or black.
   const std::string why = opened.input->geterror();
   const bool harmless = why.empty() || why.find("extraneous bytes") != why.npos;
@@ -291,8 +352,8 @@ void readInks(const Opened& opened, Picture& picture) {
 
 }  // namespace
 
-Picture readPicture(const std::filesystem::path& file, bool asNumbers) {
-  Opened opened = openPicture(file, asNumbers);
+Picture readPicture(const std::filesystem::path& file, Wanted wanted) {
+  Opened opened = openPicture(file, wanted);
   const bool converts = opened.profile && !opened.profile->isSrgb();
   const auto stored = static_cast<TypeDesc::BASETYPE>(opened.spec.format.basetype);
   const bool whole = !opened.spec.format.is_floating_point();
@@ -323,11 +384,12 @@ Picture readPicture(const std::filesystem::path& file, bool asNumbers) {
     dropPadding(opened, picture);
   }
   if (converts) useProfile(opened, whole, picture);
+  if (wanted == Wanted::heights) addNoData(opened, picture);
   return picture;
 }
 
 std::string colorNote(const std::filesystem::path& file) {
-  return openPicture(file, false).note;
+  return openPicture(file, Wanted::colors).note;
 }
 
 }  // namespace fluidtex::foreign::here

@@ -5,7 +5,8 @@
 
 namespace fluidtex::foreign::here {
 
-Picture readPicture(const std::filesystem::path& file, bool asNumbers);
+// `wanted`: colours, numbers or heights.
+Picture readPicture(const std::filesystem::path& file, Wanted wanted);
 std::string colorNote(const std::filesystem::path& file);
 
 }  // namespace fluidtex::foreign::here

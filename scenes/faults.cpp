@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <tuple>
 
 namespace fluidtex::scenes {
@@ -93,6 +94,8 @@ std::string nearestName(const std::string& wrong, const std::vector<std::string>
   int best = std::max(1, int(wrong.size()) / 3) + 1;
   std::string nearest;
   for (const std::string& name : names) {
+    // As many letters at least are missing or too many.
+    if (std::abs(int(name.size()) - int(wrong.size())) >= best) continue;
     const int distance = editDistance(wrong, name);
     if (distance < best) {
       best = distance;

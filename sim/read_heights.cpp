@@ -1,38 +1,18 @@
 #include "sim/read_heights.h"
 
-#include "sim/no_data.h"
-
-#include <OpenImageIO/imageio.h>
+#include "foreign/picture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <fstream>
-#include <limits>
-#include <optional>
 #include <sstream>
-#include <string_view>
+#include <string>
 
 namespace fluidtex::sim {
 
 namespace {
 
-constexpr int kLargestSide = 16384;
-
 // No height, in shares of white or in metres, but what programs write where there is none.
 constexpr float kNoHeight = 1e30f;
-
-// Formats whose readers in the library fall over damaged files, by their first bytes.
-void refuseFragile(const std::string& name, const std::string& start) {
-  using namespace std::string_view_literals;
-  constexpr std::array kFragile{std::pair("\x01\xDA"sv, "SGI"), std::pair("SDPX"sv, "DPX"),
-                                std::pair("XPDS"sv, "DPX"), std::pair("GIF8"sv, "GIF"),
-                                std::pair("\x80\x2A\x5F\xD7"sv, "Cineon")};
-  for (const auto& [bytes, format] : kFragile)
-    if (start.starts_with(bytes))
-      throw HeightError(name + ": is of format " + format +
-                        "; heights are read from PNG, TIFF, OpenEXR, PGM and the like");
-}
 
 // Where the pixel at (x, y) of the upright picture is stored, for the eight orientations of TIFF and EXIF.
 // width, height: of the picture as it is stored.
@@ -54,24 +34,17 @@ HeightImage upright(HeightImage stored, int orientation) {
   return image;
 }
 
-// The largest number of a type that is read as a share of it; 1 of floats.
-double whiteOf(OIIO::TypeDesc format) {
-  switch (format.basetype) {
-    case OIIO::TypeDesc::UINT8:
-      return std::numeric_limits<std::uint8_t>::max();
-    case OIIO::TypeDesc::INT8:
-      return std::numeric_limits<std::int8_t>::max();
-    case OIIO::TypeDesc::UINT16:
-      return std::numeric_limits<std::uint16_t>::max();
-    case OIIO::TypeDesc::INT16:
-      return std::numeric_limits<std::int16_t>::max();
-    case OIIO::TypeDesc::UINT32:
-      return std::numeric_limits<std::uint32_t>::max();
-    case OIIO::TypeDesc::INT32:
-      return std::numeric_limits<std::int32_t>::max();
-    default:
-      return 1.0;
+// Shares of white.
+std::vector<float> firstChannel(const foreign::Picture& picture) {
+  const std::size_t count = std::size_t(picture.width) * std::size_t(picture.height),
+                    step = picture.sampleSize() * std::size_t(picture.channels);
+  std::vector<float> values(count);
+  const char* from = picture.samples.data();
+  for (float& value : values) {
+    value = foreign::shareAt(from, picture.sample);
+    from += step;
   }
+  return values;
 }
 
 // Which values say that there is no height. Several programs write another number than the one they name
@@ -122,38 +95,17 @@ HeightImage readHeights(const std::filesystem::path& file) {
   const std::string name = file.string();
   if (!std::filesystem::exists(file)) throw HeightError(name + ": no such file");
   if (!std::filesystem::is_regular_file(file)) throw HeightError(name + ": not a file");
-  std::string start(4, '\0');
-  std::ifstream(file, std::ios::binary).read(start.data(), std::streamsize(start.size()));
-  refuseFragile(name, start);
-
-  // Else heights would be multiplied by alpha.
-  OIIO::ImageSpec hints;
-  hints.attribute("oiio:UnassociatedAlpha", 1);
-  const auto input = OIIO::ImageInput::open(name, &hints);
-  const auto because = [](std::string reason) {
-    reason = reason.substr(0, reason.find_last_not_of(" \r\n") + 1);
-    std::replace(reason.begin(), reason.end(), '\n', ' ');
-    return reason.empty() ? reason : ": " + reason;
-  };
-  if (!input) throw HeightError(name + ": cannot be read as an image" + because(OIIO::geterror()));
-  const OIIO::ImageSpec spec = input->spec();
-  if (spec.width < 2 || spec.height < 2 || spec.depth > 1 || spec.deep || spec.nchannels < 1)
+  foreign::Picture picture;
+  try {
+    picture = foreign::readHeights(file);
+  } catch (const foreign::Unreadable& wrong) {
+    throw HeightError(name + ": " + wrong.what());
+  }
+  if (picture.width < 2 || picture.height < 2)
     throw HeightError(name + ": is no picture of at least 2 x 2 pixels");
-  if (spec.width > kLargestSide || spec.height > kLargestSide)
-    throw HeightError(name + ": is larger than " + std::to_string(kLargestSide) + " pixels a side");
-  // No packing holds more in a byte.
-  constexpr double kMostPerByte = 16384.0;
-  if (double(spec.width) * spec.height > kMostPerByte * double(std::filesystem::file_size(file)))
-    throw HeightError(name + ": is damaged or cut short: it says it has " + std::to_string(spec.width) +
-                      " x " + std::to_string(spec.height) + " pixels");
-  HeightImage image{spec.width, spec.height,
-                    std::vector<float>(std::size_t(spec.width) * std::size_t(spec.height))};
-  if (!input->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, image.values.data()))
-    throw HeightError(name + ": is damaged or cut short" + because(input->geterror()));
-
-  const std::optional<double> noData = noDataOf(file);
-  if (noData) {
-    const std::vector<char> none = missing(image, *noData, whiteOf(spec.format));
+  HeightImage image{picture.width, picture.height, firstChannel(picture)};
+  if (picture.hasNoData != 0) {
+    const std::vector<char> none = missing(image, picture.noData, picture.white);
     if (std::find(none.begin(), none.end(), 0) == none.end())
       throw HeightError(name + ": has no height anywhere, all pixels are marked as without data");
     fill(image, none);
@@ -169,7 +121,7 @@ HeightImage readHeights(const std::filesystem::path& file) {
          << "; where there is no height, a TIFF can say so (GDAL_NODATA)";
     throw HeightError(text.str());
   }
-  return upright(std::move(image), spec.get_int_attribute("Orientation", 1));
+  return upright(std::move(image), picture.orientation);
 }
 
 }  // namespace fluidtex::sim

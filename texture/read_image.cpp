@@ -81,20 +81,8 @@ struct Upright {
     const std::size_t first =
         storedAt(picture.orientation, x, y, width(), height()) * std::size_t(picture.channels);
     const char* from = picture.samples.data() + first * picture.sampleSize();
-    for (int c = 0; c < picture.channels; ++c, from += picture.sampleSize()) out[c] = number(from);
-  }
-
- private:
-  float number(const char* from) const {
-    if (picture.sample == Sample::byte) return float(static_cast<unsigned char>(*from)) * (1.0f / 255.0f);
-    if (picture.sample == Sample::real) {
-      float value;
-      std::memcpy(&value, from, sizeof value);
-      return value;
-    }
-    std::uint16_t value;
-    std::memcpy(&value, from, sizeof value);
-    return float(value) * (1.0f / 65535.0f);
+    for (int c = 0; c < picture.channels; ++c, from += picture.sampleSize())
+      out[c] = foreign::shareAt(from, picture.sample);
   }
 };
 

@@ -3,11 +3,15 @@
 #include "tools/errors.h"
 #include "tools/ply.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
 namespace fluidtex::tools {
 namespace {
@@ -19,11 +23,56 @@ using texture::Vec3f;
   throw UsageError(file.string() + ": " + what + "; give a surface that fluidtex run has written");
 }
 
+struct Property {
+  std::size_t offset = 0;  // in a vertex
+  bool isFloat = false;    // else a byte
+};
+
 // What a file says of itself up to the first vertex's byte.
 struct Header {
   std::size_t vertices = 0, faces = 0, body = 0, stride = 0;
-  std::map<std::string, std::size_t> offset;  // of each property in a vertex
+  std::map<std::string, Property, std::less<>> property;
 };
+
+// What readPly() takes at once: properties of one type, one behind the other.
+struct Group {
+  bool isFloat;
+  std::vector<std::string_view> names;
+};
+const std::vector<Group> kGroups = {{true, {"x", "y", "z"}},
+                                    {true, {"nx", "ny", "nz"}},
+                                    {false, {"red", "green", "blue", "alpha"}},
+                                    {true, {"s", "t"}},
+                                    {true, {"dx", "dy", "dz"}},
+                                    {true, {"bx", "by", "bz"}},
+                                    {true, {"vx", "vy", "vz"}},
+                                    {true, {"trust"}},
+                                    {true, {"age"}},
+                                    {false, {"contact"}},
+                                    {true, {"fade_s", "fade_t"}},
+                                    {true, {"fade"}}};
+
+void checkGroup(const Group& group, const Header& header, const std::filesystem::path& file) {
+  std::size_t next = 0;
+  for (const std::string_view name : group.names) {
+    const auto found = header.property.find(name);
+    if (found == header.property.end()) refuse(file, "has no property " + std::string(name));
+    const auto [offset, isFloat] = found->second;
+    if (isFloat != group.isFloat)
+      refuse(file,
+             "has a property " + std::string(name) + " that is no " + (group.isFloat ? "float" : "uchar"));
+    if (name != group.names.front() && offset != next)
+      refuse(file, "has a property " + std::string(name) + " that does not follow the one before");
+    next = offset + (isFloat ? sizeof(float) : 1);
+  }
+}
+
+// A name that a scene can give to a map.
+bool isMapName(const std::string& name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  });
+}
 
 Header headerOf(const std::string& bytes, const std::filesystem::path& file) {
   constexpr std::string_view kEnd = "end_header\n";
@@ -43,14 +92,19 @@ Header headerOf(const std::string& bytes, const std::filesystem::path& file) {
       (inVertex ? header.vertices : header.faces) = std::strtoull(third.c_str(), nullptr, 10);
     }
     if (first != "property" || !inVertex) continue;
-    if (second != "float" && second != "uchar") refuse(file, "has a property of type " + second);
-    header.offset[third] = header.stride;
-    header.stride += second == "float" ? 4 : 1;
+    if (second != "float" && second != "uchar")
+      refuse(file, "has a property of a vertex that is neither float nor uchar");
+    const bool isFloat = second == "float";
+    if (!texture::isVertexProperty(third)) {
+      if (!isMapName(third)) refuse(file, "has a property whose name is no map's");
+      if (!isFloat) refuse(file, "has a property " + third + " that is no float");
+    }
+    header.property[third] = {header.stride, isFloat};
+    header.stride += isFloat ? sizeof(float) : 1;
   }
   if (!binary) refuse(file, "is not in the format binary_little_endian");
-  for (const char* name :
-       {"x", "nx", "red", "alpha", "s", "t", "dx", "bx", "vx", "trust", "age", "contact", "fade_s", "fade"})
-    if (!header.offset.contains(name)) refuse(file, std::string("has no property ") + name);
+  for (const Group& group : kGroups) checkGroup(group, header, file);
+  if (header.property.contains("scale")) checkGroup({true, {"scale"}}, header, file);
   constexpr std::size_t kFace = 1 + 3 * 4;
   const std::size_t body = bytes.size() - header.body;
   if (header.vertices > body / header.stride || header.faces > body / kFace ||
@@ -69,8 +123,8 @@ texture::TexturedSurface readPly(const std::filesystem::path& file, int exemplar
   texture::TexturedSurface surface;
   surface.exemplarWidth = exemplarWidth;
   surface.exemplarHeight = exemplarHeight;
-  const auto each = [&](const char* name, auto& values, auto read) {
-    const char* at = bytes.data() + header.body + header.offset.at(name);
+  const auto each = [&](std::string_view name, auto& values, auto read) {
+    const char* at = bytes.data() + header.body + header.property.find(name)->second.offset;
     values.resize(header.vertices);
     for (auto& value : values) {
       value = read(at);
@@ -104,9 +158,9 @@ texture::TexturedSurface readPly(const std::filesystem::path& file, int exemplar
   surface.fading = texture::noFading(header.vertices);
   each("fade_s", surface.fading.coordinate, texel);
   each("fade", surface.fading.weight, number);
-  if (header.offset.contains("scale")) each("scale", surface.scale, number);
-  for (const auto& [name, offset] : header.offset)
-    if (!texture::isVertexProperty(name)) each(name.c_str(), surface.maps[name], number);
+  if (header.property.contains("scale")) each("scale", surface.scale, number);
+  for (const auto& [name, property] : header.property)
+    if (!texture::isVertexProperty(name)) each(name, surface.maps[name], number);
   surface.gradient.resize(header.vertices);
   const char* at = bytes.data() + header.body + header.vertices * header.stride;
   for (std::size_t f = 0; f < header.faces; ++f, at += 13) {

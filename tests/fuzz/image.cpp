@@ -6,5 +6,12 @@ using namespace fluidtex;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto file = fuzz::written("picture", data, size);
-  return fuzz::outcomeOf<foreign::Unreadable>([&] { foreign::readColors(file); });
+  return fuzz::outcomeFromAfar<foreign::Unreadable>([&] {
+    const foreign::Picture picture = foreign::readColors(file);
+    std::string words = fuzz::magnitude(picture.width) + fuzz::magnitude(picture.height);
+    for (const int part :
+         {picture.channels, int(picture.sample), int(picture.curve), picture.orientation, picture.straight})
+      words += char('a' + part);
+    return words;
+  });
 }

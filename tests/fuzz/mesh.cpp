@@ -1,5 +1,7 @@
-// A mesh: the first byte says of which kind the rest is, o(bj), p(ly) or s(tl).
+// A mesh, up to the triangles of a solid: the first byte says of which kind the rest is, o(bj), p(ly) or
+// s(tl).
 #include "sim/read_mesh.h"
+#include "sim/shapes.h"
 #include "tests/fuzz/reader.h"
 
 using namespace fluidtex;
@@ -8,5 +10,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < 1) return 0;
   const std::string name = data[0] == 'p' ? "mesh.ply" : data[0] == 's' ? "mesh.stl" : "mesh.obj";
   const auto file = fuzz::written(name, data + 1, size - 1);
-  return fuzz::outcomeOf<sim::MeshError>([&] { sim::readSoup(file); });
+  return fuzz::outcomeOf<sim::MeshError>([&] { sim::readMesh({file}); });
 }

@@ -4,12 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 namespace fluidtex::fuzz {
@@ -41,6 +43,17 @@ inline void checkSentence(const std::string& words) {
   std::abort();
 }
 
+// libFuzzer sees nothing of the code that an input reaches in fluidtex_reader. What comes back from there
+// tells something of it: other words are another place. Numbers in them are not.
+[[gnu::section("__libfuzzer_extra_counters")]] inline static std::uint8_t outcomes[1 << 13];
+
+inline void cameBack(const std::string& words) {
+  std::uint32_t hash = 2166136261u;  // Fowler, Noll and Vo
+  for (const char letter : words)
+    if (letter < '0' || letter > '9') hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619u;
+  outcomes[hash % std::size(outcomes)] = 1;
+}
+
 // Reads: any outcome is right but an exception that is no Refusal.
 template <class Refusal, class Read>
 int outcomeOf(const Read& read) {
@@ -50,6 +63,24 @@ int outcomeOf(const Read& read) {
     checkSentence(refusal.what());
   }
   return 0;
+}
+
+// The same for what fluidtex_reader reads: `read` gives words for what has come back.
+template <class Refusal, class Read>
+int outcomeFromAfar(const Read& read) {
+  return outcomeOf<Refusal>([&] {
+    try {
+      cameBack(read());
+    } catch (const Refusal& refusal) {
+      cameBack(refusal.what());
+      throw;
+    }
+  });
+}
+
+// So that the size of a number is told in few ways.
+inline std::string magnitude(double number) {
+  return std::string(std::size_t(std::ilogb(std::abs(number) + 1.0)), '+') + ' ';
 }
 
 }  // namespace fluidtex::fuzz

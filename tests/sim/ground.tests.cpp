@@ -189,6 +189,15 @@ TEST_CASE("height field: heights are as stored, upright, and filled where there 
                     Catch::Matchers::Contains("no height anywhere"));
 }
 
+TEST_CASE("height field: a picture of any kind, and a library that falls over a damaged one", "[sim]") {
+  const WrittenFile damaged("heights.sgi", sgiBytes(true)), whole("heights.sgi", sgiBytes(false));
+  CHECK_THROWS_WITH(readHeights(damaged.path), Catch::Contains("cannot be read: the library that reads"));
+  const HeightImage image = readHeights(whole.path);
+  REQUIRE(image.values.size() == 64);
+  for (int n = 0; n < 64; ++n)
+    REQUIRE(std::lround(255.0f * image.values[std::size_t(n)]) == 30 * (n % 8) + (7 - n / 8));
+}
+
 TEST_CASE("height field: mountains above a small domain, and one that has no end", "[sim]") {
   const TemporaryFile file(ramp());
   // A pixel of 30 m, up to 1000 m, in a domain of a metre: a cliff at most.

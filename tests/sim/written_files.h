@@ -81,4 +81,18 @@ inline std::string tiffBytes(std::uint16_t width, std::uint16_t height, std::uin
   return bytes + texts;
 }
 
+// An SGI of 8 x 8 pixels of 8 bits, rows from the bottom: 30 a column and 1 a row. `damaged`: in runs, whose
+// rows have one byte, by which 127 values follow; the library at hand asserts that they do.
+inline std::string sgiBytes(bool damaged = false) {
+  std::string bytes("\x01\xda\0\1\0\2\0\x08\0\x08\0\1\0\0\0\0\0\0\0\xff", 20);
+  bytes.resize(512);
+  for (int n = 0; n < 64 && !damaged; ++n) bytes.push_back(static_cast<char>(30 * (n % 8) + n / 8));
+  if (!damaged) return bytes;
+  bytes[2] = 1;
+  for (int row = 0; row < 8; ++row) bytes.append("\0\0\2\x40", 4);  // where the row's bytes are
+  for (int row = 0; row < 8; ++row) bytes.append("\0\0\0\1", 4);    // and how many
+  bytes.push_back('\xff');
+  return bytes;
+}
+
 }  // namespace fluidtex::sim

@@ -1,7 +1,7 @@
 #include "tools/ply.h"
 
-#include "tests/tools/sample_surface.h"
 #include "tests/scratch.h"
+#include "tests/tools/sample_surface.h"
 #include "tools/errors.h"
 
 #include <catch2/catch.hpp>
@@ -61,7 +61,7 @@ TEST_CASE("PLY: has the properties of docs/formats.md in their order, and the by
         Approx(1.5 / 8));  // the place that fades: texel (1, 2)
   CHECK(valueAt<float>(bytes, vertex + stride - 12) == Approx(2.5 / 4));
   CHECK(valueAt<float>(bytes, vertex + stride - 8) == 0.3f);
-  CHECK(valueAt<float>(bytes, vertex + stride - 4) == 11.0f);          // height
+  CHECK(valueAt<float>(bytes, vertex + stride - 4) == 11.0f);  // height
   const std::size_t face = body + 4 * stride;
   CHECK(int(valueAt<std::uint8_t>(bytes, face)) == 3);
   CHECK(valueAt<std::int32_t>(bytes, face + 1) == 0);
@@ -142,4 +142,27 @@ TEST_CASE("PLY: a file that is cut short, too long or another one is refused by 
   std::string without = bytes;
   refused(without.replace(without.find("float trust"), 11, "float truss"));
   CHECK_THROWS_AS(tools::readPly(scratch.path / "none.ply", 8, 4), tools::UsageError);
+}
+
+TEST_CASE("PLY: properties that are not in the order and of the types that are read are refused", "[tools]") {
+  const Scratch scratch;
+  const std::filesystem::path broken = scratch.path / "broken.ply";
+  tools::writePly(sampleSurface(), scratch.path / "a.ply");
+  const std::string bytes = readBytes(scratch.path / "a.ply");
+  const auto refused = [&](const std::string& before, const std::string& after, const char* words) {
+    std::string content = bytes;
+    REQUIRE(content.find(before) != content.npos);
+    std::ofstream(broken, std::ios::binary) << content.replace(content.find(before), before.size(), after);
+    INFO(after);
+    CHECK_THROWS_AS(tools::readPly(broken, 8, 4), tools::UsageError);
+    CHECK_THROWS_WITH(tools::readPly(broken, 8, 4), Catch::Contains(words));
+  };
+  refused("float y\n", "float q\n", "has no property y");
+  refused("float y\nproperty float z\n", "float z\nproperty float y\n", "y that does not follow");
+  refused("element face", "property float x\nelement face", "y that does not follow");  // read past the end
+  refused("uchar alpha\n", "float alpha\n", "alpha that is no uchar");
+  refused("float trust\n", "uchar trust\n", "trust that is no float");
+  refused("float trust\n", "double trust\n", "neither float nor uchar");
+  refused("float trust\n", std::string("float b\0\xff\n", 10), "name is no map's");
+  refused("uchar contact\n", "uchar own\n", "own that is no float");
 }

@@ -1,4 +1,4 @@
-#include "sim/no_data.h"
+#include "foreign/no_data.h"
 
 #include <tiffio.h>
 
@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-namespace fluidtex::sim {
+namespace fluidtex::foreign {
 namespace {
 
 // GDAL_NODATA, a text; libtiff knows it as a tag without a name.
@@ -41,4 +41,4 @@ std::optional<double> noDataOf(const std::filesystem::path& file) {
   return number;
 }
 
-}  // namespace fluidtex::sim
+}  // namespace fluidtex::foreign
