@@ -18,11 +18,11 @@ struct HeightImage {
   std::vector<float> values;  // height x width
 };
 
-// The first channel as it is stored, whole numbers (or floats, which are taken as they are), not multiplied by
-// alpha, upright as the file's orientation tag says; of a picture of any kind, read in a process of its own
-// (foreign/picture.h). Pixels that a TIFF marks as without data (GDAL_NODATA) get the height of the nearest
-// one that has any. Throws HeightError: not there, no picture, damaged, of fewer than 2 x 2 pixels, or with
-// values that are no heights.
+// The first channel as it is stored, whole numbers (or floats, which are taken as they are), not multiplied
+// by alpha, upright as the file's orientation tag says; of a picture of any kind, read in a process of its
+// own (foreign/picture.h). Pixels that a TIFF marks as without data (GDAL_NODATA) get the height of the
+// nearest one that has any. Throws HeightError: not there, no picture, damaged, of fewer than 2 x 2 pixels,
+// or with values that are no heights.
 HeightImage readHeights(const std::filesystem::path& file);
 
 }  // namespace fluidtex::sim

@@ -189,6 +189,11 @@ TEST_CASE("ask: grids of OpenVDB files, whole and damaged", "[foreign]") {
   writeBytes(file, named);
   CHECK_THROWS_WITH(readGrid(file, false), Contains("more memory than a file of its size"));
 
+  for (const std::size_t missing : {1u, 9u, 99u, 999u}) {
+    writeBytes(file, whole.substr(0, whole.size() - missing));
+    CHECK_THROWS_WITH(readGrid(file, false), Contains("OpenVDB"));
+  }
+
   std::mt19937 random(3);
   for (int round = 0; round < 40; ++round) {
     std::string bytes = whole;
