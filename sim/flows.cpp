@@ -40,6 +40,17 @@ std::array<FloatGrid::Ptr, 3> facesOf(const FloatGrid& phi, const Vec3d& velocit
   const auto outside = [&](const Coord& cell) {
     return domain.isInside(cell) && shape.getValue(cell) >= 0.0f;
   };
+  // On a round front, a staircase of cells, what comes out of one step goes back into the next: only so does
+  // as much come in all as the front itself would give. Into other outer faces nothing goes.
+  const auto isFed = [&](const Coord& cell) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Coord upstream = cell;
+      upstream[axis] += velocity[axis] > 0.0 ? -1 : velocity[axis] < 0.0 ? 1 : 0;
+      if (upstream != cell && domain.isInside(upstream) && shape.getValue(upstream) < 0.0f) return true;
+    }
+    return false;
+  };
+  const auto isBack = [&](const Coord& cell) { return outside(cell) && !isFed(cell); };
   std::array<FloatGrid::Ptr, 3> faces;
   for (int axis = 0; axis < 3; ++axis) {
     FloatGrid::Ptr grid = FloatGrid::create(0.0f);
@@ -54,8 +65,8 @@ std::array<FloatGrid::Ptr, 3> facesOf(const FloatGrid& phi, const Vec3d& velocit
         next[axis] += 1;
         before[axis] -= 1;
         const float speed = static_cast<float>(velocity[axis]);
-        grid->tree().setValueOn(cell, speed > 0.0f && outside(before) ? 0.0f : speed);
-        grid->tree().setValueOn(next, speed < 0.0f && outside(next) ? 0.0f : speed);
+        grid->tree().setValueOn(cell, speed > 0.0f && isBack(before) ? 0.0f : speed);
+        grid->tree().setValueOn(next, speed < 0.0f && isBack(next) ? 0.0f : speed);
       }
     }
     faces[axis] = grid;

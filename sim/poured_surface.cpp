@@ -11,8 +11,6 @@ namespace {
 
 // In cells: no surface farther away lies between two cells; and a body this near a solid touches it.
 constexpr double kNear = 1.8, kTouching = 0.05;
-// What a surface that crosses none of the ways along the axes is away at least: half of a face's diagonal.
-constexpr double kBeyondAxes = 0.7;
 // Halvings of a way between cells.
 constexpr int kHalvings = 12;
 
@@ -68,7 +66,7 @@ Distance pouredSurface(const ShapeDistance& body, Distance solids, double h) {
     const Vec3d closest = place - here * normalAt(body, place, 0.01 * h);
     if (place == x && solids(closest) > touching) return here;
     const double across = distanceAcross(body, solids, place, here, h);
-    const double away = across > 0.0 ? across : std::max(std::abs(here), kBeyondAxes * h);
+    const double away = across > 0.0 ? across : std::abs(here);
     return here < 0.0 ? -away : away;
   };
 }

@@ -26,7 +26,8 @@ double rateAt(const sim::Source& source, double t) {
 }
 
 // m3/s that come through a source's front at a rate of 1: of the faces between its cells (those whose middle
-// lies in it) and others, those that the velocity points out of. Nothing comes where a solid is.
+// lies in it) and others, those that the velocity points out of, less what goes back in. Nothing comes where
+// a solid is.
 double frontRate(const sim::Source& source, const sim::Options& options, double t) {
   const double h = options.voxelSize();
   const sim::ShapeDistance shape(source.shape, h, sim::domainBox(options));
@@ -36,6 +37,15 @@ double frontRate(const sim::Source& source, const sim::Options& options, double 
   const sim::CoordBBox domain = sim::domainCells(options);
   const auto inside = [&](const Coord& cell) {
     return domain.isInside(cell) && shape((cell.asVec3d() + Vec3d(0.5)) * h) < 0.0;
+  };
+  // Whether liquid comes out of the source into this cell.
+  const auto isFed = [&](const Coord& cell) {
+    for (int a = 0; a < 3; ++a) {
+      Coord upstream = cell;
+      upstream[a] += source.velocity[a] > 0.0 ? -1 : source.velocity[a] < 0.0 ? 1 : 0;
+      if (upstream != cell && inside(upstream)) return true;
+    }
+    return false;
   };
   double rate = 0.0;
   const Coord count = sim::cellCount(options.size, h);
@@ -50,6 +60,12 @@ double frontRate(const sim::Source& source, const sim::Options& options, double 
           next[a] += up ? 1 : -1;
           if (up) face[a] += 1;
           if (!inside(next)) rate += std::abs(source.velocity[a]) * open[a]->tree().getValue(face) * h * h;
+          // From one step of a round front into the next.
+          Coord back = cell, into = cell;
+          back[a] -= up ? 1 : -1;
+          if (!up) into[a] += 1;
+          if (domain.isInside(back) && !inside(back) && isFed(back))
+            rate -= std::abs(source.velocity[a]) * open[a]->tree().getValue(into) * h * h;
         }
       }
     }
