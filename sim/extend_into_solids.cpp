@@ -108,8 +108,11 @@ struct Extension {
         nearest[axis] = n;
       }
     }
-    // Walled in on all sides: it stays as it is.
-    if (count == 0) return withoutNearest;
+    // Walled in on all sides: it stays as it is, but for what a solid has left.
+    if (count == 0) {
+      if (withoutNearest && depth[cell] <= deepest) value[cell] = std::max(value[cell], h);
+      return withoutNearest;
+    }
     const float length = way.length();
     const Vec3 normal = length > 0.0f ? way / length : Vec3(0.0f);
     float weights = 0.0f, sum = 0.0f;
@@ -139,7 +142,7 @@ struct Extension {
 }  // namespace
 
 void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo, float deep,
-                      const Visibility* visibility) {
+                      const Visibility* visibility, const FloatGrid* left) {
   const LeafTable table = makeLeafTable(phi.constTree());
   const float h = static_cast<float>(phi.voxelSize()[0]), background = phi.background();
   Extension extension{
@@ -152,6 +155,12 @@ void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& le
       extension.depth[i] = -extension.depth[i];
   });
   extension.known = maskOf(table, extension.depth, [&](float d) { return !(d > extension.deepest); });
+  if (left != nullptr) {
+    const VoxelMask was =
+        maskOf(table, sampleOn(table, left->constTree()), [&](float d) { return d >= -extension.deepest; });
+    for (std::size_t n = 0; n < table.size(); ++n)
+      for (std::size_t i = 0; i < was[n].size(); ++i) extension.known[n][i] &= was[n][i];
+  }
   std::vector<std::size_t> open;  // leaves that are not known wholly
   for (std::size_t n = 0; n < table.size(); ++n)
     if (!allSet(extension.known[n])) open.push_back(n);

@@ -46,13 +46,15 @@ using LetGo = std::function<bool(const Coord&)>;
 // film thinner than half a cell would begin that flows out of the solid. Where the liquid let go, phi rises
 // along the normal, so that the gap is kept. Without `letGo` everything stays as it is: a gap or a film that
 // is there is kept, and none begins. deep: from how deep in a solid on, in voxels. visibility: of the solids;
-// nothing comes through a thin one.
+// nothing comes through a thin one. left: the solids before they moved, null where they did not; cells that
+// they have left get their values from what is beside them in the open, and are air where nothing is.
 void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo = {},
-                      float deep = kDeepInSolid, const Visibility* visibility = nullptr);
+                      float deep = kDeepInSolid, const Visibility* visibility = nullptr,
+                      const FloatGrid* left = nullptr);
 
 // The same for solids and sides of the domain: beyond sides of symmetry phi is its own mirror image.
 void extendBeyond(FloatGrid& phi, const SolidField& solid, const LetGo& letGo = {},
-                  float deep = kDeepInSolid);
+                  float deep = kDeepInSolid, const FloatGrid* left = nullptr);
 // reinitialize, for which sides of symmetry are no solids; the liquid goes on beyond them.
 void redistance(FloatGrid& phi, const SolidField& solid, int iterations);
 

@@ -34,8 +34,9 @@ void mirrorAtSides(FloatGrid& phi, const SolidField& solid) {
 
 }  // namespace
 
-void extendBeyond(FloatGrid& phi, const SolidField& solid, const LetGo& letGo, float deep) {
-  extendIntoSolids(phi, *solid.phi, letGo, deep, solid.visibility.get());
+void extendBeyond(FloatGrid& phi, const SolidField& solid, const LetGo& letGo, float deep,
+                  const FloatGrid* left) {
+  extendIntoSolids(phi, *solid.phi, letGo, deep, solid.visibility.get(), left);
   mirrorAtSides(phi, solid);
 }
 

@@ -20,8 +20,10 @@ inline std::uint64_t markerSeed(std::uint64_t seed, std::int64_t steps) {
 // (advectPhi, advectMarkers), what sources and drains do, correction by the markers before and after the
 // reinitialisation, and upkeep of the markers. dt max|u| / h must be below kMaxTrace (else
 // std::invalid_argument); the velocity must reach that far beyond the band, into solids too. `seed` must
-// differ from call to call. The sequence is that of Enright et al. 2002, section 3.
+// differ from call to call. left: the solids' distance before the step where they move (see
+// extendIntoSolids). The sequence is that of Enright et al. 2002, section 3.
 void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const SolidField& solid,
-                 double dt, std::uint64_t seed, const RunningFlows& flows = {});
+                 double dt, std::uint64_t seed, const RunningFlows& flows = {},
+                 const FloatGrid* left = nullptr);
 
 }  // namespace fluidtex::sim

@@ -286,7 +286,8 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
   liquid.markers = {};
   {
     const Velocity moving = movingVelocity(liquid);
-    moveSurface(*next.phi, next.markers, moving, solid, dt, markerSeed(options.seed, next.steps), flows);
+    moveSurface(*next.phi, next.markers, moving, solid, dt, markerSeed(options.seed, next.steps), flows,
+                before.phi != solid.phi && solid.speedU != nullptr ? before.phi.get() : nullptr);
     dropBeyond(next.markers, solid);
     next.owed = owedVolume(*liquid.phi, *next.phi, liquid.owed.get(), moving, before, solid, flows, dt);
     regainSurface(*next.phi, next.markers, *next.owed, solid);

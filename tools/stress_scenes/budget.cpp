@@ -128,8 +128,11 @@ double VolumeBudget::advance(double from, double to, double volume) {
     if (begin >= end) continue;
     const double length = end - begin, factor = 0.5 * (rateAt(source, begin) + rateAt(source, end));
     const double given = frontRate(source, m_options, 0.5 * (begin + end)) * factor * length;
-    m_high += given;
-    m_low += given;
+    // Or what the shape's own front would give; cells know it no better than that.
+    const double smooth =
+        m_surroundings.frontRate(source.shape, source.velocity, 0.5 * (begin + end)) * factor * length;
+    m_high += std::max(given, smooth);
+    m_low += std::min(given, smooth);
     // As it begins its shape is filled. Later, what flows away is filled up where it is not driven itself: no
     // more than gravity draws out in that time.
     const double whole = m_surroundings.volumeIn(source.shape, to);

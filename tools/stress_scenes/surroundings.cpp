@@ -170,6 +170,28 @@ double Surroundings::volumeIn(const sim::Shape& shape, double t,
   return volume * m_step * m_step * m_step;
 }
 
+double Surroundings::frontRate(const sim::Shape& shape, const Vec3d& velocity, double t) const {
+  const sim::ShapeDistance distance(shape, m_options.voxelSize(), sim::domainBox(m_options));
+  const sim::Solids solids(m_options);
+  const std::vector<float> inside = distances([&](const Vec3d& x) { return distance(x); });
+  const std::vector<float> open = distances([&](const Vec3d& x) { return solids.distance(x, t); });
+  const std::size_t stride[3] = {static_cast<std::size_t>(m_count[1]) * m_count[2],
+                                 static_cast<std::size_t>(m_count[2]), 1};
+  double rate = 0.0;
+  for (std::size_t n = 0; n < inside.size(); ++n) {
+    if (std::abs(inside[n]) > m_step) continue;
+    double out = 0.0;
+    for (int a = 0; a < 3; ++a) {
+      const int at = static_cast<int>(n / stride[a]) % m_count[a];
+      const double low = at > 0 ? share(inside[n - stride[a]], m_step) : 0.0;
+      const double high = at + 1 < m_count[a] ? share(inside[n + stride[a]], m_step) : 0.0;
+      out += velocity[a] * 0.5 * (low - high);
+    }
+    rate += std::max(0.0, out) * share(-open[n], m_step) * m_step * m_step;
+  }
+  return rate;
+}
+
 double Surroundings::highest(double t) const {
   double top = -INFINITY;
   for (const Body& body : m_bodies)

@@ -36,6 +36,9 @@ class Surroundings {
   // positions).
   double volumeIn(const sim::Shape& shape, double t,
                   const std::function<double(const Vec3d&)>& alsoIn = {}) const;
+  // m3/s that flow of this velocity takes out of the shape's surface in the open: of what the shape itself
+  // would give, whatever cells make of it.
+  double frontRate(const sim::Shape& shape, const Vec3d& velocity, double t) const;
   // Of all that is there at the start, and how large its surface is, m2.
   double pouredVolume() const { return m_poured; }
   double pouredSurface() const { return m_pouredSurface; }
