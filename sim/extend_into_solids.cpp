@@ -40,7 +40,7 @@ struct Extension {
     return table.neighbor(cell, side);
   }
 
-  // Gradient of phi at a cell in the open, from those of its neighbours that are in the open too.
+  // Gradient of phi at a cell in the open, from those of its neighbours that are in the open too and known.
   Vec3 openGradient(std::int64_t cell) const {
     Vec3 slope(0.0f);
     for (int axis = 0; axis < 3; ++axis) {
@@ -48,7 +48,7 @@ struct Extension {
       int steps = 0;
       for (int up = 0; up < 2; ++up) {
         const std::int64_t n = beside(cell, 2 * axis + up);
-        if (n < 0 || depth[n] > deepest) continue;
+        if (n < 0 || depth[n] > deepest || !isSet(known, n)) continue;
         (up != 0 ? high : low) = value[n];
         ++steps;
       }
@@ -96,7 +96,8 @@ struct Extension {
     for (int axis = 0; axis < 3; ++axis) {
       for (int up = 0; up < 2; ++up) {
         const std::int64_t n = beside(cell, 2 * axis + up);
-        if (n < 0) continue;
+        // What a solid has left asks the open only.
+        if (n < 0 || (depth[cell] <= deepest && depth[n] > deepest)) continue;
         const float shallower = depth[cell] - depth[n];
         if (!isSet(known, n)) {
           if (shallower > 0.0f && !withoutNearest) return false;

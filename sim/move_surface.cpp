@@ -2,6 +2,9 @@
 
 #include "sim/level_set.h"
 
+#include <tbb/parallel_for.h>
+
+#include <cmath>
 #include <utility>
 
 namespace fluidtex::sim {
@@ -10,12 +13,29 @@ namespace {
 // In one step the surface moves at most a few cells; this many iterations renew the distance as far out.
 constexpr int kReinitIterations = 8;
 
+// What is known of places that a solid has just left is what stands beside them now; markers there are those
+// of a surface that only went on behind the solid's.
+void dropLeft(Markers& markers, const FloatGrid& left) {
+  const float deep = -kDeepInSolid * static_cast<float>(left.voxelSize()[0]);
+  tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
+    const openvdb::tree::ValueAccessor<const FloatTree> was(left.constTree());
+    const Coord& origin = markers[n].origin;
+    std::erase_if(markers[n].markers, [&](const Marker& m) {
+      return was.getValue(origin.offsetBy(static_cast<int>(std::lround(m.x)),
+                                          static_cast<int>(std::lround(m.y)),
+                                          static_cast<int>(std::lround(m.z)))) < deep;
+    });
+  });
+  std::erase_if(markers, [](const MarkerBlock& block) { return block.markers.empty(); });
+}
+
 }  // namespace
 
 void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const SolidField& solid,
                  double dt, std::uint64_t seed, const RunningFlows& flows, const FloatGrid* left) {
   const Visibility* const visibility = solid.visibility.get();
   markers = advectMarkers(std::move(markers), velocity, dt);
+  if (left != nullptr) dropLeft(markers, *left);
   advectPhi(phi, velocity, *solid.phi, dt, visibility);
   correctPhi(phi, markers, visibility);
   applyFlows(phi, markers, flows);

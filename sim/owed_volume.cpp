@@ -249,7 +249,12 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
                                      after, velocity, solid, dt);
   const LeafTable& leaves = flux.leaves;
   std::vector<float> due(leaves.voxels(), 0.0f);
-  const std::vector<float> was = wetShares(before, solid, leaves), is = wetShares(after, solidAfter, leaves);
+  std::vector<float> was = wetShares(before, solid, leaves);
+  const std::vector<float> is = wetShares(after, solidAfter, leaves);
+  std::vector<float> phi = sampleOn(leaves, after.constTree());
+  // What is in a solid says how the liquid would go on there; where the solid leaves air behind, it was none.
+  for (std::size_t at = 0; at < was.size(); ++at)
+    if (flux.open[at] <= 0.0f && phi[at] >= 0.0f) was[at] = 0.0f;
   std::vector<float> shares = was;
   if (owed != nullptr) {
     const std::vector<float> value = sampleOn(leaves, owed->constTree());
@@ -265,7 +270,6 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
   const float h = static_cast<float>(solid.voxelSize);
   const bool moved = between || !flux.swept.empty();
   const std::vector<float> openAfter = moved ? openRoom(solidAfter, leaves) : flux.open;
-  std::vector<float> phi = sampleOn(leaves, after.constTree());
   const std::vector<float> depth =
       moved ? sampleOn(leaves, solidAfter.phi->constTree()) : std::vector<float>();
   for (std::size_t at = 0; at < due.size(); ++at) {
