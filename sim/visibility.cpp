@@ -101,15 +101,21 @@ struct Surroundings {
     return marks;
   }
 
-  // The cell in the open from which a cell gets its values: downhill in depth. Itself in the open; -1 for
-  // none within the layers that hold values.
+  // The cell in the open from which a cell gets its values: downhill in depth, through faces that are open
+  // where there are any. Itself in the open; -1 for none within the layers that hold values.
   int sourceOf(int cell) const {
     for (int step = 0; !isOpen(cell); ++step) {
       if (step > static_cast<int>(kSolidLayers) + 1) return -1;
       int best = cell;
-      for (int a = 0; a < 3; ++a)
-        for (const int next : {cell - kStride[a], cell + kStride[a]})
-          if (distance[next] > distance[best]) best = next;
+      for (const bool through : {true, false}) {
+        for (int a = 0; a < 3; ++a) {
+          for (const int next : {cell - kStride[a], cell + kStride[a]}) {
+            if (through && openness[a][std::max(cell, next)] <= 0.0f) continue;
+            if (distance[next] > distance[best]) best = next;
+          }
+        }
+        if (best != cell) break;
+      }
       if (best == cell) return -1;
       cell = best;
     }

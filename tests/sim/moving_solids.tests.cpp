@@ -1,6 +1,8 @@
 #include "sim/pose.h"
 #include "sim/solids.h"
 #include "sim/solver.h"
+#include "tests/sim/solver_scenes.h"
+#include "tests/threads.h"
 
 #include <catch2/catch.hpp>
 

@@ -14,6 +14,9 @@ namespace {
 // is taken away (sim/flows.cpp).
 constexpr double kSourceSlack = 0.05;
 
+// Cells know edges and curved surfaces of what is poured to some hundredths of their size.
+constexpr double kOfSurface = 0.05;
+
 double rateAt(const sim::Source& source, double t) {
   if (source.rate.empty()) return 1.0;
   if (t <= source.rate.front().time) return source.rate.front().factor;
@@ -98,8 +101,6 @@ double VolumeBudget::tolerance() const {
 }
 
 double VolumeBudget::start(double volume) {
-  // Cells know edges and curved surfaces to some hundredths of their size.
-  constexpr double kOfSurface = 0.05;
   const double poured = m_surroundings.pouredVolume();
   m_most = std::max(volume, poured);
   m_low = m_high = volume;
@@ -113,6 +114,7 @@ double VolumeBudget::advance(double from, double to, double volume) {
     if (!happens(body.from, from, to, m_options.frameRate)) continue;
     // Where there is liquid already none is added.
     const double shape = m_surroundings.volumeIn(body.shape, body.from);
+    m_slack += kOfSurface * m_options.voxelSize() * 6.0 * std::pow(shape, 2.0 / 3.0);
     m_high += shape;
     m_low += std::max(0.0, shape - m_low);
     exact = false;

@@ -27,6 +27,8 @@ constexpr double kMostOwedAtOnce = 0.1;
 // Besides, of a cell for each cell's face of the surface: by so much phi knows where it is. It counts for
 // spray.
 constexpr double kOwedOfSurface = 0.03;
+// And a drop of a cell's radius, in cells: no grid sees one.
+constexpr double kDrop = 4.2;
 // Times the speed that a fall from the highest place to the lowest gives. The front of a dam break alone has
 // 1.4 times that (Ritter), and where fronts meet or close, jets are faster still.
 constexpr double kJets = 3.0;
@@ -155,7 +157,7 @@ class Checks {
       fail(m_frame == 1 ? "poured" : "volume",
            fmt::format("{:+.3g} m3, {:+.1f}% of {:.4g} m3", outside, 100.0 * outside / whole, whole));
     const double h = m_options.voxelSize(), owed = std::abs(frame.stats.owed);
-    const double always = kOwedOfSurface * h * now.area + h * h * h;
+    const double always = kOwedOfSurface * h * now.area + kDrop * h * h * h;
     m_owing = owed > kMostOwed * whole + always ? m_owing + 1 : 0;
     if (m_owing >= kOwedFrames || owed > kMostOwedAtOnce * whole + always)
       fail("owed", fmt::format("{:+.3g} m3, {:+.1f}% of {:.4g} m3, most of it ({:+.3g} of a cell) at {}",
