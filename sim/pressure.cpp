@@ -53,12 +53,30 @@ bool shutEdges(LiquidCells& liquid, const std::vector<double>& q) {
   return any;
 }
 
+// 1 more than how firmly a cell's pressure is held by its surface, which grows as that comes near its centre.
+double anchoredBy(const LiquidSides& cell) {
+  double anchored = 1.0;
+  for (int s = 0; s < kSides; ++s) {
+    if (cell.theta[s] > 0.0f) anchored += cell.open[s] / cell.theta[s];
+  }
+  return anchored;
+}
+
+// The pressure of cells that let go of a solid: that of the air, but where their own surface is near, what
+// surface tension makes of it there. Else it would act on them over next to no way.
+std::vector<double> pressureOfDetached(const LiquidCells& liquid, const std::vector<double>& guess) {
+  std::vector<double> pressure(liquid.numbering.size());
+  for (std::size_t i = 0; i < guess.size(); ++i)
+    pressure[i] = guess[i] * (1.0 - 1.0 / anchoredBy(liquid.sidesOf(static_cast<int>(i))));
+  return pressure;
+}
+
 // Takes a guess at the pressure out of the unknowns x and the right-hand side b; not in parts that are
 // enclosed. Differences are formed before they are weighted: beside a surface close to a cell's centre
-// weights are large.
+// weights are large. loose: the pressure of cells that are detached.
 void takeOut(const LiquidCells& liquid, const SurfacePressure& surface, const std::vector<double>& guess,
-             const std::vector<char>& enclosed, const PoissonSystem& system, const std::vector<int>& liquidOf,
-             std::vector<double>& b, std::vector<double>& x) {
+             const std::vector<double>& loose, const std::vector<char>& enclosed, const PoissonSystem& system,
+             const std::vector<int>& liquidOf, std::vector<double>& b, std::vector<double>& x) {
   const int n = static_cast<int>(b.size());
   tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
     for (int i = range.begin(); i < range.end(); ++i) {
@@ -71,8 +89,10 @@ void takeOut(const LiquidCells& liquid, const SurfacePressure& surface, const st
         if (neighbor < n) {
           b[i] -= system.rows.link[i][s] * (guess[number] - guess[liquidOf[neighbor]]);
         } else if (cell.open[s] > 0.0f) {
-          const double weight = cell.open[s] / (cell.theta[s] > 0.0f ? double(cell.theta[s]) : 1.0);
-          b[i] -= weight * (guess[number] - surface.at(number, s));
+          const bool ends = cell.theta[s] > 0.0f;
+          const int detached = ends ? -1 : liquid.numbering.at(neighborOf(liquid.numbering.cell(number), s));
+          const double beyond = detached < 0 ? surface.at(number, s) : loose[detached];
+          b[i] -= cell.open[s] / (ends ? double(cell.theta[s]) : 1.0) * (guess[number] - beyond);
         }
       }
     }
@@ -112,23 +132,20 @@ void setOutflow(const FloatGrid& growth, const LiquidCells& liquid, const Poisso
 }
 
 // One step of the active set method: cells at solids that let go of them, or are pressed back. True if any
-// changed. What a cell can suck is held back by its own surface: of a drop of one cell only a share of
-// `suction`, which is that of a cell with a column of liquid below it; less than `rounding` is none.
+// changed. What a cell can suck, below the pressure that it has when it is detached, is held back by its own
+// surface: of a drop of one cell only a share of `suction`, which is that of a cell with a column of liquid
+// below it; less than `rounding` is none.
 bool updateDetached(const LiquidCells& liquid, const SurfacePressure& surface, const std::vector<double>& q,
-                    const std::vector<char>& enclosed, double suction, double rounding,
-                    std::vector<char>& detached) {
+                    const std::vector<double>& loose, const std::vector<char>& enclosed, double suction,
+                    double rounding, std::vector<char>& detached) {
   const int n = liquid.numbering.size();
   std::vector<char> changed(n, 0);
   tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
     for (int i = range.begin(); i < range.end(); ++i) {
       const LiquidSides& cell = liquid.sidesOf(i);
       if (cell.closed <= 0.0f) continue;
-      double anchored = 1.0;
-      for (int s = 0; s < kSides; ++s) {
-        if (cell.theta[s] > 0.0f) anchored += cell.open[s] / cell.theta[s];
-      }
-      changed[i] = detached[i] ? projectedOutflow(liquid, surface, q, i) < 0.0
-                               : q[i] < -std::max(suction / anchored, rounding) && !enclosed[i];
+      const double least = (loose.empty() ? 0.0 : loose[i]) - std::max(suction / anchoredBy(cell), rounding);
+      changed[i] = detached[i] ? projectedOutflow(liquid, surface, q, i) < 0.0 : q[i] < least && !enclosed[i];
     }
   });
   bool any = false;
@@ -240,6 +257,8 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
                                       ? SurfacePressure(liquid, phi, solid, options.surfaceTension / pascal)
                                       : SurfacePressure();
   const std::vector<double> guess = surface.none() ? std::vector<double>() : guessedPressure(liquid, surface);
+  const std::vector<double> loose =
+      surface.none() ? std::vector<double>() : pressureOfDetached(liquid, guess);
 
   Projection result;
   PressureReport& report = result.report;
@@ -263,12 +282,13 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
     q = std::vector<double>();  // and not {}, which keeps its room
     if (!surface.none()) {
       // Solved for what is left beside the guess.
-      takeOut(liquid, surface, guess, enclosed, system, liquidOf, b, x);
+      takeOut(liquid, surface, guess, loose, enclosed, system, liquidOf, b, x);
     }
     // Whether liquid lets go of solids, or comes back to them, at this pressure.
     bool again = false, last = pass == options.maxSeparationPasses;
     const auto separates = [&](const std::vector<double>& pressure) {
-      q.assign(n, 0.0);
+      q = loose;
+      q.resize(n, 0.0);
       double largest = 0.0;
       for (std::size_t i = 0; i < liquidOf.size(); ++i) {
         const int number = liquidOf[i];
@@ -277,7 +297,7 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
       }
       if (last) return false;
       const bool shut = shutEdges(liquid, q);
-      const bool changed = updateDetached(liquid, surface, q, enclosed, options.suction / pascal,
+      const bool changed = updateDetached(liquid, surface, q, loose, enclosed, options.suction / pascal,
                                           kSuctionNoise * largest, detached);
       again = changed || shut;
       return again;
