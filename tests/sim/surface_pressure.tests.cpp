@@ -72,3 +72,32 @@ TEST_CASE("surface pressure: where the surface touches a cell's centre it is one
   }
   CHECK(judged > 300);
 }
+
+TEST_CASE("surface pressure: drops and jets that let go of walls are not thrown out", "[slow]") {
+  // A splash of drops of a few cells around a ball, which surface tension alone could set moving at no more
+  // than sqrt(4 tension / (density h)) = 1.2 m/s.
+  Options options;
+  options.size = Vec3d(0.130769, 0.107692, 0.2);
+  options.resolution = 26;
+  options.frameRate = 54.0;
+  options.density = 1645.25;
+  options.viscosity = 0.105404;
+  options.surfaceTension = 4.2574;
+  options.sources.resize(1);
+  options.sources[0].shape = {Sphere{Vec3d(0.0717822, 0.042985, 0.129325), 0.0121131}};
+  options.sources[0].velocity = Vec3d(0.0614866, 0.154851, -0.355955);
+  options.solids.resize(1);
+  options.solids[0].shape = {Sphere{Vec3d(0.0766234, 0.0703731, 0.139524), 0.025604}};
+  options.liquid.resize(2);
+  options.liquid[0].shape = {Sphere{Vec3d(0.0451589, 0.0194159, 0.0995111), 0.015543}};
+  options.liquid[1].shape = {
+      Cylinder{Vec3d(0.0228753, 0.0644619, 0.0370116), Vec3d(0.0134539, 0.0982148, 0.0297378), 0.0141548}};
+  for (LiquidBody& body : options.liquid) body.velocity = Vec3d(0.0928071, -0.582038, -0.241598);
+  Solver solver(options);
+  double fastest = 0.0;
+  for (int n = 0; n < 16; ++n) {
+    solver.next();
+    fastest = std::max(fastest, fastestOf(solver.state()));
+  }
+  CHECK(fastest < 6.0);
+}
