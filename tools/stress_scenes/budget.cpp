@@ -105,7 +105,12 @@ double VolumeBudget::start(double volume) {
   m_most = std::max(volume, poured);
   m_low = m_high = volume;
   const double allowed = tolerance() + kOfSurface * m_options.voxelSize() * m_surroundings.pouredSurface();
-  return volume > poured + allowed ? volume - poured : (volume < poured - allowed ? volume - poured : 0.0);
+  // What drains take away at once may be missing.
+  double drained = 0.0;
+  for (const sim::Drain& drain : m_options.drains)
+    if (drain.from <= 0.0) drained += m_surroundings.volumeIn(drain.shape, 0.0);
+  if (volume > poured + allowed) return volume - poured;
+  return volume < poured - drained - allowed ? volume - poured : 0.0;
 }
 
 double VolumeBudget::advance(double from, double to, double volume) {

@@ -189,7 +189,8 @@ class Checks {
   // free fall has the most, m (g ahead)^2 / 2. What is owed may have been lost at another height than where
   // it is.
   void energy(const sim::State& state, const sim::Frame& frame, const Measures& now) {
-    if (isDriven(m_options)) return;
+    // Of liquid that nobody sees nothing is known.
+    if (isDriven(m_options) || !std::isfinite(now.lowest)) return;
     const double weight = m_options.gravity.length(), fall = weight * state.ahead;
     const double sum = now.kinetic + now.potential + now.surface - now.falling * state.ahead;
     const double lifted =
