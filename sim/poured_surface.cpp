@@ -12,7 +12,7 @@ namespace {
 // In cells: no surface farther away lies between two cells; and a body this near a solid touches it.
 constexpr double kNear = 1.8, kTouching = 0.05;
 // Halvings of a way between cells.
-constexpr int kHalvings = 12;
+constexpr int kHalvings = 40;
 
 using Distance = std::function<double(const Vec3d&)>;
 
@@ -60,8 +60,11 @@ Distance pouredSurface(const ShapeDistance& body, Distance solids, double h) {
     // Between a body and a solid that it all but touches there is no air.
     Vec3d place = x;
     if (room > 0.0 && room < touching) {
-      place += touching * normalAt(solids, x, 0.01 * h);
-      here = body(place);
+      const Vec3d beside = x + touching * normalAt(solids, x, 0.01 * h);
+      if ((body(beside) < 0.0) != (here < 0.0)) {
+        place = beside;
+        here = body(place);
+      }
     }
     const Vec3d closest = place - here * normalAt(body, place, 0.01 * h);
     if (place == x && solids(closest) > touching) return here;

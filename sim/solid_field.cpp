@@ -247,13 +247,18 @@ int levelOf(int size) {
   return size == kChunkDim ? 2 : 1;
 }
 
-// The distance at a cell's centre, where that is in a solid no less than half a cell if all corners are, too:
-// solids that touch know only their own surfaces, and where they meet there is none.
+// The distance at a cell's centre, where that is in a solid no less than half a cell if all corners and the
+// centres beside are, too: solids that touch know only their own surfaces, and where they meet there is none.
 double centreDistance(const SolidDistance& distance, const Coord& cell, double h) {
   const double d = distance(placeOf(cell, Vec3d(0.5), h));
   if (d > 0.0 || d <= -0.5 * h) return d;
   for (int n = 0; n < kCellCorners; ++n)
     if (distance(placeOf(cell, Vec3d(n & 1, n >> 1 & 1, n >> 2), h)) > kOnWall * h) return d;
+  for (int side = 0; side < 6; ++side) {
+    Vec3d beside(0.5);
+    beside[side / 2] += side % 2 == 0 ? -1.0 : 1.0;
+    if (distance(placeOf(cell, beside, h)) > 0.0) return d;
+  }
   return -0.5 * h;
 }
 
