@@ -15,8 +15,8 @@ using LeafShares = std::array<float, kLeafSize>;
 void openShares(const SolidField& solid, const Coord& origin, LeafShares& open);
 
 // The share of each cell of a block that is liquid: what phi's surface encloses outside solids, from the
-// distances at the centre and the angle between the surface and the solid. A cell whose centre is not liquid counts only beside one whose centre is: else
-// there is no surface, and nobody sees it.
+// distances at the centre and the angle between the surface and the solid. A cell whose centre is not liquid
+// counts only beside one whose centre is: else there is no surface, and nobody sees it.
 void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& origin, LeafShares& liquid);
 
 }  // namespace fluidtex::sim

@@ -53,8 +53,8 @@ void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& le
                       const FloatGrid* left = nullptr);
 
 // The same for solids and sides of the domain: beyond sides of symmetry phi is its own mirror image.
-void extendBeyond(FloatGrid& phi, const SolidField& solid, const LetGo& letGo = {},
-                  float deep = kDeepInSolid, const FloatGrid* left = nullptr);
+void extendBeyond(FloatGrid& phi, const SolidField& solid, const LetGo& letGo = {}, float deep = kDeepInSolid,
+                  const FloatGrid* left = nullptr);
 // reinitialize, for which sides of symmetry are no solids; the liquid goes on beyond them.
 void redistance(FloatGrid& phi, const SolidField& solid, int iterations);
 
