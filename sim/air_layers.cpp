@@ -173,10 +173,12 @@ void extendLinearly(Velocity& values, const FloatGrid& phi) {
         for (std::size_t i = 0; i < beyond[n].size(); ++i) beyond[n][i] &= ~known[n][i];
         forBits(beyond[n], n, [&](std::int64_t face) {
           const float here = cellPhi[face] + below(face);
-          float weights = 0.0f, sum = 0.0f;
+          float weights = 0.0f, sum = 0.0f, count = 0.0f, plain = 0.0f;
           for (int direction = 0; direction < 6; ++direction) {
             const std::int64_t near = table.neighbor(face, direction);
             if (near < 0 || !isSet(known, near)) continue;
+            count += 1.0f;
+            plain += valueAt(near);
             const std::int64_t behind = table.neighbor(near, direction);
             if (behind < 0 || !isSet(known, behind)) continue;
             const float nearer = here - cellPhi[near] - below(near);
@@ -185,7 +187,7 @@ void extendLinearly(Velocity& values, const FloatGrid& phi) {
             const float most = kMostSlope * std::max(std::abs(valueAt(near)), std::abs(valueAt(behind)));
             sum += nearer * (valueAt(near) + std::clamp(valueAt(near) - valueAt(behind), -most, most));
           }
-          if (weights > 0.0f) valueAt(face) = sum / weights;
+          valueAt(face) = weights > 0.0f ? sum / weights : plain / count;
         });
       });
       forLeaves(table, [&](std::size_t n) {

@@ -120,13 +120,15 @@ class Checks {
  public:
   Checks(const sim::Options& options, const sim::Solver& solver)
       : m_options(options),
+        m_solids(options),
         m_surroundings(options, leaking(solver, options)),
         m_budget(options, m_surroundings) {}
 
   void frame(const sim::Solver& solver, const sim::Frame& frame) {
     m_frame = frame.index;
     if (const std::string grid = notFinite(solver.state()); !grid.empty()) return fail("finite", grid);
-    const Measures now = measure(solver.state(), *frame.solidPhi, m_options);
+    const auto solid = m_solids.around({solver.state().phi.get()}, frame.time, m_solids.active(frame.time));
+    const Measures now = measure(solver.state(), *solid, m_options);
     volume(frame, now);
     outside(solver.state(), frame);
     energy(solver.state(), frame, now);
@@ -225,6 +227,7 @@ class Checks {
   }
 
   const sim::Options& m_options;
+  sim::Solids m_solids;
   Surroundings m_surroundings;
   VolumeBudget m_budget;
   std::vector<Failure> m_failures;

@@ -1,5 +1,6 @@
 #include "tools/stress_scenes/measures.h"
 
+#include "sim/cell_volume.h"
 #include "sim/level_set.h"
 
 #include <fmt/core.h>
@@ -33,13 +34,16 @@ double floorOf(const sim::Options& options) {
   return least;
 }
 
-// Calls body(cell) for the cells of all leaves and tiles of phi in the domain that can be liquid.
+// Calls body(cell, share that is liquid) for the cells of all leaves and tiles of phi in the domain that can
+// be liquid.
 template <class Body>
-void forWetCells(const sim::FloatGrid& phi, const sim::CoordBBox& domain, const Body& body) {
-  for (const Coord& origin : sim::wetLeaves(phi, domain)) {
+void forWetCells(const sim::FloatGrid& phi, const sim::SolidField& solid, const Body& body) {
+  sim::LeafShares shares;
+  for (const Coord& origin : sim::wetLeaves(phi, solid.domain)) {
+    sim::liquidShares(phi, solid, origin, shares);
     for (int i = 0; i < sim::kLeafSize; ++i) {
       const Coord cell = origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7);
-      if (domain.isInside(cell)) body(cell);
+      if (solid.domain.isInside(cell)) body(cell, shares[i]);
     }
   }
 }
@@ -50,18 +54,16 @@ std::string written(const Vec3d& place) {
   return fmt::format("({:.4g}, {:.4g}, {:.4g})", place[0], place[1], place[2]);
 }
 
-Measures measure(const sim::State& state, const sim::FloatGrid& solidPhi, const sim::Options& options) {
+Measures measure(const sim::State& state, const sim::SolidField& field, const sim::Options& options) {
   Measures found;
   const double h = options.voxelSize(), cube = h * h * h, floor = floorOf(options);
-  const sim::CoordBBox domain = sim::domainCells(options);
-  Accessor phi(state.phi->constTree()), solid(solidPhi.constTree());
+  Accessor phi(state.phi->constTree()), solid(field.phi->constTree());
   Accessor face[3] = {Accessor(state.u->constTree()), Accessor(state.v->constTree()),
                       Accessor(state.w->constTree())};
   found.lowest = INFINITY;
   const auto wet = [&](const Coord& cell) { return std::clamp(0.5 - phi.getValue(cell) / h, 0.0, 1.0); };
-  forWetCells(*state.phi, domain, [&](const Coord& cell) {
+  forWetCells(*state.phi, field, [&](const Coord& cell, double share) {
     const double p = phi.getValue(cell), s = solid.getValue(cell);
-    const double share = std::clamp(0.5 - std::max(p, -s) / h, 0.0, 1.0);
     const Vec3d x = (cell.asVec3d() + Vec3d(0.5)) * h;
     const double high = -options.gravity.dot(x);
     // The area is the integral of the gradient's length of what is 1 in the liquid and 0 outside.

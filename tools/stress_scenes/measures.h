@@ -1,6 +1,7 @@
 // What is measured in a state of the solver, by itself.
 #pragma once
 
+#include "sim/solids.h"
 #include "sim/solver.h"
 
 #include <string>
@@ -28,8 +29,9 @@ struct Measures {
   double lowest = 0.0;   // least of -gravity . x of a cell of liquid, m2/s2
 };
 
-// solidPhi: as in sim::Frame.
-Measures measure(const sim::State& state, const sim::FloatGrid& solidPhi, const sim::Options& options);
+// solid: at the state's time, around its liquid. How much of a cell is liquid is what the solver says
+// (sim/cell_volume.h), so that the mass is that of the volume in sim::Statistics.
+Measures measure(const sim::State& state, const sim::SolidField& solid, const sim::Options& options);
 
 // The name of the first grid that has a value that is not finite; empty for none.
 std::string notFinite(const sim::State& state);
