@@ -187,9 +187,10 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
       }
       result.phi[cell] = 0.5f * (from[i] + to[i]) / h;
       if (result.open[cell] <= 0.0f) {
-        // A corner of it may be open all the same: what comes through there has to be somewhere.
+        // A corner of it may be open all the same: what comes through there has to be somewhere. Beyond an
+        // open side of the domain it is gone.
         const float through = std::max(out, in);
-        leaving[cell] = through > kLeastFlow ? through : 0.0f;
+        if (through > kLeastFlow && solid.domain.isInside(origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7))) leaving[cell] = through;
         continue;
       }
       if (moving) result.swept[cell] = swept;
