@@ -22,6 +22,11 @@ constexpr float kFills = 0.9f;
 // Cells of which a solid leaves less than this share are too small for a surface of their own.
 constexpr float kRoomy = 0.75f;
 
+// Of a cell's volume: what shows in it, and of that, what is nothing.
+constexpr float kShows = 0.3f, kEmpty = 0.05f;
+// Deeper in the liquid than this, in cells, a surface is no speck.
+constexpr float kShallow = 0.5f;
+
 struct Regained {
   Coord cell;
   float share;  // of it that is liquid
@@ -62,16 +67,35 @@ std::array<Coord, 7> star(const Coord& cell) {
   return cells;
 }
 
-void dropAirMarkers(Markers& markers, const std::set<Coord>& cells) {
+// Those of the air, or those of the liquid.
+void dropMarkers(Markers& markers, const std::set<Coord>& cells, bool ofAir) {
   for (MarkerBlock& block : markers) {
     std::erase_if(block.markers, [&](const Marker& m) {
       const Coord cell =
           block.origin.offsetBy(static_cast<int>(std::lround(m.x)), static_cast<int>(std::lround(m.y)),
                                 static_cast<int>(std::lround(m.z)));
-      return m.radius > 0.0f && cells.contains(cell);
+      return (m.radius > 0.0f) == ofAir && cells.contains(cell);
     });
   }
   std::erase_if(markers, [](const MarkerBlock& block) { return block.markers.empty(); });
+}
+
+// Cells that show liquid where next to none is.
+std::vector<Coord> emptyIn(const FloatLeaf& owed, const FloatGrid& phi, const SolidField& solid) {
+  const float* due = owed.buffer().data();
+  std::vector<Coord> found;
+  if (std::none_of(due, due + kLeafSize, [](float v) { return v < kEmpty - kShows; })) return found;
+  LeafShares shown;
+  liquidShares(phi, solid, owed.origin(), shown);
+  float scratch[kLeafSize];
+  const float* distance = leafValues(phi.constTree(), owed.origin(), scratch);
+  const float h = static_cast<float>(solid.voxelSize);
+  for (int i = 0; i < kLeafSize; ++i) {
+    const bool shallow = distance[i] < 0.0f && distance[i] > -kShallow * h;
+    if (shallow && shown[i] > kShows && shown[i] + due[i] < kEmpty)
+      found.push_back(owed.offsetToGlobalCoord(i));
+  }
+  return found;
 }
 
 }  // namespace
@@ -101,7 +125,28 @@ void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const Soli
       phi.tree().setValueOn(cell, std::min(phi.tree().getValue(cell), distance));
     }
   }
-  dropAirMarkers(markers, cells);
+  dropMarkers(markers, cells, true);
+  oweChange(owed, before, phi, solid);
+}
+
+void withdrawSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const SolidField& solid) {
+  const auto leaves = leavesOf(owed.constTree());
+  std::vector<std::vector<Coord>> parts(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(),
+                    [&](std::size_t n) { parts[n] = emptyIn(*leaves[n], phi, solid); });
+  std::set<Coord> cells;
+  MaskGrid where;
+  for (const auto& part : parts) {
+    for (const Coord& cell : part) {
+      cells.insert(cell);
+      where.tree().setValueOn(cell);
+    }
+  }
+  if (cells.empty()) return;
+  const ShownLiquid before = shownAround(where, phi, solid);
+  const float dry = 0.5f * static_cast<float>(phi.voxelSize()[0]);
+  for (const Coord& cell : cells) phi.tree().setValueOn(cell, dry);
+  dropMarkers(markers, cells, false);
   oweChange(owed, before, phi, solid);
 }
 

@@ -1,4 +1,4 @@
-// Liquid that the surface had lost and that is a surface again.
+// Liquid that the surface had lost and that is a surface again; and surface where no liquid is left.
 #pragma once
 
 #include "sim/grids.h"
@@ -13,5 +13,10 @@ namespace fluidtex::sim {
 // plane that parts so much from the cell. What it then holds is owed no more: the sum stays. Markers of the
 // air in and beside these cells are dropped, or they would take the surface away.
 void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const SolidField& solid);
+
+// The other way round: where the flow has left next to nothing in a cell that phi still shows, by a speck of a
+// surface that markers hold in a film or thread long thinner than a cell, there is none any more. The sum
+// stays.
+void withdrawSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const SolidField& solid);
 
 }  // namespace fluidtex::sim

@@ -290,6 +290,7 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
                 before.phi != solid.phi && solid.speedU != nullptr ? before.phi.get() : nullptr);
     dropBeyond(next.markers, solid);
     next.owed = owedVolume(*liquid.phi, *next.phi, liquid.owed.get(), moving, before, solid, flows, dt);
+    withdrawSurface(*next.phi, next.markers, *next.owed, solid);
     regainSurface(*next.phi, next.markers, *next.owed, solid);
   }
   next.velocity = velocityFor(*next.phi, solid);

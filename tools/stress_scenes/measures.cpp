@@ -48,6 +48,13 @@ void forWetCells(const sim::FloatGrid& phi, const sim::SolidField& solid, const 
   }
 }
 
+// Whether the liquid here is part of a sheet or a thread of a cell or two.
+bool isThin(const Accessor& phi, const Coord& cell, double h) {
+  for (int n = 0; n < 27; ++n)
+    if (phi.getValue(cell.offsetBy(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1)) < -h) return false;
+  return true;
+}
+
 }  // namespace
 
 std::string written(const Vec3d& place) {
@@ -87,6 +94,7 @@ Measures measure(const sim::State& state, const sim::SolidField& field, const si
     }
     const double mass = options.density * share * cube;
     found.mass += mass;
+    if (isThin(phi, cell, h)) found.thin += share * cube;
     found.kinetic += 0.5 * mass * squares;
     found.potential += mass * (high - floor);
     found.falling += mass * options.gravity.dot(velocity);

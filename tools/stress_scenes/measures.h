@@ -23,6 +23,7 @@ struct Measures {
   double kinetic = 0.0, potential = 0.0, surface = 0.0;
   double area = 0.0;     // m2, of the surface between liquid and air
   double mass = 0.0;     // kg, without what is owed
+  double thin = 0.0;     // m3, of what phi shows with nothing deeper than a cell beside it: sheets, threads
   double falling = 0.0;  // W, by which the potential energy falls
   Peak speed;            // m/s, of cells of liquid
   Peak owed;             // largest amount in a cell, in cells
