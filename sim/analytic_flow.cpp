@@ -4,6 +4,7 @@
 #include "sim/describe_liquid.h"
 #include "sim/level_set.h"
 #include "sim/move_surface.h"
+#include "sim/settle_surface.h"
 #include "sim/shapes.h"
 #include "sim/step.h"
 

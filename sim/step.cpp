@@ -14,6 +14,7 @@
 #include "sim/owed_volume.h"
 #include "sim/regained_surface.h"
 #include "sim/require.h"
+#include "sim/settle_surface.h"
 #include "sim/walls.h"
 
 #include <tbb/parallel_for.h>
@@ -361,25 +362,6 @@ void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& af
     }
   }
   cutSolids(*liquid.phi, *before.phi, left);
-}
-
-void settleSurface(FloatGrid& phi, const SolidField& solid) {
-  for (const Coord& origin : wetLeaves(phi, grown(solid.domain, kMargin))) phi.tree().touchLeaf(origin);
-  for (auto leaf = solid.phi->constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
-  // A body that ends at a wall has its surface there; extending and reinitialising in turn makes it go on
-  // behind. Of cells that the wall cuts, too, when their centres lie in it: else they would be air, and the
-  // body would start by falling into their open part.
-  constexpr float kInSolid = 0.0f;
-  constexpr int kIterations = 4;
-  const int rounds =
-      static_cast<int>(phi.background() / (phi.voxelSize()[0] * kReinitReach * kIterations)) + 2;
-  const LetGo never = [](const Coord&) { return false; };
-  for (int n = 0; n < rounds; ++n) {
-    extendBeyond(phi, solid, never, kInSolid);
-    redistance(phi, solid, kIterations);
-  }
-  extendBeyond(phi, solid, never, kInSolid);
-  trimBand(phi, *solid.phi);
 }
 
 bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options, StepReport* report,

@@ -72,9 +72,6 @@ void pour(Liquid& liquid, const ShapeDistance& body, const std::function<double(
 // Empties the places that solids leave when `before` turns into `after`.
 void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& after);
 
-// Makes phi a distance after pouring or a change of solids; it goes on behind the solids that it ends at.
-void settleSurface(FloatGrid& phi, const SolidField& solid);
-
 // Makes phi a distance and the velocity free of divergence after pouring or a change of solids or of flows.
 // Gravity and friction act for `kick` seconds. False when a solve does not converge.
 [[nodiscard]] bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options,

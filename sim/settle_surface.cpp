@@ -1,0 +1,31 @@
+#include "sim/settle_surface.h"
+
+#include "sim/level_set.h"
+
+namespace fluidtex::sim {
+namespace {
+
+// Of cells that the wall cuts, too, when their centres lie in it: else they would be air, and the body would
+// start by falling into their open part.
+constexpr float kInSolid = 0.0f;
+constexpr int kIterations = 4;
+
+}  // namespace
+
+void settleSurface(FloatGrid& phi, const SolidField& solid) {
+  for (const Coord& origin : wetLeaves(phi, grown(solid.domain, kLeafDim))) phi.tree().touchLeaf(origin);
+  for (auto leaf = solid.phi->constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
+  const float h = static_cast<float>(phi.voxelSize()[0]);
+  // A body that ends at a wall has its surface there; extending and reinitialising in turn makes it go on
+  // behind.
+  const LetGo never = [](const Coord&) { return false; };
+  const int rounds = static_cast<int>(phi.background() / (h * kReinitReach * kIterations)) + 2;
+  for (int n = 0; n < rounds; ++n) {
+    extendBeyond(phi, solid, never, kInSolid);
+    redistance(phi, solid, kIterations);
+  }
+  extendBeyond(phi, solid, never, kInSolid);
+  trimBand(phi, *solid.phi);
+}
+
+}  // namespace fluidtex::sim
