@@ -39,7 +39,7 @@ Coord cellAt(const Coord& origin, const Vec3f& x) {
 float oneSided(const Window& window, const Vec3f& x, const VisibleCells& visible, float far) {
   Stencil values;
   const Vec3f local = window.around(x, values);
-  goOnBehind(values, visible);
+  goOnBehind(values, visible, far / kFar);
   constexpr const int* kStride = VisibleCells::kStride;
   const float* low = values.data() + VisibleCells::kMiddle;
   float t[3];

@@ -135,8 +135,7 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
           const float length = normal.length();
           if (length < 0.5f * static_cast<float>(solid.voxelSize)) {
             if (isMiddleOfWall(wall, c, axis))
-              changes[n].push_back(
-                  {own[axis]->buffer().data() + offset, speed[axis][at] - velocity[axis]});
+              changes[n].push_back({own[axis]->buffer().data() + offset, speed[axis][at] - velocity[axis]});
             continue;
           }
           normal /= length;

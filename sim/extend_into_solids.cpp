@@ -79,6 +79,8 @@ struct Extension {
     // Air behind the solid's surface, which has moved with the flow since the liquid let go.
     if (liquid && away()) return {std::max(value[cell], depth[cell]), Vec3(0.0f), normal};
     const Vec3 along = slope - inward * normal;
+    // Air between the solid and a surface that goes away from it.
+    if (!liquid && inward > kAlongWall && away()) return {value[from], slope, slope};
     if (inward > kAlongWall) return {value[from], along, along};
     if (liquid || !reachesLiquid(kSolidLayers) || !away()) return {value[from], slope, slope};
     // A film would begin.

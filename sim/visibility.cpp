@@ -207,7 +207,10 @@ std::unique_ptr<Visibility::Leaf> look(const Surroundings& around) {
 
 }  // namespace
 
-void goOnBehind(Stencil& values, const VisibleCells& visible) {
+// Liquid whose surface rises towards the wall by more than this, of a cell in a cell, has let go of it.
+constexpr float kOpensGap = 0.55f;
+
+void goOnBehind(Stencil& values, const VisibleCells& visible, float cell) {
   if (visible.seesAll()) return;
   constexpr int kReach = VisibleCells::kReach;
   std::array<bool, VisibleCells::kCount> known;
@@ -232,7 +235,8 @@ void goOnBehind(Stencil& values, const VisibleCells& visible) {
             const float near = values[at + inwards];
             // Two steps inwards may lead past the middle, but never out of the stencil.
             const float further = known[at + 2 * inwards] ? 2.0f * near - values[at + 2 * inwards] : near;
-            sum += (further < 0.0f) == (near < 0.0f) ? further : near;
+            const bool sameSide = (further < 0.0f) == (near < 0.0f);
+            sum += sameSide || further - near > kOpensGap * cell ? further : near;
             ++count;
           }
           values[at] = sum / static_cast<float>(count);

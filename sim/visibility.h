@@ -36,8 +36,10 @@ struct VisibleCells {
 using Stencil = std::array<float, VisibleCells::kCount>;
 
 // Gives the cells that are not seen the values of those that are, going on linearly along the axes, so that a
-// level set runs on behind the wall as it does before it; it does not change its sign there.
-void goOnBehind(Stencil& values, const VisibleCells& visible);
+// level set runs on behind the wall as it does before it. It changes its sign there only from liquid to air,
+// where the liquid's surface lies along the wall: a gap may open, but no liquid begins there. cell: its size
+// in the values' unit.
+void goOnBehind(Stencil& values, const VisibleCells& visible, float cell);
 
 class Visibility {
  public:

@@ -190,7 +190,8 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
         // A corner of it may be open all the same: what comes through there has to be somewhere. Beyond an
         // open side of the domain it is gone.
         const float through = std::max(out, in);
-        if (through > kLeastFlow && solid.domain.isInside(origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7))) leaving[cell] = through;
+        if (through > kLeastFlow && solid.domain.isInside(origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7)))
+          leaving[cell] = through;
         continue;
       }
       if (moving) result.swept[cell] = swept;

@@ -203,3 +203,27 @@ TEST_CASE("air layers: what is linear in the liquid goes on linearly in the firs
   CHECK(checked > 100);
   CHECK(worst < 1e-4);
 }
+
+TEST_CASE(
+    "air layers: where no two faces of liquid lie in line what is carried is the liquid's, not the air's") {
+  Fixture f(0.1, 16, [](const Vec3d& x) { return x.length() - 0.11; });  // of a cell or two
+  f.setValid([](const Vec3d&, int a) { return a == 2 ? -1.0 : 0.0; });
+  // As fast as air can be that is squeezed out.
+  for (int a = 0; a < 3; ++a) {
+    const std::array<MaskGrid*, 3> masks{f.valid.u.get(), f.valid.v.get(), f.valid.w.get()};
+    for (auto it = f.velocity.component[a]->beginValueOn(); it; ++it)
+      if (!masks[a]->tree().isValueOn(it.getCoord())) it.setValue(-2.25f);
+  }
+  extendLinearly(f.velocity, *f.phi);
+  for (const auto& phi = f.phi->tree(); const FloatGrid::Ptr& grid : f.velocity.component) {
+    for (auto it = grid->cbeginValueOn(); it; ++it) {
+      bool near = false;
+      for (int n = 0; n < 6; ++n) {
+        Coord beside = it.getCoord();
+        beside[n / 2] += n % 2 == 0 ? -1 : 1;
+        near = near || phi.getValue(beside) < 0.0f;
+      }
+      if (near) REQUIRE(std::abs(*it) <= 1.2f);
+    }
+  }
+}

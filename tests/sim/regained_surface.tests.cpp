@@ -51,6 +51,24 @@ TEST_CASE("regained surface: liquid beside takes what is owed itself") {
   CHECK(phi->tree().getValue(Coord(8, 8, 8)) > 0.0f);
 }
 
+TEST_CASE("regained surface: a speck that shows liquid where none is left is withdrawn, the sum stays") {
+  const auto solid = Solids(tank(16, {})).at(0.0);
+  const Coord cell(8, 8, 8);
+  for (const float left : {0.0f, 0.2f}) {
+    const auto phi = makePhi(kVoxel, 6 * kVoxel);
+    phi->tree().setValueOn(cell, static_cast<float>(-0.02 * kVoxel));
+    const double shown = liquidVolume(*phi, *solid);
+    REQUIRE(shown > 0.4 * kCell);
+    const auto owed = owing(cell, left - static_cast<float>(shown / kCell));
+    Markers markers{{Coord(8, 8, 8), {{0.0f, 0.0f, 0.0f, -0.1f}, {3.0f, 0.0f, 0.0f, -0.1f}}}};
+    withdrawSurface(*phi, markers, *owed, *solid);
+    const double after = liquidVolume(*phi, *solid);
+    CHECK(after == Approx(left > 0.1f ? shown : 0.0).margin(1e-9));
+    CHECK(after + totalOwed(*owed) == Approx(left * kCell).margin(1e-6 * kCell));
+    CHECK(markers[0].markers.size() == (left > 0.1f ? 2 : 1));
+  }
+}
+
 TEST_CASE("regained surface: a drop that splashes onto the floor comes to rest as a puddle") {
   Options options = tank(24, {});
   options.viscosity = 600.0;

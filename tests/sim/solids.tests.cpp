@@ -249,3 +249,23 @@ TEST_CASE("solids: where two touch it is as solid as elsewhere") {
   for (int j = 4; j < 12; ++j)
     for (int k = 4; k < 12; ++k) CHECK(field->phi->tree().getValue(Coord(8, j, k)) < -0.49f * float(h));
 }
+
+TEST_CASE("constrain: nothing moves between the two sides of a thin wall") {
+  // A wall of 1.7 cells from z = 0.5 on; the air above it moves off.
+  const int n = 16;
+  const double h = 1.0 / n;
+  Solids solids(tank(n, {solidOf(Shape{Box{Vec3d(-1.0, -1.0, 0.5), Vec3d(2.0, 2.0, 0.5 + 1.7 * h)}})}));
+  const auto field = solids.at(0.0);
+  const auto phi = makePhi(h, 6 * h);
+  std::array<FloatGrid::Ptr, 3> c;
+  for (int a = 0; a < 3; ++a) {
+    c[a] = FloatGrid::create(0.0f);
+    c[a]->tree().fill(openvdb::CoordBBox(Coord(-2), Coord(n + 1)), a == 2 ? 1.0f : 0.5f, true);
+    c[a]->tree().voxelizeActiveTiles();
+  }
+  const FaceMasks none{MaskGrid::create(), MaskGrid::create(), MaskGrid::create()};
+  constrainToSolids(*c[0], *c[1], *c[2], *phi, *field, none, *MaskGrid::create());
+  CHECK(c[2]->tree().getValue(Coord(8, 8, 9)) == 0.0f);
+  CHECK(c[2]->tree().getValue(Coord(8, 8, 11)) == 1.0f);
+  CHECK(c[0]->tree().getValue(Coord(8, 8, 9)) == 0.5f);
+}

@@ -31,8 +31,8 @@ constexpr double kOwedOfSurface = 0.03;
 constexpr double kDrop = 4.2;
 // Of what sheets and threads of a cell or two show so much may be wrong: no grid knows how thick they are.
 constexpr double kOwedOfThin = 0.5;
-// In the step in which liquid meets a wall it has gone on for a part of the step, at most `cfl` cells: so much
-// of that, of a cell for each cell's face of the surface, may be owed at once.
+// In the step in which liquid meets a wall it has gone on for a part of the step, at most `cfl` cells: so
+// much of that, of a cell for each cell's face of the surface, may be owed at once.
 constexpr double kImpact = 0.1;
 // Times the speed that a fall from the highest place to the lowest gives. The front of a dam break alone has
 // 1.4 times that (Ritter), and where fronts meet or close, jets are faster still.

@@ -1,0 +1,31 @@
+#include "tools/stress_scenes/measures.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace fluidtex;
+using sim::Vec3d;
+
+TEST_CASE("stress: the mass that is measured is that of the volume, of thin sheets and cut cells too",
+          "[stress]") {
+  sim::Options options;
+  options.resolution = 20;
+  options.size = Vec3d(1.0, 0.93, 1.0);
+  options.density = 800.0;
+  options.liquid.push_back({{sim::Sphere{Vec3d(0.5, 0.4, 0.5), 0.2}}});
+  options.liquid.push_back({{sim::Box{Vec3d(0.1, 0.1, 0.82), Vec3d(0.9, 0.8, 0.85)}}});
+  sim::Solid solid;
+  solid.shape = {sim::Sphere{Vec3d(0.6, 0.5, 0.4), 0.15}};
+  options.solids.push_back(solid);
+  sim::Solver solver(options);
+  sim::Solids solids(options);
+  for (int n = 0; n < 4; ++n) {
+    const sim::Frame frame = solver.next();
+    const auto field = solids.around({solver.state().phi.get()}, frame.time, solids.active(frame.time));
+    const stress::Measures measures = stress::measure(solver.state(), *field, options);
+    CHECK(measures.mass == Approx(800.0 * frame.stats.volume).epsilon(1e-4));
+    CHECK(measures.thin > 0.0);
+    CHECK(measures.thin < 0.9 * frame.stats.volume);
+  }
+}
