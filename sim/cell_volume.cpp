@@ -69,7 +69,8 @@ void openShares(const SolidField& solid, const Coord& origin, LeafShares& open) 
   }
 }
 
-void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& origin, LeafShares& liquid) {
+void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& origin, LeafShares& liquid,
+                  bool unseen) {
   const float h = static_cast<float>(solid.voxelSize);
   openShares(solid, origin, liquid);
   const LeafPatch p = patchOf(phi.constTree(), origin), s = patchOf(solid.phi->constTree(), origin);
@@ -84,7 +85,7 @@ void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& or
     liquid[i] = liquid[i] == 1.0f || liquid[i] == 0.0f || wet == 1.0f
                     ? std::min(liquid[i], wet)
                     : shareWithin(liquid[i], wet, cosineBetween(p, s, at, h));
-    if (p[at] < 0.0f || liquid[i] == 0.0f) continue;
+    if (p[at] < 0.0f || liquid[i] == 0.0f || unseen) continue;
     bool beside = false;
     for (const int stride : kPatchStride) beside = beside || isLiquid(at - stride) || isLiquid(at + stride);
     if (!beside) liquid[i] = 0.0f;

@@ -26,6 +26,9 @@ constexpr int kGatherRounds = 4;
 constexpr int kSpreadRounds = 10;
 // Less than this share of a cell is nothing.
 constexpr float kNothing = 1e-6f;
+// Of a cell: what distances made anew differ by where nothing is lost; and what a plane's distance from a
+// cell's centre says of its share if the plane is aslant.
+constexpr float kRounding = 1e-3f, kSlanted = 0.05f;
 // What is owed in cells with less room than this share stays where it is.
 constexpr float kCarries = 1e-3f;
 // Rounds in which what a cell cannot hold goes on, a cell each.
@@ -303,22 +306,59 @@ FloatGrid::Ptr withUnseen(const FloatGrid* owed, const FloatGrid& phi, const Flo
   result->setName("owed");
   for (auto leaf = poured.constTree().cbeginLeaf(); leaf; ++leaf) {
     const Coord& origin = leaf->origin();
-    LeafShares seen, open;
+    LeafShares seen, whole;
     liquidShares(phi, solid, origin, seen);
-    openShares(solid, origin, open);
+    liquidShares(phi, solid, origin, whole, true);
     float scratch[kLeafSize];
     const float* p = leafValues(phi.constTree(), origin, scratch);
     FloatLeaf* to = nullptr;
     for (int i = 0; i < kLeafSize; ++i) {
-      const float liquid = std::min(open[i], 0.5f - p[i] / h);
-      if (p[i] < 0.0f || liquid <= 0.0f || seen[i] > 0.0f || leaf->getValue(i) >= 0.5f * h) continue;
+      if (p[i] < 0.0f || whole[i] <= 0.0f || seen[i] > 0.0f || leaf->getValue(i) >= 0.5f * h) continue;
       if (!solid.domain.isInside(leaf->offsetToGlobalCoord(i))) continue;
       if (to == nullptr) {
         to = result->tree().touchLeaf(origin);
         to->setValuesOn();
       }
-      to->setValueOnly(i, to->getValue(i) + liquid);
+      to->setValueOnly(i, to->getValue(i) + whole[i]);
     }
+  }
+  return result;
+}
+
+FloatGrid::Ptr withEroded(const FloatGrid* owed, const FloatGrid& phi, const FloatGrid& poured,
+                          const std::function<double(const Vec3d&)>& body, const SolidField& solid) {
+  const float h = static_cast<float>(solid.voxelSize);
+  FloatGrid::Ptr result = owed != nullptr ? owed->deepCopy() : FloatGrid::create(0.0f);
+  result->setTransform(cellTransform(solid.voxelSize));
+  result->setName("owed");
+  const auto leaves = leavesOf(poured.constTree());
+  std::vector<LeafShares> lost(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    lost[n].fill(0.0f);
+    LeafShares seen;
+    liquidShares(phi, solid, leaves[n]->origin(), seen);
+    float scratch[kLeafSize];
+    const float* room = leafValues(solid.phi->constTree(), leaves[n]->origin(), scratch);
+    for (int i = 0; i < kLeafSize; ++i) {
+      const double far = leaves[n]->getValue(i);
+      if (room[i] < h || std::abs(far) >= h) continue;
+      const Vec3d middle = poured.indexToWorld(leaves[n]->offsetToGlobalCoord(i));
+      double fine = 0.0;
+      for (int part = 0; part < 8; ++part) {
+        const Vec3d towards(part >> 2, (part >> 1) & 1, part & 1);
+        fine += std::clamp(0.5 - body(middle + 0.5 * h * (towards - Vec3d(0.5))) / (0.5 * h), 0.0, 1.0) / 8.0;
+      }
+      // Over a plane both are the same, but for this.
+      const double coarse = std::clamp(0.5 - far / h, 0.0, 1.0);
+      lost[n][i] = static_cast<float>(std::abs(fine - coarse) > kSlanted ? fine : coarse) - seen[i];
+    }
+  });
+  for (std::size_t n = 0; n < leaves.size(); ++n) {
+    if (std::all_of(lost[n].begin(), lost[n].end(), [](float v) { return std::abs(v) < kRounding; }))
+      continue;
+    FloatLeaf* to = result->tree().touchLeaf(leaves[n]->origin());
+    to->setValuesOn();
+    for (int i = 0; i < kLeafSize; ++i) to->setValueOnly(i, to->getValue(i) + lost[n][i]);
   }
   return result;
 }

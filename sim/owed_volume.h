@@ -12,6 +12,7 @@
 #include "sim/mac_grid.h"
 #include "sim/solids.h"
 
+#include <functional>
 #include <vector>
 
 namespace fluidtex::sim {
@@ -34,6 +35,12 @@ FloatGrid::Ptr growthOf(const FloatGrid& owed, double time);
 // was put in: films and drops that no cell's centre is in. poured: distances, metres, in leaves around it.
 FloatGrid::Ptr withUnseen(const FloatGrid* owed, const FloatGrid& phi, const FloatGrid& poured,
                           const SolidField& solid);
+
+// The same for what making phi a distance has cost the bodies that are poured at the start where they have
+// edges and corners, or are no more than a few cells thick; away from solids, beside which nothing is lost.
+// body: their distance, anywhere.
+FloatGrid::Ptr withEroded(const FloatGrid* owed, const FloatGrid& phi, const FloatGrid& poured,
+                          const std::function<double(const Vec3d&)>& body, const SolidField& solid);
 
 // What the surface shows in some blocks; for where phi is changed by other than flow.
 struct ShownLiquid {

@@ -258,7 +258,15 @@ void Solver::applyEvents() {
     liquid.owed =
         owedVolume(*whole, *liquid.phi, liquid.owed.get(), makeVelocity(h), *before, *m_solid, flows, 0.0);
   }
-  if (!due.empty()) liquid.owed = withUnseen(liquid.owed.get(), *liquid.phi, dueLiquid, *m_solid);
+  if (!due.empty()) {
+    liquid.owed = withUnseen(liquid.owed.get(), *liquid.phi, dueLiquid, *m_solid);
+    const auto body = [&](const Vec3d& x) {
+      double nearest = kForever;
+      for (const auto& [options, shape] : due) nearest = std::min(nearest, shape(x));
+      return nearest;
+    };
+    if (whole == nullptr) liquid.owed = withEroded(liquid.owed.get(), *liquid.phi, dueLiquid, body, *m_solid);
+  }
   store(m_state, std::move(liquid), h);
 }
 
