@@ -29,7 +29,7 @@ constexpr double kMostOwed = 0.02, kFewCells = 8.0;
 // Solids that come over no more than this share of the liquid go unmentioned.
 constexpr double kMentioned = 1e-3;
 // How often a step that fails is halved.
-constexpr int kMaxHalvings = 6;
+constexpr int kMaxHalvings = 8;
 // Times closer than this share of a frame are one.
 constexpr double kSameTime = 1e-6;
 
@@ -321,6 +321,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
 
     StepReport solves;
     std::optional<Liquid> next;
+    double longestNext = kForever;
     for (int halving = 0;; ++halving) {
       const double then = last ? time : m_state.time + dt;
       // Solids that come or go at that time do so after the step.
@@ -328,14 +329,20 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       const double after = last ? 1.0 / m_options.frameRate : remaining - dt;
       const double nextLongest =
           longestStep(m_options, speed + m_options.gravity.length() * dt, speedOf(*solid));
-      next = step(liquid, *m_solid, *solid, dt, evenPart(after, nextLongest), m_options, &solves,
+      const double nextDt = std::min(longestNext, evenPart(after, nextLongest));
+      next = step(liquid, *m_solid, *solid, dt, nextDt, m_options, &solves,
                   m_flows->at(m_state.time + 0.5 * dt));
       if (next) break;
       liquid.markers = seedMarkers(*liquid.phi, *m_solid->phi, markerSeed(m_options.seed, liquid.steps),
                                    m_solid->visibility.get());
       if (halving == kMaxHalvings) fail(m_state.time, dt, solves);
-      dt *= 0.5;
-      last = false;
+      // Forces act for half of the next step, too. Where that is the longer one a shorter step would not do.
+      if (nextDt > dt) {
+        longestNext = 0.5 * nextDt;
+      } else {
+        dt *= 0.5;
+        last = false;
+      }
     }
     frame.substeps.push_back(
         keepSubstep(dt, movingVelocity(liquid), *liquid.phi, {m_solid->phi.get(), solid->phi.get()}));

@@ -10,7 +10,7 @@ namespace fluidtex::sim {
 
 struct ViscosityOptions {
   double tolerance = 1e-6;  // of the residual's 2-norm, relative to the right-hand side's
-  int maxIterations = 300;
+  int maxIterations = 1000;
   // Nothing is done where viscosity dt / (density h^2) stays below this everywhere: at a CFL number of 1 the
   // flow about a cell then has a Reynolds number of over 10,000, and friction is far below what the
   // transport of velocity loses on a grid.
