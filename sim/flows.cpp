@@ -1,5 +1,6 @@
 #include "sim/flows.h"
 
+#include "sim/drop_markers.h"
 #include "sim/leaf_table.h"
 #include "sim/level_set.h"
 #include "sim/shapes.h"
@@ -133,19 +134,10 @@ void empty(FloatGrid& phi, const FloatGrid& drain) {
 }
 
 // Drops the markers of one side that lie in the shape.
-void dropMarkers(Markers& markers, const FloatGrid& shape, bool ofLiquid) {
-  tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
-    const openvdb::tree::ValueAccessor<const FloatTree> distance(shape.constTree());
-    const Coord& origin = markers[n].origin;
-    std::erase_if(markers[n].markers, [&](const Marker& m) {
-      if ((m.radius < 0.0f) != ofLiquid) return false;
-      const Coord cell =
-          origin.offsetBy(static_cast<int>(std::lround(m.x)), static_cast<int>(std::lround(m.y)),
-                          static_cast<int>(std::lround(m.z)));
-      return distance.getValue(cell) < 0.0f;
-    });
+void dropWithin(Markers& markers, const FloatGrid& shape, bool ofLiquid) {
+  dropMarkers(markers, [&](const Marker& m, const Coord& cell) {
+    return (m.radius < 0.0f) == ofLiquid && shape.constTree().getValue(cell) < 0.0f;
   });
-  std::erase_if(markers, [](const MarkerBlock& block) { return block.markers.empty(); });
 }
 
 struct GivenFaces {
@@ -289,11 +281,11 @@ std::vector<const FloatGrid*> Flows::places() const {
 void applyFlows(FloatGrid& phi, Markers& markers, const RunningFlows& flows) {
   for (const auto& [source, factor] : flows.sources) {
     fill(phi, *source);
-    dropMarkers(markers, *source->phi, false);
+    dropWithin(markers, *source->phi, false);
   }
   for (const FloatGrid* drain : flows.drains) {
     empty(phi, *drain);
-    dropMarkers(markers, *drain, true);
+    dropWithin(markers, *drain, true);
   }
 }
 

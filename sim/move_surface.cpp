@@ -1,10 +1,8 @@
 #include "sim/move_surface.h"
 
+#include "sim/drop_markers.h"
 #include "sim/level_set.h"
 
-#include <tbb/parallel_for.h>
-
-#include <cmath>
 #include <utility>
 
 namespace fluidtex::sim {
@@ -17,16 +15,8 @@ constexpr int kReinitIterations = 8;
 // of a surface that only went on behind the solid's.
 void dropLeft(Markers& markers, const FloatGrid& left) {
   const float deep = -kDeepInSolid * static_cast<float>(left.voxelSize()[0]);
-  tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
-    const openvdb::tree::ValueAccessor<const FloatTree> was(left.constTree());
-    const Coord& origin = markers[n].origin;
-    std::erase_if(markers[n].markers, [&](const Marker& m) {
-      return was.getValue(origin.offsetBy(static_cast<int>(std::lround(m.x)),
-                                          static_cast<int>(std::lround(m.y)),
-                                          static_cast<int>(std::lround(m.z)))) < deep;
-    });
-  });
-  std::erase_if(markers, [](const MarkerBlock& block) { return block.markers.empty(); });
+  dropMarkers(markers,
+              [&](const Marker&, const Coord& cell) { return left.constTree().getValue(cell) < deep; });
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "sim/regained_surface.h"
 
 #include "sim/cell_volume.h"
+#include "sim/drop_markers.h"
 #include "sim/leaf_patch.h"
 #include "sim/mac_grid.h"
 #include "sim/owed_volume.h"
@@ -67,19 +68,6 @@ std::array<Coord, 7> star(const Coord& cell) {
   return cells;
 }
 
-// Those of the air, or those of the liquid.
-void dropMarkers(Markers& markers, const std::set<Coord>& cells, bool ofAir) {
-  for (MarkerBlock& block : markers) {
-    std::erase_if(block.markers, [&](const Marker& m) {
-      const Coord cell =
-          block.origin.offsetBy(static_cast<int>(std::lround(m.x)), static_cast<int>(std::lround(m.y)),
-                                static_cast<int>(std::lround(m.z)));
-      return (m.radius > 0.0f) == ofAir && cells.contains(cell);
-    });
-  }
-  std::erase_if(markers, [](const MarkerBlock& block) { return block.markers.empty(); });
-}
-
 // Cells that show liquid where next to none is.
 std::vector<Coord> emptyIn(const FloatLeaf& owed, const FloatGrid& phi, const SolidField& solid) {
   const float* due = owed.buffer().data();
@@ -125,7 +113,8 @@ void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const Soli
       phi.tree().setValueOn(cell, std::min(phi.tree().getValue(cell), distance));
     }
   }
-  dropMarkers(markers, cells, true);
+  dropMarkers(markers,
+              [&](const Marker& m, const Coord& cell) { return m.radius > 0.0f && cells.contains(cell); });
   oweChange(owed, before, phi, solid);
 }
 
@@ -146,7 +135,8 @@ void withdrawSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const So
   const ShownLiquid before = shownAround(where, phi, solid);
   const float dry = 0.5f * static_cast<float>(phi.voxelSize()[0]);
   for (const Coord& cell : cells) phi.tree().setValueOn(cell, dry);
-  dropMarkers(markers, cells, false);
+  dropMarkers(markers,
+              [&](const Marker& m, const Coord& cell) { return m.radius < 0.0f && cells.contains(cell); });
   oweChange(owed, before, phi, solid);
 }
 
