@@ -13,11 +13,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 namespace fluidtex::sim {
 namespace {
 
+// A surface that rises towards a wall by more than this, of a cell in a cell, lies along it, and liquid that
+// moves by more than this many cells in a step leaves it. What is at rest does not.
+constexpr float kAlongWall = 0.55f, kMoves = 0.02f;
 // Farther from the surface than this, in cells, phi is interpolated linearly: it only has to be about right.
 constexpr float kFar = 4.0f;
 
@@ -36,10 +40,10 @@ Coord cellAt(const Coord& origin, const Vec3f& x) {
 }
 
 // phi at a place whose cell does not see all around it.
-float oneSided(const Window& window, const Vec3f& x, const VisibleCells& visible, float far) {
+float oneSided(const Window& window, const Vec3f& x, const VisibleCells& visible, float h, bool leaves) {
   Stencil values;
   const Vec3f local = window.around(x, values);
-  goOnBehind(values, visible, far / kFar);
+  goOnBehind(values, visible, leaves ? kAlongWall * h : std::numeric_limits<float>::infinity());
   constexpr const int* kStride = VisibleCells::kStride;
   const float* low = values.data() + VisibleCells::kMiddle;
   float t[3];
@@ -48,7 +52,7 @@ float oneSided(const Window& window, const Vec3f& x, const VisibleCells& visible
     t[a] = local[a] < 0.0f ? local[a] + 1.0f : local[a];
   }
   const float linear = trilinear(low, kStride[0], kStride[1], t[0], t[1], t[2]);
-  if (std::abs(linear) > far) return linear;
+  if (std::abs(linear) > kFar * h) return linear;
   float least = *low, most = *low;
   for (int n = 1; n < 8; ++n) {
     const float v = low[(n >> 2) * kStride[0] + (n >> 1 & 1) * kStride[1] + (n & 1)];
@@ -91,7 +95,8 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
       const auto look = [&](int i, const Vec3f& from) {
         float& out = (*moved[n])[i];
         if (const VisibleCells* visible = thinWalls ? visibility->around(cellAt(origin, from)) : nullptr) {
-          out = oneSided(before, from, *visible, far);
+          const Vec3f centre(float(i >> 6) + 0.5f, float((i >> 3) & 7) + 0.5f, float(i & 7) + 0.5f);
+          out = oneSided(before, from, *visible, h, (from - centre).length() > kMoves);
           return;
         }
         out = before.at(from);

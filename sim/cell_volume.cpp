@@ -40,12 +40,6 @@ float cosineBetween(const LeafPatch& phi, const LeafPatch& solid, int at, float 
   return lengths > 1e-2f * h * h ? dot / lengths : 1.0f;
 }
 
-LeafPatch patchOf(const FloatTree& tree, const Coord& origin) {
-  LeafPatch patch{};
-  gather(tree, origin, 1, patch.data(), true);
-  return patch;
-}
-
 }  // namespace
 
 void openShares(const SolidField& solid, const Coord& origin, LeafShares& open) {
@@ -70,7 +64,7 @@ void openShares(const SolidField& solid, const Coord& origin, LeafShares& open) 
 }
 
 void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& origin, LeafShares& liquid,
-                  bool unseen) {
+                  Counts counts) {
   const float h = static_cast<float>(solid.voxelSize);
   openShares(solid, origin, liquid);
   const LeafPatch p = patchOf(phi.constTree(), origin), s = patchOf(solid.phi->constTree(), origin);
@@ -85,7 +79,7 @@ void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& or
     liquid[i] = liquid[i] == 1.0f || liquid[i] == 0.0f || wet == 1.0f
                     ? std::min(liquid[i], wet)
                     : shareWithin(liquid[i], wet, cosineBetween(p, s, at, h));
-    if (p[at] < 0.0f || liquid[i] == 0.0f || unseen) continue;
+    if (p[at] < 0.0f || liquid[i] == 0.0f || counts == Counts::unseen) continue;
     bool beside = false;
     for (const int stride : kPatchStride) beside = beside || isLiquid(at - stride) || isLiquid(at + stride);
     if (!beside) liquid[i] = 0.0f;

@@ -16,8 +16,9 @@ void openShares(const SolidField& solid, const Coord& origin, LeafShares& open);
 
 // The share of each cell of a block that is liquid: what phi's surface encloses outside solids, from the
 // distances at the centre and the angle between the surface and the solid. A cell whose centre is not liquid
-// counts only beside one whose centre is: else there is no surface, and nobody sees it. unseen: it counts, too.
+// counts only beside one whose centre is: else there is no surface, and nobody sees it; or everywhere.
+enum class Counts { seen, unseen };
 void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& origin, LeafShares& liquid,
-                  bool unseen = false);
+                  Counts counts = Counts::seen);
 
 }  // namespace fluidtex::sim

@@ -50,12 +50,6 @@ bool beyondOpening(const SolidField& solid, const Coord& face, int axis) {
   return false;
 }
 
-// Whether a closed face lies between the two sides of a wall that is thin along the face's axis.
-bool isMiddleOfWall(const openvdb::tree::ValueAccessor<const FloatTree>& solid, const Coord& face, int axis) {
-  return solid.getValue(shifted(face, axis, 1)) > solid.getValue(face) &&
-         solid.getValue(shifted(face, axis, -2)) > solid.getValue(shifted(face, axis, -1));
-}
-
 // A leaf's active faces that are closed, or all but closed, and not known.
 FloatLeaf::NodeMaskType closedFaces(const FloatLeaf& leaf, const FloatTree& open, const MaskTree& known) {
   float scratch[kLeafSize];
@@ -130,14 +124,15 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
             velocity[a] = a == axis ? speed[a][at] : across(speed[a].data() + at, axis, a);
             if (moving) velocity[a] -= a == axis ? push[a][at] : across(push[a].data() + at, axis, a);
           }
-          // Deep inside a solid there is no normal: nothing reads the velocity there. In the middle of a thin
-          // wall both sides do.
-          const float length = normal.length();
-          if (length < 0.5f * static_cast<float>(solid.voxelSize)) {
-            if (isMiddleOfWall(wall, c, axis))
-              changes[n].push_back({own[axis]->buffer().data() + offset, speed[axis][at] - velocity[axis]});
+          // In the middle of a thin wall both sides read the velocity. Deep inside a solid there is no
+          // normal, and nothing does.
+          const bool within = *here < 0.0f && *below < 0.0f && here[kStride[axis]] > *here;
+          if (within && wall.getValue(shifted(c, axis, -2)) > *below) {
+            changes[n].push_back({own[axis]->buffer().data() + offset, speed[axis][at] - velocity[axis]});
             continue;
           }
+          const float length = normal.length();
+          if (length < 0.5f * static_cast<float>(solid.voxelSize)) continue;
           normal /= length;
           const float outward = velocity.dot(normal);
           if (outward >= 0.0f) {

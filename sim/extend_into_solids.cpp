@@ -79,9 +79,11 @@ struct Extension {
     // Air behind the solid's surface, which has moved with the flow since the liquid let go.
     if (liquid && away()) return {std::max(value[cell], depth[cell]), Vec3(0.0f), normal};
     const Vec3 along = slope - inward * normal;
-    // Air between the solid and a surface that goes away from it.
-    if (!liquid && inward > kAlongWall && away()) return {value[from], slope, slope};
-    if (inward > kAlongWall) return {value[from], along, along};
+    if (inward > kAlongWall) {
+      // Air between the solid and a surface that goes away from it stays.
+      const bool stays = !liquid && away();
+      return {value[from], stays ? slope : along, stays ? slope : along};
+    }
     if (liquid || !reachesLiquid(kSolidLayers) || !away()) return {value[from], slope, slope};
     // A film would begin.
     return {value[from], reachesLiquid(1.0f) ? along : slope, along};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sim/leaf_table.h"
+#include "sim/mac_grid.h"
 
 #include <algorithm>
 #include <array>
@@ -18,6 +19,13 @@ using LeafPatch = std::array<float, kPatchSide * kPatchSide * kPatchSide>;  // i
 inline int patchIndex(int offset) {
   return ((offset >> 6) + 1) * kPatchStride[0] + (((offset >> 3) & 7) + 1) * kPatchStride[1] + (offset & 7) +
          1;
+}
+
+// Of a leaf of a tree.
+inline LeafPatch patchOf(const FloatTree& tree, const Coord& origin) {
+  LeafPatch patch{};
+  gather(tree, origin, 1, patch.data(), true);
+  return patch;
 }
 
 // The layer of values next to a leaf's face `up` (0: the lower one, 1: the upper one) along kAxis.

@@ -111,7 +111,7 @@ float sample(const BlockSamples& distance, const Marker& m, const VisibleCells* 
     for (int j = -kReach; j <= kReach; ++j, to += VisibleCells::kSide)
       std::copy_n(distance.sample(nearestCell(m.x) + i, nearestCell(m.y) + j, nearestCell(m.z) - kReach),
                   VisibleCells::kSide, to);
-  goOnBehind(values, *visible, 1.0f);
+  goOnBehind(values, *visible);
   return trilinear(values.data() + cornerOf(m, 0), VisibleCells::kStride[0], VisibleCells::kStride[1],
                    m.x - std::floor(m.x), m.y - std::floor(m.y), m.z - std::floor(m.z));
 }

@@ -26,9 +26,11 @@ constexpr int kGatherRounds = 4;
 constexpr int kSpreadRounds = 10;
 // Less than this share of a cell is nothing.
 constexpr float kNothing = 1e-6f;
-// Of a cell: what distances made anew differ by where nothing is lost; and what a plane's distance from a
-// cell's centre says of its share if the plane is aslant.
-constexpr float kRounding = 1e-3f, kSlanted = 0.05f;
+// Of a cell: distances made anew differ by less where nothing is lost.
+constexpr float kRounding = 1e-3f;
+// The share of a cell that a plane leaves, by its distance from the centre alone, is wrong by less where the
+// plane is aslant.
+constexpr float kSlanted = 0.05f;
 // What is owed in cells with less room than this share stays where it is.
 constexpr float kCarries = 1e-3f;
 // Rounds in which what a cell cannot hold goes on, a cell each.
@@ -216,6 +218,29 @@ void spreadInLiquid(const LeafTable& leaves, const std::vector<float>& phi, cons
   }
 }
 
+// The share of a cell that a body takes: as liquidShares says, by its distance from the centre, but beside
+// edges by those of the cell's eight parts.
+float shareOf(const std::function<double(const Vec3d&)>& body, float far, const Vec3d& middle, float h) {
+  double fine = 0.0;
+  for (int part = 0; part < 8; ++part) {
+    const Vec3d towards(part >> 2, (part >> 1) & 1, part & 1);
+    fine += std::clamp(0.5 - body(middle + 0.5 * h * (towards - Vec3d(0.5))) / (0.5 * h), 0.0, 1.0) / 8.0;
+  }
+  const double coarse = std::clamp(0.5 - double(far) / h, 0.0, 1.0);
+  return static_cast<float>(std::abs(fine - coarse) > kSlanted ? fine : coarse);
+}
+
+// What is beyond a side of the domain is gone.
+void dropOutside(const LeafTable& leaves, const CoordBBox& domain, std::vector<float>& owed) {
+  for (std::size_t n = 0; n < leaves.size(); ++n) {
+    if (domain.isInside(CoordBBox::createCube(leaves.origins[n], kLeafDim))) continue;
+    for (int i = 0; i < kLeafSize; ++i) {
+      const Coord cell = leaves.origins[n].offsetBy(i >> 6, (i >> 3) & 7, i & 7);
+      if (!domain.isInside(cell)) owed[n * kLeafSize + i] = 0.0f;
+    }
+  }
+}
+
 // Nothing is owed within a cell of what is always full or always empty.
 void forgive(const LeafTable& leaves, const FloatGrid& shape, float h, std::vector<float>& owed) {
   for (std::size_t n = 0; n < leaves.size(); ++n) {
@@ -283,6 +308,7 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
     // Out of solids that have come over liquid it leads to their surface.
     if (openAfter[at] <= 0.0f) phi[at] = kFar * h - (moved ? depth[at] : 0.0f);
   }
+  dropOutside(leaves, solid.domain, due);
   for (const auto& running : flows.sources) forgive(leaves, *running.source->phi, h, due);
   for (const FloatGrid* drain : flows.drains) forgive(leaves, *drain, h, due);
   gatherInLiquid(leaves, phi, kFar * h, due);
@@ -298,67 +324,48 @@ double totalOwed(const FloatGrid& owed) {
   return cells * std::pow(owed.voxelSize()[0], 3);
 }
 
-FloatGrid::Ptr withUnseen(const FloatGrid* owed, const FloatGrid& phi, const FloatGrid& poured,
-                          const SolidField& solid) {
+FloatGrid::Ptr withPoured(const FloatGrid* owed, const PouredLiquid& poured, const FloatGrid& settled,
+                          const SolidField& solid, const RunningFlows& flows) {
   const float h = static_cast<float>(solid.voxelSize);
   FloatGrid::Ptr result = owed != nullptr ? owed->deepCopy() : FloatGrid::create(0.0f);
   result->setTransform(cellTransform(solid.voxelSize));
   result->setName("owed");
-  for (auto leaf = poured.constTree().cbeginLeaf(); leaf; ++leaf) {
-    const Coord& origin = leaf->origin();
-    LeafShares seen, whole;
-    liquidShares(phi, solid, origin, seen);
-    liquidShares(phi, solid, origin, whole, true);
-    float scratch[kLeafSize];
-    const float* p = leafValues(phi.constTree(), origin, scratch);
-    FloatLeaf* to = nullptr;
-    for (int i = 0; i < kLeafSize; ++i) {
-      if (p[i] < 0.0f || whole[i] <= 0.0f || seen[i] > 0.0f || leaf->getValue(i) >= 0.5f * h) continue;
-      if (!solid.domain.isInside(leaf->offsetToGlobalCoord(i))) continue;
-      if (to == nullptr) {
-        to = result->tree().touchLeaf(origin);
-        to->setValuesOn();
-      }
-      to->setValueOnly(i, to->getValue(i) + whole[i]);
-    }
-  }
-  return result;
-}
-
-FloatGrid::Ptr withEroded(const FloatGrid* owed, const FloatGrid& phi, const FloatGrid& poured,
-                          const std::function<double(const Vec3d&)>& body, const SolidField& solid) {
-  const float h = static_cast<float>(solid.voxelSize);
-  FloatGrid::Ptr result = owed != nullptr ? owed->deepCopy() : FloatGrid::create(0.0f);
-  result->setTransform(cellTransform(solid.voxelSize));
-  result->setName("owed");
-  const auto leaves = leavesOf(poured.constTree());
-  std::vector<LeafShares> lost(leaves.size());
+  const auto leaves = leavesOf(poured.bodies.constTree());
+  std::vector<LeafShares> more(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    lost[n].fill(0.0f);
-    LeafShares seen;
-    liquidShares(phi, solid, leaves[n]->origin(), seen);
+    const Coord& origin = leaves[n]->origin();
+    more[n].fill(0.0f);
+    LeafShares seen, whole, after;
+    liquidShares(poured.phi, solid, origin, seen);
+    liquidShares(poured.phi, solid, origin, whole, Counts::unseen);
+    liquidShares(settled, solid, origin, after);
     float scratch[kLeafSize];
-    const float* room = leafValues(solid.phi->constTree(), leaves[n]->origin(), scratch);
+    const float* room = leafValues(solid.phi->constTree(), origin, scratch);
     for (int i = 0; i < kLeafSize; ++i) {
-      const double far = leaves[n]->getValue(i);
-      if (room[i] < h || std::abs(far) >= h) continue;
-      const Vec3d middle = poured.indexToWorld(leaves[n]->offsetToGlobalCoord(i));
-      double fine = 0.0;
-      for (int part = 0; part < 8; ++part) {
-        const Vec3d towards(part >> 2, (part >> 1) & 1, part & 1);
-        fine += std::clamp(0.5 - body(middle + 0.5 * h * (towards - Vec3d(0.5))) / (0.5 * h), 0.0, 1.0) / 8.0;
+      const Coord cell = leaves[n]->offsetToGlobalCoord(i);
+      const float far = leaves[n]->getValue(i);
+      if (!solid.domain.isInside(cell) || std::abs(far) >= h) continue;
+      if (poured.distance && room[i] >= h) {
+        more[n][i] = shareOf(poured.distance, far, settled.indexToWorld(cell), h) - after[i];
+      } else if (seen[i] == 0.0f && far < 0.5f * h) {
+        more[n][i] = whole[i];
       }
-      // Over a plane both are the same, but for this.
-      const double coarse = std::clamp(0.5 - far / h, 0.0, 1.0);
-      lost[n][i] = static_cast<float>(std::abs(fine - coarse) > kSlanted ? fine : coarse) - seen[i];
     }
+    const auto none = [&](const FloatGrid& shape) {
+      float values[kLeafSize];
+      const float* distance = leafValues(shape.constTree(), origin, values);
+      for (int i = 0; i < kLeafSize; ++i)
+        if (distance[i] < h) more[n][i] = 0.0f;
+    };
+    for (const auto& running : flows.sources) none(*running.source->phi);
+    for (const FloatGrid* drain : flows.drains) none(*drain);
   });
   for (std::size_t n = 0; n < leaves.size(); ++n) {
-    if (std::all_of(lost[n].begin(), lost[n].end(), [](float v) { return std::abs(v) < kRounding; }))
+    if (std::all_of(more[n].begin(), more[n].end(), [](float v) { return std::abs(v) < kRounding; }))
       continue;
     FloatLeaf* to = result->tree().touchLeaf(leaves[n]->origin());
     to->setValuesOn();
-    for (int i = 0; i < kLeafSize; ++i) to->setValueOnly(i, to->getValue(i) + lost[n][i]);
+    for (int i = 0; i < kLeafSize; ++i) to->setValueOnly(i, to->getValue(i) + more[n][i]);
   }
   return result;
 }

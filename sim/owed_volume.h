@@ -31,16 +31,20 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
 // centres, of half a cell at most.
 FloatGrid::Ptr growthOf(const FloatGrid& owed, double time);
 
-// Adds to what is owed (null for nothing) the liquid of `poured` that phi's surface does not show where it
-// was put in: films and drops that no cell's centre is in. poured: distances, metres, in leaves around it.
-FloatGrid::Ptr withUnseen(const FloatGrid* owed, const FloatGrid& phi, const FloatGrid& poured,
-                          const SolidField& solid);
+// Bodies of liquid that have been put in at once.
+struct PouredLiquid {
+  const FloatGrid& bodies;  // distance to them, metres, in leaves around them
+  const FloatGrid& phi;     // with all that was there before, not yet settled
+  // The same as `bodies`, anywhere; null unless they are all that there is.
+  std::function<double(const Vec3d&)> distance;
+};
 
-// The same for what making phi a distance has cost the bodies that are poured at the start where they have
-// edges and corners, or are no more than a few cells thick; away from solids, beside which nothing is lost.
-// body: their distance, anywhere.
-FloatGrid::Ptr withEroded(const FloatGrid* owed, const FloatGrid& phi, const FloatGrid& poured,
-                          const std::function<double(const Vec3d&)>& body, const SolidField& solid);
+// Adds to what is owed (null for nothing) what the surface does not show of liquid that is poured: films and
+// drops that no cell's centre is in; and, at the start and away from solids, what settling, which makes phi a
+// distance, wears off edges and bodies of a few cells. settled: phi after that. Nothing within a cell of
+// sources and drains.
+FloatGrid::Ptr withPoured(const FloatGrid* owed, const PouredLiquid& poured, const FloatGrid& settled,
+                          const SolidField& solid, const RunningFlows& flows);
 
 // What the surface shows in some blocks; for where phi is changed by other than flow.
 struct ShownLiquid {

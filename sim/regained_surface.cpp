@@ -25,19 +25,13 @@ constexpr float kRoomy = 0.75f;
 
 // Of a cell's volume: what shows in it, and of that, what is nothing.
 constexpr float kShows = 0.3f, kEmpty = 0.05f;
-// Deeper in the liquid than this, in cells, a surface is no speck.
+// Where the liquid is deeper than this, in cells, in a cell or beside it, it is no speck.
 constexpr float kShallow = 0.5f;
 
 struct Regained {
   Coord cell;
   float share;  // of it that is liquid
 };
-
-LeafPatch patchOf(const FloatTree& tree, const Coord& origin) {
-  LeafPatch patch{};
-  gather(tree, origin, 1, patch.data(), true);
-  return patch;
-}
 
 std::vector<Regained> regainedIn(const FloatLeaf& owed, const FloatTree& phi, const SolidField& solid) {
   const float* due = owed.buffer().data();
@@ -75,11 +69,13 @@ std::vector<Coord> emptyIn(const FloatLeaf& owed, const FloatGrid& phi, const So
   if (std::none_of(due, due + kLeafSize, [](float v) { return v < kEmpty - kShows; })) return found;
   LeafShares shown;
   liquidShares(phi, solid, owed.origin(), shown);
-  float scratch[kLeafSize];
-  const float* distance = leafValues(phi.constTree(), owed.origin(), scratch);
-  const float h = static_cast<float>(solid.voxelSize);
+  const LeafPatch distance = patchOf(phi.constTree(), owed.origin());
+  const float deep = -kShallow * static_cast<float>(solid.voxelSize);
   for (int i = 0; i < kLeafSize; ++i) {
-    const bool shallow = distance[i] < 0.0f && distance[i] > -kShallow * h;
+    const int at = patchIndex(i);
+    bool shallow = distance[at] < 0.0f && distance[at] > deep;
+    for (const int stride : kPatchStride)
+      shallow = shallow && distance[at - stride] > deep && distance[at + stride] > deep;
     if (shallow && shown[i] > kShows && shown[i] + due[i] < kEmpty)
       found.push_back(owed.offsetToGlobalCoord(i));
   }

@@ -29,7 +29,7 @@ constexpr double kMostOwed = 0.02, kFewCells = 8.0;
 // Solids that come over no more than this share of the liquid go unmentioned.
 constexpr double kMentioned = 1e-3;
 // How often a step that fails is halved.
-constexpr int kMaxHalvings = 8;
+constexpr int kMaxHalvings = 6;
 // Times closer than this share of a frame are one.
 constexpr double kSameTime = 1e-6;
 
@@ -180,6 +180,7 @@ void Solver::prepare() {
   m_flows = std::make_shared<Flows>(m_options);
   m_active = m_solids->active(m_state.time);
   m_solid = solidsAround(m_state.time, *m_state.phi);
+  m_whole = liquidVolume(*m_state.phi, *m_solid) + (m_state.owed ? totalOwed(*m_state.owed) : 0.0);
   m_warnings = m_solids->warnings();
   for (std::string& warning : flowWarnings(m_options, *m_solids)) m_warnings.push_back(std::move(warning));
 }
@@ -230,7 +231,8 @@ void Solver::applyEvents() {
   }
   if (!changed) return;
   // Making distances anew costs thin liquid, much of it in the middle of a splash.
-  const FloatGrid::Ptr whole = m_state.frame > 0 ? liquid.phi->deepCopy() : nullptr;
+  const bool start = m_state.frame == 0;
+  const FloatGrid::Ptr whole = liquid.phi->deepCopy();
   // Up to the middle of the first step.
   const double first = longestStep(m_options, fastest(liquid), speedOf(*m_solid));
   double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
@@ -245,7 +247,7 @@ void Solver::applyEvents() {
     if (!(kick > 0.0) || halving == kMaxHalvings) fail(now, 2.0 * kick, report);
     kick *= 0.5;
   }
-  if (whole != nullptr && solidsChanged) {
+  if (!start && solidsChanged) {
     const double covered = liquidVolume(*whole, *before) - liquidVolume(*whole, *m_solid);
     if (covered > kMentioned * m_whole) {
       std::ostringstream text;
@@ -254,18 +256,20 @@ void Solver::applyEvents() {
       m_warnings.push_back(text.str());
     }
   }
-  if (whole != nullptr) {
+  if (!start) {
     liquid.owed =
         owedVolume(*whole, *liquid.phi, liquid.owed.get(), makeVelocity(h), *before, *m_solid, flows, 0.0);
   }
   if (!due.empty()) {
-    liquid.owed = withUnseen(liquid.owed.get(), *liquid.phi, dueLiquid, *m_solid);
-    const auto body = [&](const Vec3d& x) {
-      double nearest = kForever;
-      for (const auto& [options, shape] : due) nearest = std::min(nearest, shape(x));
-      return nearest;
-    };
-    if (whole == nullptr) liquid.owed = withEroded(liquid.owed.get(), *liquid.phi, dueLiquid, body, *m_solid);
+    PouredLiquid poured{dueLiquid, *whole, {}};
+    if (start) {
+      poured.distance = [&](const Vec3d& x) {
+        double nearest = kForever;
+        for (const auto& [body, shape] : due) nearest = std::min(nearest, shape(x));
+        return nearest;
+      };
+    }
+    liquid.owed = withPoured(liquid.owed.get(), poured, *liquid.phi, *m_solid, flows);
   }
   store(m_state, std::move(liquid), h);
 }
@@ -322,7 +326,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     StepReport solves;
     std::optional<Liquid> next;
     double longestNext = kForever;
-    for (int halving = 0;; ++halving) {
+    for (int halving = 0;;) {
       const double then = last ? time : m_state.time + dt;
       // Solids that come or go at that time do so after the step.
       solid = solidsAround(then, *m_state.phi);
@@ -335,14 +339,13 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       if (next) break;
       liquid.markers = seedMarkers(*liquid.phi, *m_solid->phi, markerSeed(m_options.seed, liquid.steps),
                                    m_solid->visibility.get());
-      if (halving == kMaxHalvings) fail(m_state.time, dt, solves);
-      // Forces act for half of the next step, too. Where that is the longer one a shorter step would not do.
-      if (nextDt > dt) {
-        longestNext = 0.5 * nextDt;
-      } else {
+      // Forces act for half of the next step, too. Where that is by far the longer one it comes first.
+      if (nextDt <= 1.5 * dt) {
+        if (halving++ == kMaxHalvings) fail(m_state.time, dt, solves);
         dt *= 0.5;
         last = false;
       }
+      longestNext = dt;
     }
     frame.substeps.push_back(
         keepSubstep(dt, movingVelocity(liquid), *liquid.phi, {m_solid->phi.get(), solid->phi.get()}));

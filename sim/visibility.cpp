@@ -207,10 +207,7 @@ std::unique_ptr<Visibility::Leaf> look(const Surroundings& around) {
 
 }  // namespace
 
-// Liquid whose surface rises towards the wall by more than this, of a cell in a cell, has let go of it.
-constexpr float kOpensGap = 0.55f;
-
-void goOnBehind(Stencil& values, const VisibleCells& visible, float cell) {
+void goOnBehind(Stencil& values, const VisibleCells& visible, float gap) {
   if (visible.seesAll()) return;
   constexpr int kReach = VisibleCells::kReach;
   std::array<bool, VisibleCells::kCount> known;
@@ -236,7 +233,7 @@ void goOnBehind(Stencil& values, const VisibleCells& visible, float cell) {
             // Two steps inwards may lead past the middle, but never out of the stencil.
             const float further = known[at + 2 * inwards] ? 2.0f * near - values[at + 2 * inwards] : near;
             const bool sameSide = (further < 0.0f) == (near < 0.0f);
-            sum += sameSide || further - near > kOpensGap * cell ? further : near;
+            sum += sameSide || further - near > gap ? further : near;
             ++count;
           }
           values[at] = sum / static_cast<float>(count);

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -36,10 +37,10 @@ struct VisibleCells {
 using Stencil = std::array<float, VisibleCells::kCount>;
 
 // Gives the cells that are not seen the values of those that are, going on linearly along the axes, so that a
-// level set runs on behind the wall as it does before it. It changes its sign there only from liquid to air,
-// where the liquid's surface lies along the wall: a gap may open, but no liquid begins there. cell: its size
-// in the values' unit.
-void goOnBehind(Stencil& values, const VisibleCells& visible, float cell);
+// level set runs on behind the wall as it does before it. It does not change its sign there, but from liquid
+// to air where it rises by more than `gap` in a cell: liquid that leaves a wall along which its surface lies.
+void goOnBehind(Stencil& values, const VisibleCells& visible,
+                float gap = std::numeric_limits<float>::infinity());
 
 class Visibility {
  public:

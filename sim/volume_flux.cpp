@@ -15,6 +15,8 @@ namespace {
 // Cells with less room than this share do not make sub-steps shorter.
 constexpr float kSliver = 0.25f;
 constexpr float kLeastRoom = 1e-12f;
+// Beyond an open side of the domain there is so much room that what flows in or out changes no share.
+constexpr float kBeyond = 1e6f;
 // Less than this share of a cell is no flow.
 constexpr float kLeastFlow = 1e-6f;
 
@@ -170,9 +172,12 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
         flux[face + kNextFace[axis]] = step * share[axis][above] * speed[above];
       }
     }
+    const bool within = solid.domain.isInside(openvdb::CoordBBox::createCube(origin, kLeafDim));
     for (int i = 0; i < kLeafSize; ++i) {
       const std::size_t cell = n * kLeafSize + i;
       const int at = patchIndex(i);
+      const bool outside = !within && !solid.domain.isInside(origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7));
+      if (outside) result.open[cell] = 0.0f;
       float out = 0.0f, in = 0.0f, swept = 0.0f, throughFace = 0.0f;
       for (int axis = 0; axis < 3; ++axis) {
         const float* flux = result.flux[n][axis].data() + faceIndex(i, axis);
@@ -187,11 +192,13 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
       }
       result.phi[cell] = 0.5f * (from[i] + to[i]) / h;
       if (result.open[cell] <= 0.0f) {
-        // A corner of it may be open all the same: what comes through there has to be somewhere. Beyond an
-        // open side of the domain it is gone.
+        // A corner of it may be open all the same: what comes through there has to be somewhere.
         const float through = std::max(out, in);
-        if (through > kLeastFlow && solid.domain.isInside(origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7)))
+        if (outside) {
+          result.room[cell] = through > kLeastFlow ? kBeyond : 0.0f;
+        } else if (through > kLeastFlow) {
           leaving[cell] = through;
+        }
         continue;
       }
       if (moving) result.swept[cell] = swept;

@@ -208,7 +208,7 @@ TEST_CASE(
     "air layers: where no two faces of liquid lie in line what is carried is the liquid's, not the air's") {
   Fixture f(0.1, 16, [](const Vec3d& x) { return x.length() - 0.11; });  // of a cell or two
   f.setValid([](const Vec3d&, int a) { return a == 2 ? -1.0 : 0.0; });
-  // As fast as air can be that is squeezed out.
+  // As fast as air that is squeezed out.
   for (int a = 0; a < 3; ++a) {
     const std::array<MaskGrid*, 3> masks{f.valid.u.get(), f.valid.v.get(), f.valid.w.get()};
     for (auto it = f.velocity.component[a]->beginValueOn(); it; ++it)

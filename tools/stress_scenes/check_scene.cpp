@@ -31,8 +31,8 @@ constexpr double kOwedOfSurface = 0.03;
 constexpr double kDrop = 4.2;
 // Of what sheets and threads of a cell or two show so much may be wrong: no grid knows how thick they are.
 constexpr double kOwedOfThin = 0.5;
-// In the step in which liquid meets a wall it has gone on for a part of the step, at most `cfl` cells: so
-// much of that, of a cell for each cell's face of the surface, may be owed at once.
+// Liquid that meets a wall within a step goes into it until the step ends, by `cfl` cells at most. So much of
+// that may be owed at once, times the surface's area.
 constexpr double kImpact = 0.1;
 // Times the speed that a fall from the highest place to the lowest gives. The front of a dam break alone has
 // 1.4 times that (Ritter), and where fronts meet or close, jets are faster still.
@@ -213,11 +213,12 @@ class Checks {
     m_energy = std::min(m_energy, sum + unseenEnergy(frame, now));
   }
 
-  // What liquid that is owed can have of motion and of surface: it moves as the liquid seen does, in drops
-  // of a cell or larger. It may be seen again.
+  // What liquid that is owed can have of motion and of surface: it moves as the liquid seen does on the
+  // whole, in drops of a cell or larger. It may be seen again.
   double unseenEnergy(const sim::Frame& frame, const Measures& now) const {
     const double unseen = std::max(0.0, frame.stats.owed), perVolume = std::cbrt(36.0 * M_PI);
-    return 0.5 * m_options.density * unseen * now.speed.value * now.speed.value +
+    const double ofMotion = now.mass > 0.0 ? now.kinetic / now.mass : 0.0;
+    return m_options.density * unseen * ofMotion +
            m_options.surfaceTension * perVolume * unseen / m_options.voxelSize();
   }
 
