@@ -21,7 +21,8 @@ struct MeshDistance {
   double at(const Vec3d& x) const;
 };
 
-// In cells. Farther away, only where walls or gaps of three cells and more are halved there is a difference.
+// In cells. Farther away interpolated distances are less only in the middle of walls and gaps that are
+// thicker than three cells, where nothing depends on it.
 inline constexpr double kExactMeshBand = 1.5;
 
 // Throws std::runtime_error, whose words go on a sentence that begins with what the mesh is, where its level
