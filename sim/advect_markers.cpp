@@ -1,6 +1,6 @@
 #include "sim/block_samples.h"
 #include "sim/local_reach.h"
-#include "sim/markers.h"
+#include "sim/marker_sight.h"
 #include "sim/require.h"
 
 #include <tbb/parallel_for.h>
@@ -88,7 +88,7 @@ struct Motion {
 
 }  // namespace
 
-Markers advectMarkers(Markers markers, const Velocity& velocity, double dt) {
+Markers advectMarkers(Markers markers, const Velocity& velocity, double dt, const Visibility* visibility) {
   if (markers.empty()) return {};
   const double h = velocity.component[0]->voxelSize()[0];
   const float scale = static_cast<float>(dt / h);
@@ -104,7 +104,7 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt) {
   std::vector<Moved> parts(markers.size());
   tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
     thread_local Motion motion;
-    thread_local std::vector<Marker> stay;
+    thread_local std::vector<Marker> stay, before;
     thread_local std::vector<std::pair<int, Marker>> leave;
     const int halo = static_cast<int>(std::ceil(reach.from(markers[n].origin))) + 2;
     motion.load(velocity, markers[n].origin, halo, scale);
@@ -117,10 +117,17 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt) {
         return m.radius > 0.0f && motion.squeeze.at(m.x, m.y, m.z) > kMaxSqueeze;
       });
     }
+    // In the middle of a thin wall a marker is between two sides, and the least that moves it would put the
+    // liquid of one side into the air of the other.
+    const Sight sight(visibility, markers[n].origin);
+    before.clear();
+    if (sight.any()) before = here;
     Marker none{};
     for (std::size_t m = 0; m < here.size(); m += 2)
       motion.trace(here[m], m + 1 < here.size() ? here[m + 1] : none);
-    for (Marker& m : here) {
+    for (std::size_t number = 0; number < here.size(); ++number) {
+      Marker& m = here[number];
+      if (sight.any() && sight.parts(before[number], m)) continue;
       const int di = wrap(m.x), dj = wrap(m.y), dk = wrap(m.z), to = neighborNumber(di, dj, dk);
       if (to == kHere) {
         stay.push_back(m);

@@ -2,6 +2,7 @@
 
 #include "random/random.h"
 #include "sim/block_samples.h"
+#include "sim/marker_sight.h"
 
 #include <tbb/parallel_for.h>
 
@@ -68,30 +69,6 @@ bool liesOnWall(const Marker& m, const BlockSamples& distance, const BlockSample
 
 // Beside thin walls: what VisibleCells reach around a marker's nearest cell.
 constexpr int kThinWallHalo = VisibleCells::kReach + 1;
-
-// The cell whose centre is nearest to a marker, along one axis.
-int nearestCell(float x) {
-  return static_cast<int>(std::floor(x + 0.5f));
-}
-
-// What the markers of a block see from their nearest cells.
-class Sight {
- public:
-  Sight(const Visibility* visibility, const Coord& origin) : m_visibility(visibility), m_origin(origin) {
-    if (visibility == nullptr || !visibility->touches(openvdb::CoordBBox(origin, origin.offsetBy(kLeafDim))))
-      m_visibility = nullptr;
-  }
-  bool any() const { return m_visibility != nullptr; }
-  // null where all is seen.
-  const VisibleCells* at(const Marker& m) const {
-    if (m_visibility == nullptr) return nullptr;
-    return m_visibility->around(m_origin.offsetBy(nearestCell(m.x), nearestCell(m.y), nearestCell(m.z)));
-  }
-
- private:
-  const Visibility* m_visibility;
-  Coord m_origin;
-};
 
 // A corner of the cube of cell centres around a marker, as VisibleCells of its nearest cell know it.
 int cornerOf(const Marker& m, int corner) {

@@ -44,8 +44,10 @@ Markers seedMarkers(const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64
 
 // The markers dt seconds later (give them away: there are too many to keep twice): third-order Runge-Kutta,
 // velocity trilinear. Throws std::invalid_argument where dt max|u| / h is not below 5 (kMaxTrace).
-// Markers of the air that the flow squeezes out between liquid and liquid are dropped.
-Markers advectMarkers(Markers markers, const Velocity& velocity, double dt);
+// Markers of the air that the flow squeezes out between liquid and liquid are dropped, and those that come
+// out on the other side of a thin solid. visibility: of the solids (SolidField), null for none that are thin.
+Markers advectMarkers(Markers markers, const Velocity& velocity, double dt,
+                      const Visibility* visibility = nullptr);
 
 // Puts phi right at the corners of cells with escaped markers, those farther on the wrong side than their
 // radius; at those that are on the marker's side of a thin solid.

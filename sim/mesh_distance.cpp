@@ -1,5 +1,7 @@
-// Distances are OpenVDB's, without signs; the signs are those of winding numbers. OpenVDB's own, by a flood
-// from outside, fill cavities and what is narrower than two cells, and need all of the mesh.
+// At corners of cells distances are OpenVDB's, without signs; the signs are those of winding numbers.
+// OpenVDB's own, by a flood from outside, fill cavities and what is narrower than two cells, and need all of
+// the mesh. Between corners distances are those of the closest triangle: interpolated ones would miss walls
+// and gaps that have no corner in them, and round off all that have few.
 #include "sim/mesh_distance.h"
 
 #include "sim/inside_test.h"
@@ -13,8 +15,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <optional>
 #include <sstream>
 
@@ -244,6 +244,50 @@ void fillInside(openvdb::FloatGrid& grid, const InsideTest& inside, const BBoxd&
     for (const openvdb::Coord& block : blocks) grid.tree().addTile(1, block, -grid.background(), false);
 }
 
+constexpr double kHalfDiagonal = 0.866026;  // of a cell
+
+// The distances at the corners of the cell that a place (in cells) lies in.
+class Corners {
+ public:
+  Corners(const openvdb::FloatTree& tree, const Vec3d& place) {
+    const openvdb::Coord first = openvdb::Coord::floor(place);
+    m_share = place - first.asVec3d();
+    const Leaf* leaf = tree.probeConstLeaf(first);
+    constexpr int kLast = int(Leaf::DIM) - 1;
+    const bool within =
+        (first[0] & kLast) < kLast && (first[1] & kLast) < kLast && (first[2] & kLast) < kLast;
+    for (int n = 0; n < 8; ++n) {
+      const openvdb::Coord corner = first.offsetBy(n >> 2, n >> 1 & 1, n & 1);
+      m_value[n] = leaf != nullptr && within ? leaf->getValue(corner) : tree.getValue(corner);
+    }
+  }
+  double interpolated() const {
+    const auto along = [](double t, double a, double b) { return a + t * (b - a); };
+    double face[4];
+    for (int n = 0; n < 4; ++n) face[n] = along(m_share[2], m_value[2 * n], m_value[2 * n + 1]);
+    return along(m_share[0], along(m_share[1], face[0], face[1]), along(m_share[1], face[2], face[3]));
+  }
+  // The surface is no farther away than this, in metres, but for the rounding of the corners' distances.
+  double farthest(double h) const {
+    double most = kForever;
+    for (int n = 0; n < 8; ++n)
+      most = std::min(most, std::abs(double(m_value[n])) + (way(n) + kRounding) * h);
+    return most;
+  }
+  // The value of a corner that is nearer than the surface, so many cells away: there is none between.
+  std::optional<float> joined(double distance) const {
+    for (int n = 0; n < 8; ++n)
+      if (way(n) < distance - kRounding) return m_value[n];
+    return {};
+  }
+
+ private:
+  static constexpr double kRounding = 1e-3;  // cells
+  double way(int n) const { return (m_share - Vec3d(n >> 2, n >> 1 & 1, n & 1)).length(); }
+  std::array<float, 8> m_value;
+  Vec3d m_share;
+};
+
 }  // namespace
 
 void checkCells(const TriangleMesh& mesh, const Vec3d& extents, double voxelSize, double band) {
@@ -269,7 +313,7 @@ MeshDistance meshDistanceIn(const BBoxd& region, const TriangleMesh& mesh, doubl
   if (mesh.triangles.empty() || !reach.hasOverlap(whole)) {
     auto nothing = openvdb::FloatGrid::create(static_cast<float>(band * h));
     nothing->setTransform(transform);
-    return {nothing, {}};
+    return {nothing, nullptr, nullptr, {}};
   }
   const bool allThere = reach.isInside(whole);
   const TriangleMesh part = allThere ? TriangleMesh{} : within(mesh, reach);
@@ -284,82 +328,52 @@ MeshDistance meshDistanceIn(const BBoxd& region, const TriangleMesh& mesh, doubl
         "measures " + sizeText(extents) +
         " and goes on beyond the domain where that has sides, but is too large where it has none");
 
-  const InsideTest inside(mesh);
   const auto distances = [&](const TriangleMesh& surface) {
     auto grid = openvdb::tools::meshToUnsignedDistanceField<openvdb::FloatGrid>(
         *transform, surface.positions, surface.triangles, {}, static_cast<float>(band));
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
     return grid;
   };
+  MeshDistance result;
+  const auto all = std::make_shared<const TriangleTree>(mesh);
+  const auto inside = std::make_shared<const InsideTest>(all);
   openvdb::FloatGrid::Ptr grid = distances(there);
-  setSigns(*grid, inside, h);
+  setSigns(*grid, *inside, h);
   if (hasInnerSurface(*grid, h)) {
-    grid = distances(OuterPieces(inside, h).of(there));
-    setSigns(*grid, inside, h);
+    const auto outer = std::make_shared<const TriangleTree>(OuterPieces(*inside, h).of(there));
+    grid = distances(outer->mesh());
+    setSigns(*grid, *inside, h);
+    result.surface = outer;
+  } else {
+    result.surface = allThere ? all : std::make_shared<const TriangleTree>(there);
   }
   // Beyond the leaves there is a surface on every way outward only where all of them are there.
   if (allThere) {
     openvdb::tools::signedFloodFill(grid->tree());
   } else {
-    fillInside(*grid, inside, box, h);
+    fillInside(*grid, *inside, box, h);
   }
-  return {grid, box};
+  result.corners = grid;
+  result.inside = inside;
+  result.bounds = box;
+  return result;
 }
 
-std::vector<TriangleMesh> piecesApart(const TriangleMesh& mesh, double gap) {
-  constexpr std::size_t kMostParts = 64, kMostPieces = 8;
-  // Vertices that triangles join.
-  std::vector<openvdb::Index32> parent(mesh.positions.size());
-  std::iota(parent.begin(), parent.end(), openvdb::Index32{0});
-  const auto rootOf = [&](openvdb::Index32 v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const Vec3I& t : mesh.triangles) {
-    for (int c = 1; c < 3; ++c) {
-      const openvdb::Index32 a = rootOf(t[0]), b = rootOf(t[c]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  }
-  // Of each piece the box, and the roots of the parts that are in it; those whose boxes touch become one.
-  std::map<openvdb::Index32, BBoxd> boxes;
-  for (const Vec3I& t : mesh.triangles) {
-    BBoxd& box = boxes[rootOf(t[0])];
-    for (int c = 0; c < 3; ++c) box.expand(Vec3d(mesh.positions[t[c]]));
-    if (boxes.size() > kMostParts) return {mesh};
-  }
-  std::vector<std::pair<BBoxd, std::vector<openvdb::Index32>>> pieces;
-  for (auto& [root, box] : boxes) {
-    box.expand(0.5 * gap);
-    std::pair<BBoxd, std::vector<openvdb::Index32>> piece{box, {root}};
-    for (bool grew = true; grew;) {
-      grew = false;
-      for (std::size_t n = 0; n < pieces.size(); ++n) {
-        if (!pieces[n].first.hasOverlap(piece.first)) continue;
-        piece.first.expand(pieces[n].first);
-        piece.second.insert(piece.second.end(), pieces[n].second.begin(), pieces[n].second.end());
-        pieces.erase(pieces.begin() + std::ptrdiff_t(n));
-        grew = true;
-        break;
-      }
-    }
-    pieces.push_back(std::move(piece));
-  }
-  if (pieces.size() < 2 || pieces.size() > kMostPieces) return {mesh};
-  std::map<openvdb::Index32, std::size_t> pieceOf;
-  for (std::size_t n = 0; n < pieces.size(); ++n)
-    for (const openvdb::Index32 root : pieces[n].second) pieceOf[root] = n;
-  std::vector<TriangleMesh> apart(pieces.size());
-  std::vector<openvdb::Index32> place(mesh.positions.size());
-  for (openvdb::Index32 v = 0; v < mesh.positions.size(); ++v) {
-    const auto piece = pieceOf.find(rootOf(v));
-    if (piece == pieceOf.end()) continue;  // of no triangle
-    place[v] = static_cast<openvdb::Index32>(apart[piece->second].positions.size());
-    apart[piece->second].positions.push_back(mesh.positions[v]);
-  }
-  for (const Vec3I& t : mesh.triangles)
-    apart[pieceOf.at(rootOf(t[0]))].triangles.emplace_back(place[t[0]], place[t[1]], place[t[2]]);
-  return apart;
+double MeshDistance::at(const Vec3d& x) const {
+  const double h = corners->voxelSize()[0];
+  const Vec3d place = x / h;
+  const Corners around(corners->constTree(), place);
+  const double between = around.interpolated();
+  // Farther than this from the surface by interpolation, it is farther than the band from all corners.
+  if (surface == nullptr || std::abs(between) > (kExactMeshBand + kHalfDiagonal) * h) return between;
+  const TriangleTree::Closest closest = surface->closest(x, around.farthest(h));
+  if (closest.triangle < 0) return between;
+  const double distance = std::sqrt(closest.square);
+  if (const auto corner = around.joined(distance / h)) return std::copysign(distance, *corner);
+  Vec3d way = x;
+  const openvdb::Vec3I& t = surface->mesh().triangles[closest.triangle];
+  for (int k = 0; k < 3; ++k) way -= closest.weight[k] * Vec3d(surface->mesh().positions[t[k]]);
+  return inside->winding(x, int(openvdb::math::MaxIndex(openvdb::math::Abs(way)))) > 0 ? -distance : distance;
 }
 
 }  // namespace fluidtex::sim

@@ -24,7 +24,7 @@ void dropLeft(Markers& markers, const FloatGrid& left) {
 void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const SolidField& solid,
                  double dt, std::uint64_t seed, const RunningFlows& flows, const FloatGrid* left) {
   const Visibility* const visibility = solid.visibility.get();
-  markers = advectMarkers(std::move(markers), velocity, dt);
+  markers = advectMarkers(std::move(markers), velocity, dt, visibility);
   if (left != nullptr) dropLeft(markers, *left);
   advectPhi(phi, velocity, *solid.phi, dt, visibility);
   correctPhi(phi, markers, visibility);

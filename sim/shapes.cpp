@@ -131,10 +131,7 @@ ShapeDistance::Node ShapeDistance::Node::of(const HeightField& ground, double vo
 
 ShapeDistance::Node ShapeDistance::Node::of(const TriangleMesh& mesh, double voxelSize,
                                             const openvdb::BBoxd& reach) {
-  Any all;
-  for (const TriangleMesh& piece : piecesApart(mesh, 0.01 * voxelSize))
-    all.parts.push_back({meshDistanceIn(reach, piece, voxelSize, kMeshBand)});
-  return all.parts.size() == 1 ? all.parts.front() : Node{std::move(all)};
+  return {meshDistanceIn(reach, mesh, voxelSize, kMeshBand)};
 }
 
 double ShapeDistance::Node::distance(const Vec3d& x) const {
@@ -144,9 +141,7 @@ double ShapeDistance::Node::distance(const Vec3d& x) const {
     double operator()(const Sphere& sphere) const { return (x - sphere.center).length() - sphere.radius; }
     double operator()(const Cylinder& cylinder) const { return cylinderDistance(cylinder, x); }
     double operator()(const Plane& plane) const { return (x - plane.point).dot(plane.normal); }
-    double operator()(const MeshDistance& mesh) const {
-      return openvdb::tools::BoxSampler::sample(mesh.grid->constTree(), mesh.grid->worldToIndex(x));
-    }
+    double operator()(const MeshDistance& mesh) const { return mesh.at(x); }
     double operator()(const Ground& ground) const {
       Vec3d within = x;
       for (int a = 0; a < 3; ++a) within[a] = std::clamp(x[a], ground.low[a], ground.high[a]);

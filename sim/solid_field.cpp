@@ -26,6 +26,10 @@ constexpr double kOnWall = 1e-6;
 // Walls of half a cell are seen: samples between cell centres are no farther apart than this share of one.
 constexpr double kThinnestWall = 0.25;
 
+// So many cells from a surface, a cell's centre has none at the cell's corners: its half diagonal, and what
+// distances that are interpolated between places of a lattice may be off.
+constexpr double kClear = 1.2;
+
 // Area of the part of the unit square where the distance is positive; corners in order, no saddle.
 double polygonArea(const std::array<double, 4>& d) {
   static constexpr double kX[4] = {0, 1, 1, 0}, kY[4] = {0, 0, 1, 1};
@@ -182,7 +186,9 @@ unsigned cornersOfOneSide(CellPlaces& places, const SolidDistance& distance, con
 // From distances at the corners of the block's cells. A wall thinner than a cell may have no corner in it,
 // and yet nothing passes: faces between cells that it parts are shut, and of a cell that it runs through,
 // what is not on the cell's own side.
-Faces openShares(const SolidDistance& distance, const CoordBBox& domain, double h, const Coord& origin) {
+// phi: the distances of cells, to more than that maybe.
+Faces openShares(const SolidDistance& distance, const FloatTree& phi, const CoordBBox& domain, double h,
+                 const Coord& origin) {
   Faces faces;
   CellPlaces places(distance, origin, h);
   constexpr int kCells = CellPlaces::kCells;
@@ -202,12 +208,25 @@ Faces openShares(const SolidDistance& distance, const CoordBBox& domain, double 
       below[axis] -= 1;
       faces[axis][c] = 0.0f;
       if (!domain.isInside(origin + local) && !domain.isInside(origin + below)) continue;
+      // What lies below may not be known.
+      const double far = local[axis] > 0
+                             ? std::min(phi.getValue(origin + local), phi.getValue(origin + below))
+                             : phi.getValue(origin + local) - h;
+      if (far > kClear * h) {
+        faces[axis][c] = 1.0f;
+        continue;
+      }
+      const double low = places.centre(below), high = places.centre(local);
+      if (std::max(low, high) < -kClear * h) continue;
+      if (std::min(low, high) > kClear * h) {
+        faces[axis][c] = 1.0f;
+        continue;
+      }
       // Around the face: the corners of the cell at the lower end of the axis.
       const int s = 1 << (axis + 1) % 3, t = 1 << (axis + 2) % 3, corners[4] = {0, s, s | t, t};
       std::array<double, 4> d;
       for (int n = 0; n < 4; ++n) d[n] = places.corner(cornerOf(local, corners[n]));
       if (std::max({d[0], d[1], d[2], d[3]}) <= 0.0) continue;
-      const double low = places.centre(below), high = places.centre(local);
       if (low > 0.0 && high > 0.0 &&
           isCrossed(distance, places.centrePlace(below), places.centrePlace(local), low, high, h,
                     kThinnestWall * h))
@@ -308,7 +327,7 @@ FloatGrid::Ptr cellDistances(const SolidDistance& distance, const CoordBBox& dom
 
 // The three grids of open shares.
 std::array<FloatGrid::Ptr, 3> openFaces(const SolidDistance& distance, const CoordBBox& domain,
-                                        const Chunks& chunks, double h) {
+                                        const Chunks& chunks, const FloatTree& phi, double h) {
   struct Piece {
     Coord origin;
     int size;
@@ -326,7 +345,8 @@ std::array<FloatGrid::Ptr, 3> openFaces(const SolidDistance& distance, const Coo
         return true;
       }
       if (size > kLeafDim) return false;
-      pieces[n].push_back({origin, size, std::make_unique<Faces>(openShares(distance, domain, h, origin))});
+      pieces[n].push_back(
+          {origin, size, std::make_unique<Faces>(openShares(distance, phi, domain, h, origin))});
       return true;
     });
   });
@@ -364,7 +384,7 @@ SolidField makeSolidField(const SolidDistance& distance, const SolidDistance& op
   field.domain = domain;
   field.phi = cellDistances(distance, domain, chunks, h);
   field.phiMirrored = mirrored ? cellDistances(mirrored, domain, chunks, h) : field.phi;
-  const auto& [u, v, w] = openFaces(openDistance, domain, chunks, h);
+  const auto& [u, v, w] = openFaces(openDistance, domain, chunks, field.phi->tree(), h);
   field.openU = u;
   field.openV = v;
   field.openW = w;

@@ -3,6 +3,7 @@
 #include "sim/mac_grid.h"
 #include "sim/read_mesh.h"
 #include "sim/solid_field.h"
+#include "sim/surface_velocity.h"
 #include "sim/walls.h"
 
 #include <tbb/parallel_for.h>

@@ -8,7 +8,6 @@
 #include "sim/options.h"
 #include "sim/pose.h"
 #include "sim/shapes.h"
-#include "sim/surface_velocity.h"
 #include "sim/visibility.h"
 
 #include <openvdb/openvdb.h>
@@ -23,6 +22,8 @@
 #include <vector>
 
 namespace fluidtex::sim {
+
+class SurfaceVelocity;
 
 // Value of a face whose velocity is not given.
 inline constexpr float kNotGiven = std::numeric_limits<float>::max();

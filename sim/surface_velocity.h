@@ -1,7 +1,7 @@
 // The velocity of a surface that changes its shape, and of what is beside it.
 #pragma once
 
-#include "sim/shapes.h"
+#include "sim/triangle_tree.h"
 
 #include <vector>
 
@@ -19,25 +19,8 @@ class SurfaceVelocity {
   Vec3d at(const Vec3d& x, double reach) const;
 
  private:
-  // A box around some triangles: either those of two nodes, at `first` and `first` + 1, or `count` of
-  // m_order, from `first` on.
-  struct Node {
-    openvdb::Vec3f low, high;
-    int first = 0, count = 0;
-  };
-  struct Closest {
-    double square;  // of the distance
-    int triangle;
-    Vec3d weight;  // of its corners
-  };
-  void build(int node, int first, int count);
-  double squareTo(const Node& node, const Vec3d& x) const;
-  void search(const Vec3d& x, Closest& closest) const;
-
-  TriangleMesh m_mesh;
+  TriangleTree m_surface;
   std::vector<openvdb::Vec3f> m_velocity;
-  std::vector<int> m_order;  // #T: triangles, as the leaves of the tree hold them
-  std::vector<Node> m_nodes;
 };
 
 }  // namespace fluidtex::sim

@@ -2,6 +2,8 @@
 #include "sim/normal.h"
 #include "sim/solids.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,8 +14,12 @@ namespace {
 
 // A wall thinner than this many cells may be missed (see solid_field.cpp).
 constexpr double kHolds = 0.6;
-// How finely a wall's thickness is looked for, and how far beside a place it has to be as thin, in cells.
-constexpr double kStep = 0.05, kBeside = 1.5;
+// How finely a wall's other side is looked for, how well its thickness is known, how far beside a place it
+// has to be as thin, and how far it may be from where the surface is said to be, in cells.
+constexpr double kStep = 0.05, kKnown = 1e-3, kBeside = 1.5, kNear = 0.1;
+
+// Of a sequence of meshes so many are looked at, and the first.
+constexpr int kSomeFiles = 8;
 
 using Distance = std::function<double(const Vec3d&)>;
 
@@ -41,12 +47,29 @@ struct ThinPlace {
 };
 ThinPlace wallAt(const Distance& distance, const Vec3d& x, double h) {
   const double d = distance(x);
-  if (std::abs(d) > h) return {};
-  const Vec3d normal = normalAt(distance, x, 0.02 * h), place = x - d * normal;
-  if (normal.length() == 0.0 || std::abs(distance(place)) > 0.1 * h) return {};
-  if (distance(place - kHolds * h * normal) < 0.0) return {};
-  for (double way = kStep * h; way <= kHolds * h; way += kStep * h)
-    if (distance(place - way * normal) > 0.0) return {way, place, normal};
+  // Around a place that deep there is no thin wall.
+  if (std::abs(d) > h || d < -0.5 * kHolds * h) return {};
+  const Vec3d normal = normalAt(distance, x, 0.02 * h), near = x - d * normal;
+  const double off = distance(near);
+  if (normal.length() == 0.0 || std::abs(off) > kNear * h) return {};
+  // Beside an edge, what a difference of shapes says leads past the solid.
+  const Vec3d place = near - off * normal;
+  const auto under = [&](double way) { return distance(place - way * normal); };
+  if (under(kKnown * h) >= 0.0 || under(0.5 * kHolds * h) <= -(0.5 * kHolds - kKnown) * h) return {};
+  double within = kKnown * h;
+  for (double way = within; way <= kHolds * h;) {
+    const double there = under(way);
+    if (there < 0.0) {
+      within = way;
+      way += std::max(-there, kStep * h);
+      continue;
+    }
+    while (way - within > kKnown * h) {
+      const double middle = 0.5 * (way + within);
+      (under(middle) < 0.0 ? within : way) = middle;
+    }
+    return {way, place, normal};
+  }
   return {};
 }
 
@@ -62,6 +85,25 @@ bool goesOn(const Distance& distance, const ThinPlace& wall, double h) {
   return count >= 3;
 }
 
+// Calls body(low) for the cubes of `least` corners a side, the upper ones left out, that a surface may be
+// within a cell of, of a cube of `size`. there: set where a corner is in the solid, or within a cell of it.
+template <class Body>
+void forCubesAtSurface(const Distance& distance, const CoordBBox& corners, double h, const Coord& low,
+                       int size, int least, bool& there, const Body& body) {
+  if (!corners.hasOverlap(CoordBBox::createCube(low, size))) return;
+  const int half = size / 2;
+  const Coord middle = low.offsetBy(half);
+  const double depth = -distance(middle.asVec3d() * h);
+  if (corners.isInside(middle) && depth > -h) there = true;
+  const double reach = size > 1 ? 0.5 * std::sqrt(3.0) * size : 0.0;
+  if (std::abs(depth) > (reach + 1.0) * h) return;
+  if (size == least) return body(low);
+  for (int n = 0; n < 8; ++n)
+    forCubesAtSurface(distance, corners, h,
+                      low.offsetBy((n & 1) * half, (n >> 1 & 1) * half, (n >> 2) * half), half, least, there,
+                      body);
+}
+
 }  // namespace
 
 // Whether any of the solid's surface is among the cells, and its thinnest wall there.
@@ -72,28 +114,28 @@ Solids::Thinness Solids::thinnest(const Placed& solid) const {
   Thinness result;
   if (corners.empty()) return result;
   const Distance distance = [&](const Vec3d& x) { return distanceTo(solid, x); };
-  // Cubes of cell corners, the upper ones left out.
-  const std::function<void(const Coord&, int)> look = [&](const Coord& low, int size) {
-    if (!corners.hasOverlap(CoordBBox::createCube(low, size))) return;
-    const int half = size / 2;
-    const Coord middle = low.offsetBy(half);
-    const double depth = -distance(middle.asVec3d() * h);
-    if (corners.isInside(middle) && depth > -h) result.there = true;
-    if (size > 1) {
-      if (std::abs(depth) > (0.5 * std::sqrt(3.0) * size + 1.0) * h) return;
-      for (int n = 0; n < 8; ++n)
-        look(low.offsetBy((n & 1) * half, (n >> 1 & 1) * half, (n >> 2) * half), half);
-      return;
-    }
-    if (std::abs(depth) > h || !corners.isInside(middle)) return;
-    const ThinPlace wall = wallAt(distance, middle.asVec3d() * h, h);
-    if (wall.thickness >= result.thickness || !goesOn(distance, wall, h)) return;
-    result.thickness = wall.thickness;
-    result.place = wall.place;
-  };
-  int size = 1;
+  constexpr int kBlock = 16;
+  int size = kBlock;
   while (size <= corners.extents()[corners.maxExtent()]) size *= 2;
-  look(corners.min(), size);
+  std::vector<Coord> blocks;
+  const auto add = [&](const Coord& low) { blocks.push_back(low); };
+  forCubesAtSurface(distance, corners, h, corners.min(), size, kBlock, result.there, add);
+  std::vector<Thinness> found(blocks.size());
+  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t n) {
+    Thinness& here = found[n];
+    forCubesAtSurface(distance, corners, h, blocks[n], kBlock, 1, here.there, [&](const Coord& corner) {
+      const ThinPlace wall = wallAt(distance, corner.asVec3d() * h, h);
+      if (wall.thickness >= here.thickness || !goesOn(distance, wall, h)) return;
+      here.thickness = wall.thickness;
+      here.place = wall.place;
+    });
+  });
+  for (const Thinness& here : found) {
+    result.there = result.there || here.there;
+    if (here.thickness >= result.thickness) continue;
+    result.thickness = here.thickness;
+    result.place = here.place;
+  }
   return result;
 }
 
@@ -102,10 +144,19 @@ std::vector<std::string> Solids::warnings() const {
   const double h = m_options.voxelSize();
   for (std::size_t i = 0; i < m_options.solids.size(); ++i) {
     const Solid& solid = m_options.solids[i];
-    // One that moves may come in later.
-    Thinness all = thinnest(placed(i, solid.from));
-    for (const Keyframe& key : solid.keyframes) {
-      const Thinness then = thinnest(placed(i, key.time));
+    // One that moves may come in later, and one that changes its shape become thin.
+    std::vector<double> times{solid.from};
+    for (const Keyframe& key : solid.keyframes) times.push_back(key.time);
+    if (const auto* sequence = std::get_if<MeshSequence>(&solid.shape.kind)) {
+      const int last = sequence->count() - 1, some = std::min(last, kSomeFiles);
+      for (int n = 1; n <= some; ++n) {
+        const double time = sequence->timeOf(n * last / some);
+        if (time > solid.from && time < solid.until) times.push_back(time);
+      }
+    }
+    Thinness all;
+    for (const double time : times) {
+      const Thinness then = thinnest(placed(i, time));
       all.there = all.there || then.there;
       if (then.thickness < all.thickness) {
         all.thickness = then.thickness;

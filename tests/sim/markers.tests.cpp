@@ -146,6 +146,28 @@ TEST_CASE("markers: one that leaves its block by less than rounding stays where 
   CHECK(markers[0].markers[0].x < 8.0f);
 }
 
+TEST_CASE("markers: one that comes out on the other side of a thin wall is gone") {
+  // A plate from 16 to 17.3 cells.
+  Options options;
+  options.resolution = kCells;
+  options.solids.resize(1);
+  options.solids[0].shape = {Box{Vec3d(0.5, -1.0, -1.0), Vec3d(0.5 + 1.3 * kVoxel, 2.0, 2.0)}};
+  const auto solid = Solids(options).at(0.0);
+  REQUIRE(solid->visibility != nullptr);
+  const Velocity through = flow([](const Vec3d&) { return Vec3d(0.9 * kVoxel, 0.0, 0.0); });
+  // Of one of the liquid, so many cells from the first one's centre.
+  const auto left = [&](float x, const Visibility* visibility) {
+    const int first = static_cast<int>(x) & ~(kLeafDim - 1);
+    const Marker marker{x - float(first), 2.0f, 2.0f, -0.3f};
+    return countOf(advectMarkers({{Coord(first, 8, 8), {marker}}}, through, 1.0, visibility));
+  };
+  // In the plate; before it; behind it.
+  CHECK(left(16.1f, nullptr) == 1);
+  CHECK(left(16.1f, solid->visibility.get()) == 0);
+  CHECK(left(15.1f, solid->visibility.get()) == 1);
+  CHECK(left(17.1f, solid->visibility.get()) == 1);
+}
+
 TEST_CASE("markers: those of the air go where liquid meets liquid") {
   const auto phi = phiOf(ball);
   const Markers before = seedMarkers(*phi, *noSolid(), 1);

@@ -147,8 +147,11 @@ TEST_CASE("mesh distance: slits narrower than two cells stay open, as between tw
     CAPTURE(gap);
     forCorners([&](const Vec3d& x) {
       REQUIRE(one(x) == std::min(a(x), b(x)));
-      REQUIRE(one(x + Vec3d(0.3 * kVoxel)) ==
-              std::min(a(x + Vec3d(0.3 * kVoxel)), b(x + Vec3d(0.3 * kVoxel))));
+      // Beside corners, where they are interpolated far away: there to a quarter of a cell.
+      const Vec3d beside = x + Vec3d(0.3 * kVoxel);
+      const double nearer = std::min(a(beside), b(beside));
+      if (std::abs(nearer) < kExactMeshBand * kVoxel) REQUIRE(one(beside) == nearer);
+      REQUIRE(one(beside) == Approx(nearer).margin(0.25 * kVoxel).epsilon(0.0));
     });
     // In one surface: at the heights where there is nothing but the slit.
     const ShapeDistance fork = distanceOf(forked(0.5, 0.5 + gap));
