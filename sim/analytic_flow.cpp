@@ -7,6 +7,7 @@
 #include "sim/settle_surface.h"
 #include "sim/shapes.h"
 #include "sim/step.h"
+#include "sim/step_failures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -124,8 +125,9 @@ void AnalyticFlow::carryTo(double time, Frame& frame, const std::function<void(d
   double strength = 0.0;  // the greatest: it is a cosine, which has it at an end of so short a time
   for (const double t : {begin, time}) strength = std::max(strength, std::abs(m_flow.strength(t)));
   const double cells = length * strength * m_speed / m_options.voxelSize();
-  const int steps =
-      std::max(1, static_cast<int>(std::ceil(cells / std::min(m_options.cfl, kMaxTrace - 1.0))));
+  const double needed = std::ceil(cells / std::min(m_options.cfl, kMaxTrace - 1.0));
+  if (!(needed <= 1.0 / kShortest)) failFast(begin, strength * m_speed, 0.0);
+  const int steps = std::max(1, static_cast<int>(needed));
   const double dt = length / steps;
   for (int n = 0; n < steps; ++n) {
     const Velocity velocity = near(m_flow.strength(begin + (n + 0.5) * dt));

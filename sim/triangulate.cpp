@@ -121,7 +121,7 @@ TriangleMesh icosphere(const Sphere& sphere, double voxelSize) {
   for (Vec3d& p : points) p.normalize();
   // Edges no longer than a voxel, between 1,280 and 82,000 triangles.
   const double firstEdge = 1.05 * sphere.radius;
-  const int levels = std::clamp(static_cast<int>(std::ceil(std::log2(firstEdge / voxelSize))), 3, 6);
+  const int levels = static_cast<int>(std::clamp(std::ceil(std::log2(firstEdge / voxelSize)), 3.0, 6.0));
   for (int level = 0; level < levels; ++level) {
     std::map<std::pair<openvdb::Index32, openvdb::Index32>, openvdb::Index32> middles;
     const auto middle = [&](openvdb::Index32 a, openvdb::Index32 b) {
@@ -213,7 +213,7 @@ TriangleMesh tube(const Cylinder& cylinder, double h) {
   const Vec3d along = (cylinder.to - cylinder.from).unit();
   const Vec3d e = std::abs(along.x()) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
   const Vec3d s = along.cross(e).unit(), t = along.cross(s);
-  const int n = std::clamp(static_cast<int>(2.0 * std::numbers::pi * cylinder.radius / h), 32, 512);
+  const int n = static_cast<int>(std::clamp(2.0 * std::numbers::pi * cylinder.radius / h, 32.0, 512.0));
   using Index = openvdb::Index32;
   TriangleMesh mesh;
   mesh.positions = {openvdb::Vec3f(cylinder.from), openvdb::Vec3f(cylinder.to)};

@@ -28,7 +28,7 @@ class VertexGrid {
     std::vector<std::uint32_t> slots(positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const Vec3f p = positions[i] * m_inverse;
-      slots[i] = slot(int(std::floor(p.x())), int(std::floor(p.y())), int(std::floor(p.z())));
+      slots[i] = slot(cellAlong(p.x()), cellAlong(p.y()), cellAlong(p.z()));
       ++m_first[slots[i] + 1];
     }
     std::partial_sum(m_first.begin(), m_first.end(), m_first.begin());
@@ -39,7 +39,7 @@ class VertexGrid {
   template <class Accept>
   std::uint32_t nearest(const Vec3f& at, const Accept& accept) const {
     const Vec3f p = at * m_inverse - Vec3f(0.5f);
-    const int x = int(std::floor(p.x())), y = int(std::floor(p.y())), z = int(std::floor(p.z()));
+    const int x = cellAlong(p.x()), y = cellAlong(p.y()), z = cellAlong(p.z());
     std::uint32_t best = kNone;
     float bestDistance = 1e30f;
     for (int n = 0; n < 8; ++n) {

@@ -16,7 +16,8 @@ Bins binsOf(const HistogramTarget& target, const Float8& value) {
   const Float8 position = (value - target.low) * target.scale;
   Bins bins;
   for (int c = 0; c < kMaxChannels; ++c)
-    bins[c] = std::uint8_t(std::clamp(position[c], 0.0f, kHistogramBins - 0.5f));
+    bins[c] =
+        std::uint8_t(std::max(0.0f, std::min(kHistogramBins - 0.5f, position[c])));  // also of no number
   return bins;
 }
 

@@ -4,6 +4,7 @@
 
 #include "texture/crossed_cells.h"
 #include "texture/parallel.h"
+#include "texture/point_grid.h"
 
 #include <openvdb/tree/ValueAccessor.h>
 #include <tbb/parallel_for.h>
@@ -259,7 +260,7 @@ std::uint32_t LevelSet::find(const Coord& origin) const {
 
 LevelSet::Sample LevelSet::sample(const Vec3f& x) const {
   Sample s;
-  const int i = int(std::floor(x.x())), j = int(std::floor(x.y())), k = int(std::floor(x.z()));
+  const int i = cellAlong(x.x()), j = cellAlong(x.y()), k = cellAlong(x.z());
   const std::uint32_t block = find(Coord(i & ~7, j & ~7, k & ~7));
   if (block == kNone) return s;
 
@@ -303,7 +304,7 @@ LevelSet::Sample LevelSet::sample(const Vec3f& x) const {
 }
 
 float LevelSet::sampleScale(const Vec3f& x) const {
-  const int i = int(std::floor(x.x())), j = int(std::floor(x.y())), k = int(std::floor(x.z()));
+  const int i = cellAlong(x.x()), j = cellAlong(x.y()), k = cellAlong(x.z());
   const std::uint32_t block = find(Coord(i & ~7, j & ~7, k & ~7));
   if (block == kNone) return 1.0f;
   const float* corner = m_scale.data() + std::size_t(block) * kScaled * kScaled * kScaled +

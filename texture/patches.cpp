@@ -1,6 +1,7 @@
 #include "texture/patches.h"
 
 #include "texture/parallel.h"
+#include "texture/point_grid.h"
 
 #include <cmath>
 #include <numeric>
@@ -15,7 +16,7 @@ constexpr std::uint64_t kGone = ~std::uint64_t(0);
 
 std::uint64_t cubeAt(const Vec3f& place, float side, const Vec3f& corner) {
   const Vec3f p = (place - corner) / side;
-  const auto part = [](float x) { return std::uint64_t(std::int64_t(std::floor(x)) + (1 << 20)) & 0x1fffff; };
+  const auto part = [](float x) { return std::uint64_t(cellAlong(x) + (1 << 20)) & 0x1fffff; };
   return part(p.x()) << 42 | part(p.y()) << 21 | part(p.z());
 }
 

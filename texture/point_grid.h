@@ -12,9 +12,14 @@ namespace fluidtex::texture {
 
 using Cell = std::array<int, 3>;
 
+// The cell along one axis of a place in cells. Farther than a billion from the origin all are one; a mesh may
+// lie there, and no integer holds the number of its cell. In this order what is no number gets one, too.
+inline int cellAlong(double x) {
+  return int(std::max(-1e9, std::min(1e9, std::floor(x))));
+}
+
 inline Cell cellAt(const Vec3f& x, double perLength) {
-  return {int(std::floor(x.x() * perLength)), int(std::floor(x.y() * perLength)),
-          int(std::floor(x.z() * perLength))};
+  return {cellAlong(x.x() * perLength), cellAlong(x.y() * perLength), cellAlong(x.z() * perLength)};
 }
 
 // For hash tables of a power of two of slots.

@@ -56,7 +56,7 @@ class GrowingGrid {
     Vec3f position;
     std::uint32_t index, next;
   };
-  int index3(float x) const { return int(std::floor(x * m_inverse)); }
+  int index3(float x) const { return cellAlong(x * m_inverse); }
   std::size_t slot(int x, int y, int z) const { return nearbySlot(x, y, z, m_head.size() - 1); }
   template <class Hit>
   bool cellHas(std::size_t s, const Vec3f& p, float radius, const Hit& hit) const {

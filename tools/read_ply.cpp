@@ -152,7 +152,10 @@ texture::TexturedSurface readPly(const std::filesystem::path& file, int exemplar
                           texture::decodeSrgb(share(2)), share(3));
   });
   const auto texel = [&](const char* at) {
-    return Vec2f(number(at) * float(exemplarWidth) - 0.5f, number(at + 4) * float(exemplarHeight) - 0.5f);
+    const float s = number(at), t = number(at + 4);
+    if (!(s >= 0.0f && s <= 1.0f && t >= 0.0f && t <= 1.0f))  // nor is what is no number
+      refuse(file, "has a coordinate on the exemplar that is not from 0 to 1");
+    return Vec2f(s * float(exemplarWidth) - 0.5f, t * float(exemplarHeight) - 0.5f);
   };
   each("s", surface.coordinate, texel);
   surface.fading = texture::noFading(header.vertices);

@@ -2,6 +2,7 @@
 
 #include "texture/parallel.h"
 #include "transport/velocity_sampler.h"
+#include "transport/within_reach.h"
 
 #include <algorithm>
 #include <cmath>
@@ -135,8 +136,10 @@ void advance(const Band& band, const sim::Frame& frame, const CellStep& step, st
 
 Corners cornersAt(const Band& band, const Vec3d& x) {
   Corners corners;
+  corners.cell.fill(Band::kNone);
   if (band.cells.empty()) return corners;
   const Vec3d index = (x - band.origin) / band.h;
+  if (!withinReach(index)) return corners;
   const Vec3d floor(std::floor(index[0]), std::floor(index[1]), std::floor(index[2]));
   const Vec3d t = index - floor;
   for (std::size_t corner = 0; corner < 8; ++corner) {

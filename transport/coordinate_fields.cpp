@@ -1,6 +1,7 @@
 #include "transport/coordinate_fields.h"
 
 #include "texture/parallel.h"
+#include "transport/within_reach.h"
 
 #include <openvdb/tools/Morphology.h>
 
@@ -27,7 +28,10 @@ sim::MaskTree cellsAround(const Band& band, const std::vector<Vec3f>& points, do
   sim::MaskTree mask;
   if (!(band.h > 0.0)) return mask;
   openvdb::tree::ValueAccessor<sim::MaskTree> mark(mask);
-  for (const Vec3f& x : points) mark.setValueOn(openvdb::Coord::round((Vec3d(x) - band.origin) / band.h));
+  for (const Vec3f& x : points) {
+    const Vec3d index = (Vec3d(x) - band.origin) / band.h;
+    if (withinReach(index)) mark.setValueOn(openvdb::Coord::round(index));
+  }
   openvdb::tools::dilateActiveValues(mask, int(std::ceil(reach / band.h)),
                                      openvdb::tools::NN_FACE_EDGE_VERTEX, openvdb::tools::IGNORE_TILES);
   return mask;

@@ -1,6 +1,7 @@
 #include "transport/velocity_sampler.h"
 
 #include "texture/lanes.h"
+#include "transport/within_reach.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,12 +17,6 @@ using Leaf = sim::FloatTree::LeafNodeType;
 
 constexpr int kSide = int(Leaf::DIM);
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-
-// Whether a voxel of that number can be; also false where it is no number.
-inline bool withinReach(const Vec3d& index) {
-  constexpr double kReach = 1 << 30;
-  return std::abs(index.x()) < kReach && std::abs(index.y()) < kReach && std::abs(index.z()) < kReach;
-}
 
 // Between four values, [2 dFirst + dSecond].
 [[gnu::always_inline]] inline double bilinear(const std::array<double, 4>& v, double first, double second) {

@@ -20,6 +20,12 @@ using Catch::Matchers::Contains;
 
 namespace {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kLimited = false;  // in memory: the sanitizers take all addresses for themselves
+#else
+constexpr bool kLimited = true;
+#endif
+
 void writeBytes(const std::filesystem::path& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
 }
@@ -187,7 +193,8 @@ TEST_CASE("ask: grids of OpenVDB files, whole and damaged", "[foreign]") {
   std::string named = whole;
   named.replace(named.find(std::string("\x10\0\0\0Tree_float_5", 16)), 4, std::string("\0\0\0\x30", 4));
   writeBytes(file, named);
-  CHECK_THROWS_WITH(readGrid(file, false), Contains("more memory than a file of its size"));
+  CHECK_THROWS_WITH(readGrid(file, false),
+                    Contains(kLimited ? "more memory than a file of its size" : "OpenVDB"));
 
   for (const std::size_t missing : {1u, 9u, 99u, 999u}) {
     writeBytes(file, whole.substr(0, whole.size() - missing));

@@ -148,6 +148,12 @@ TEST_CASE("analytic flow: the deformation goes as far in any period, and keeps t
   CHECK_THAT(volume[0], WithinAbs(volume[1], 0.02 * volume[1]));
 }
 
+TEST_CASE("analytic flow: a rate that no number of substeps can follow is refused", "[sim]") {
+  AnalyticFlow flow(ball(Vec3d(0.5, 0.75, 0.5), 0.15), {MotionKind::vortex, 8.0, 1e12});
+  flow.next();
+  CHECK_THROWS_AS(flow.next(), SolverError);
+}
+
 TEST_CASE("motion: a flow goes on from its state as if it had not stopped", "[sim]") {
   Options options = ball(Vec3d(0.35), 0.15);
   const MotionOptions motion{MotionKind::deformation};

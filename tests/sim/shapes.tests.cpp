@@ -321,6 +321,11 @@ TEST_CASE("triangulate: curved and combined shapes are closed, outward and of th
   CHECK(isClosed(cut));
   CHECK_THAT(volumeOf(cut), WithinAbs(0.5 * ballVolume, 0.05 * ballVolume));
 
+  // However fine the cells are, the sides of a cylinder can be counted.
+  const Cylinder rod{Vec3d(1.0, 0.75, 0.25), Vec3d(1.0, 0.75, 0.75), 0.2};
+  CHECK_THAT(volumeOf(triangulate(Shape{rod}, kDomain, 1e-11)),
+             Catch::Matchers::WithinRel(0.02 * std::numbers::pi, 1e-3));
+
   const Shape box{Box{Vec3d(0.5, 0.25, 0.0), Vec3d(1.5, 1.25, 0.5)}};
   // The same out of a box elsewhere.
   const Vec3d away(-6.0, 3.0, -2.0);

@@ -4,6 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <limits>
+#include <numeric>
+
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
 using fluidtex::randomUnit;
@@ -56,6 +59,15 @@ TEST_CASE("histogram: what the surface has too much of weighs less, in proportio
   }
   const HistogramWeights none(target, target.exemplar, surface, image, 0.0, 0);
   for (std::size_t i = 0; i < image.data.size(); ++i) CHECK(none[i] == 1.0f);
+}
+
+TEST_CASE("histogram: what is no number is in a bin, too") {
+  const TexelImage image =
+      makeTexelImage(imageOf(64, 4, 1, [](int x, int, int) { return float(x) / 63.0f; }), false, 3);
+  Values values = texels(image);
+  for (Float8& value : values) value[0] = std::numeric_limits<float>::quiet_NaN();
+  const Histogram surface = histogramOf(makeHistogramTarget(image), values, 1);
+  CHECK(std::accumulate(surface.share[0].begin(), surface.share[0].end(), 0.0f) == Approx(1.0));
 }
 
 TEST_CASE("histogram: a plain image is no trouble") {

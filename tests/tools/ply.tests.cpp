@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include <cstring>
+#include <limits>
 #include <sstream>
 
 using namespace fluidtex;
@@ -142,6 +143,28 @@ TEST_CASE("PLY: a file that is cut short, too long or another one is refused by 
   std::string without = bytes;
   refused(without.replace(without.find("float trust"), 11, "float truss"));
   CHECK_THROWS_AS(tools::readPly(scratch.path / "none.ply", 8, 4), tools::UsageError);
+}
+
+TEST_CASE("PLY: coordinates that are nowhere on the exemplar are refused", "[tools]") {
+  const Scratch scratch;
+  const std::filesystem::path broken = scratch.path / "broken.ply";
+  tools::writePly(sampleSurface(), scratch.path / "a.ply");
+  const std::string bytes = readBytes(scratch.path / "a.ply"), end = "end_header\n";
+  const std::size_t s = bytes.find(end) + end.size() + 6 * sizeof(float) + 4;  // of the first vertex
+  const auto write = [&](float value, int place) {
+    std::string content = bytes;
+    std::memcpy(&content[s + place * sizeof value], &value, sizeof value);
+    std::ofstream(broken, std::ios::binary) << content;
+  };
+  for (const int place : {0, 1}) {
+    for (const float value : {std::numeric_limits<float>::quiet_NaN(), 1e30f, -0.1f}) {
+      write(value, place);
+      CHECK_THROWS_AS(tools::readPly(broken, 8, 4), tools::UsageError);
+      CHECK_THROWS_WITH(tools::readPly(broken, 8, 4), Catch::Contains("not from 0 to 1"));
+    }
+    write(1.0f, place);
+    CHECK_NOTHROW(tools::readPly(broken, 8, 4));
+  }
 }
 
 TEST_CASE("PLY: properties that are not in the order and of the types that are read are refused", "[tools]") {

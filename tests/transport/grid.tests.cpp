@@ -59,6 +59,24 @@ TEST_CASE("coordinate fields: a uniform stream is exact, and no velocity moves n
   CHECK(far.origin[0] == Vec3d(9, 9, 9));
 }
 
+TEST_CASE("coordinate fields: where no voxel can be, and without a velocity, nothing is known",
+          "[transport]") {
+  const sim::Frame frame = steadyFrame({0.1, -8, 8}, 0.2, 2, constantDirection({1, 0, 0}));
+  const std::vector<Vec3f> points{Vec3f(1e30f, 0, 0), Vec3f(0, -3e9f, 0), Vec3f(0, 0, 0)};
+  const Backtrace trace = traceOnGrid(points, frame);
+  for (std::size_t v = 0; v < 2; ++v) {
+    CHECK(trace.known[v] == 0.0f);
+    CHECK(trace.origin[v] == Vec3d(points[v]));
+  }
+  const auto directions = [&](const sim::Frame& of) {
+    return directionsOnGrid(points, of, points, constantDirection({0, 1, 0}), true);
+  };
+  CHECK(directions(frame)[0] == Vec3f(0.0f));
+  CHECK(directions(frame)[1] == Vec3f(0.0f));
+  CHECK((directions(frame)[2] - Vec3f(0, 1, 0)).length() < 1e-5f);
+  for (const Vec3f& direction : directions(sim::Frame{})) CHECK(direction == Vec3f(0.0f));
+}
+
 TEST_CASE("carry by the grid: whole, and the same bytes on any number of threads", "[transport]") {
   const sim::Frame frame = steadyFrame({0.1, -14, 14}, 0.1, 2, linearFlow(rotationAbout({1, 1, 0}, 0.7)));
   const TexturedSurface previous = texturedMesh(sphereMesh(16), constantDirection({0.3, 0.5, 0.8}));
