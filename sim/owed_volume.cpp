@@ -345,11 +345,11 @@ FloatGrid::Ptr withPoured(const FloatGrid* owed, const PouredLiquid& poured, con
       const Coord cell = leaves[n]->offsetToGlobalCoord(i);
       const float far = leaves[n]->getValue(i);
       if (!solid.domain.isInside(cell) || std::abs(far) >= h) continue;
-      if (poured.distance && room[i] >= h) {
-        more[n][i] = shareOf(poured.distance, far, settled.indexToWorld(cell), h) - after[i];
-      } else if (seen[i] == 0.0f && far < 0.5f * h) {
-        more[n][i] = whole[i];
-      }
+      const bool inOpen = poured.start && room[i] >= h;
+      const bool isUnseen = seen[i] == 0.0f && whole[i] > 0.0f && far < 0.5f * h;
+      if (!inOpen && !isUnseen) continue;
+      const float share = shareOf(poured.distance, far, settled.indexToWorld(cell), h);
+      more[n][i] = inOpen ? share - after[i] : std::min(whole[i], share);
     }
     const auto none = [&](const FloatGrid& shape) {
       float values[kLeafSize];

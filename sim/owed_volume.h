@@ -33,10 +33,10 @@ FloatGrid::Ptr growthOf(const FloatGrid& owed, double time);
 
 // Bodies of liquid that have been put in at once.
 struct PouredLiquid {
-  const FloatGrid& bodies;  // distance to them, metres, in leaves around them
-  const FloatGrid& phi;     // with all that was there before, not yet settled
-  // The same as `bodies`, anywhere; null unless they are all that there is.
-  std::function<double(const Vec3d&)> distance;
+  const FloatGrid& bodies;                       // distance to them, metres, in leaves around them
+  const FloatGrid& phi;                          // with all that was there before, not yet settled
+  std::function<double(const Vec3d&)> distance;  // the same as `bodies`, anywhere
+  bool start;                                    // they are all that there is
 };
 
 // Adds to what is owed (null for nothing) what the surface does not show of liquid that is poured: films and

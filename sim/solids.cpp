@@ -137,8 +137,9 @@ Vec3d Solids::mirrored(Vec3d x) const {
 
 // Of a high side, along its axis.
 double Solids::sideAt(int side) const {
-  // One that is no wall lies in the plane of faces.
-  return m_options.sides[side] == Side::wall ? m_options.size[side / 2] : lastFace(side / 2);
+  // One that is no wall lies in the plane of faces. A wall lies nowhere beyond it, by rounding either.
+  const double last = lastFace(side / 2);
+  return m_options.sides[side] == Side::wall ? std::min(m_options.size[side / 2], last) : last;
 }
 
 double Solids::sideDistance(const Vec3d& x, SideSet counts) const {

@@ -261,15 +261,13 @@ void Solver::applyEvents() {
         owedVolume(*whole, *liquid.phi, liquid.owed.get(), makeVelocity(h), *before, *m_solid, flows, 0.0);
   }
   if (!due.empty()) {
-    PouredLiquid poured{dueLiquid, *whole, {}};
-    if (start) {
-      poured.distance = [&](const Vec3d& x) {
-        double nearest = kForever;
-        for (const auto& [body, shape] : due) nearest = std::min(nearest, shape(x));
-        return nearest;
-      };
-    }
-    liquid.owed = withPoured(liquid.owed.get(), poured, *liquid.phi, *m_solid, flows);
+    const auto distance = [&](const Vec3d& x) {
+      double nearest = kForever;
+      for (const auto& [body, shape] : due) nearest = std::min(nearest, shape(x));
+      return nearest;
+    };
+    liquid.owed =
+        withPoured(liquid.owed.get(), {dueLiquid, *whole, distance, start}, *liquid.phi, *m_solid, flows);
   }
   store(m_state, std::move(liquid), h);
 }

@@ -120,14 +120,13 @@ TEST_CASE("volume: a paddle that stirs a pool neither makes liquid nor loses any
 TEST_CASE("volume: a drop that is lost is owed") {
   Options options = tank(16, {{Shape{Sphere{Vec3d(0.5, 0.5, 0.2), 0.06}}, Vec3d(0.0), 0.0}});
   Solver solver(options);
-  const FrameStats start = solver.next().stats;
-  FrameStats last = start;
+  FrameStats last = solver.next().stats;
   // A part of it is no surface to begin with.
   const double first = last.volume + last.owed;
   CHECK(first == Catch::Detail::Approx(4.0 / 3.0 * std::numbers::pi * std::pow(0.06, 3)).epsilon(0.05));
   for (int n = 0; n < 12; ++n) last = solver.next().stats;
   CHECK((last.volume + last.owed) / first == Catch::Detail::Approx(1.0).epsilon(1e-3));
-  CHECK(last.owed > start.owed);
+  CHECK(last.owed > 0.02 * first);
   CHECK(solver.warnings().empty());  // a few cells' worth
 }
 

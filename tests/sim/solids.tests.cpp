@@ -83,6 +83,17 @@ TEST_CASE("solids: a domain that ends inside a cell opens the last layer in part
   CHECK(field->openV->tree().getValue(Coord(5, 4, 2)) == 0.0f);
 }
 
+TEST_CASE("solids: a domain whose size is rounded to six digits is closed at its last faces", "[sim]") {
+  Options options = tank(27, {});
+  options.size = Vec3d(0.962963, 0.740741, 1.0);  // 26.000001, 20.000007 and 27 cells
+  const auto field = Solids(options).at(0.0);
+  const Coord count = field->domain.max().offsetBy(1);
+  CHECK(count[0] == 26);
+  CHECK(field->openU->tree().getValue(Coord(count[0], 5, 5)) == 0.0f);
+  CHECK(field->openV->tree().getValue(Coord(5, count[1], 5)) == 0.0f);
+  CHECK(field->openW->tree().getValue(Coord(5, 5, count[2])) == 0.0f);
+}
+
 TEST_CASE("solids: open areas of a tilted half-space are exact", "[sim]") {
   const double slope = std::tan(20.0 * std::numbers::pi / 180.0);
   const Vec3d normal(-slope, 0.0, 1.0);
