@@ -14,8 +14,8 @@ namespace fluidtex::sim {
 // air in and beside these cells are dropped, or they would take the surface away.
 void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const SolidField& solid);
 
-// The other way round: where the flow has left next to nothing in a cell that phi still shows, by a speck of a
-// surface that markers hold in a film or thread long thinner than a cell, there is none any more. The sum
+// The other way round: where the flow has left next to nothing in a cell that phi still shows, by a speck of
+// a surface that markers hold in a film or thread long thinner than a cell, there is none any more. The sum
 // stays.
 void withdrawSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const SolidField& solid);
 
