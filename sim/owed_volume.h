@@ -12,7 +12,6 @@
 #include "sim/mac_grid.h"
 #include "sim/solids.h"
 
-#include <functional>
 #include <vector>
 
 namespace fluidtex::sim {
@@ -30,21 +29,6 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
 // How fast the liquid has to grow to give back what it owes in about `time` seconds: h^3 per second at cell
 // centres, of half a cell at most.
 FloatGrid::Ptr growthOf(const FloatGrid& owed, double time);
-
-// Bodies of liquid that have been put in at once.
-struct PouredLiquid {
-  const FloatGrid& bodies;                       // distance to them, metres, in leaves around them
-  const FloatGrid& phi;                          // with all that was there before, not yet settled
-  std::function<double(const Vec3d&)> distance;  // the same as `bodies`, anywhere
-  bool start;                                    // they are all that there is
-};
-
-// Adds to what is owed (null for nothing) what the surface does not show of liquid that is poured: films and
-// drops that no cell's centre is in; and, at the start and away from solids, what settling, which makes phi a
-// distance, wears off edges and bodies of a few cells. settled: phi after that. Nothing within a cell of
-// sources and drains.
-FloatGrid::Ptr withPoured(const FloatGrid* owed, const PouredLiquid& poured, const FloatGrid& settled,
-                          const SolidField& solid, const RunningFlows& flows);
 
 // What the surface shows in some blocks; for where phi is changed by other than flow.
 struct ShownLiquid {

@@ -11,6 +11,7 @@
 #include "sim/move_surface.h"
 #include "sim/owed_volume.h"
 #include "sim/poured_surface.h"
+#include "sim/poured_volume.h"
 #include "sim/require.h"
 #include "sim/shapes.h"
 #include "sim/solids.h"
