@@ -46,14 +46,17 @@ Found look(const Shape& shape, const Options& options, const Solids& solids, dou
 
 std::vector<std::string> flowWarnings(const Options& options, const Solids& solids) {
   std::vector<std::string> warnings;
-  const auto tell = [&](const std::string& name, const std::string& does, const Shape& shape, double t) {
+  // inSolid, unseen: what becomes of it there, or where no cell's centre is in it.
+  const auto tell = [&](const std::string& name, const std::string& inSolid, const std::string& unseen,
+                        const Shape& shape, double t) {
     const Found found = look(shape, options, solids, t);
     if (found == Found::open) return;
     std::ostringstream text;
     if (found == Found::inSolid)
-      text << name << " lies wholly inside solids or walls: " << does << "; put a part of it into the open";
+      text << name << " lies wholly inside solids or walls: " << inSolid
+           << "; put a part of it into the open";
     else
-      text << name << " holds no cell's middle: " << does << "; make it larger than a cell, "
+      text << name << " holds no cell's middle: " << unseen << "; make it larger than a cell, "
            << options.voxelSize() << " m, or give a higher domain.resolution";
     warnings.push_back(text.str());
   };
@@ -62,15 +65,18 @@ std::vector<std::string> flowWarnings(const Options& options, const Solids& soli
   }
   for (std::size_t n = 0; n < options.liquid.size(); ++n) {
     const LiquidBody& body = options.liquid[n];
-    tell("liquid " + std::to_string(n), "nothing is poured", body.shape, body.from);
+    tell("liquid " + std::to_string(n), "nothing is poured",
+         "it has no surface, and is owed until the flow gathers it", body.shape, body.from);
   }
   for (std::size_t n = 0; n < options.sources.size(); ++n) {
     const Source& source = options.sources[n];
-    tell("source " + std::to_string(n), "nothing comes from it", source.shape, source.from);
+    tell("source " + std::to_string(n), "nothing comes from it", "nothing comes from it", source.shape,
+         source.from);
   }
   for (std::size_t n = 0; n < options.drains.size(); ++n) {
     const Drain& drain = options.drains[n];
-    tell("drain " + std::to_string(n), "it takes nothing away", drain.shape, drain.from);
+    tell("drain " + std::to_string(n), "it takes nothing away", "it takes nothing away", drain.shape,
+         drain.from);
   }
   return warnings;
 }
