@@ -22,7 +22,7 @@ constexpr float kAlongWall = 0.55f;
 
 struct Extension {
   const LeafTable& table;
-  const LetGo& letGo;
+  const GapAt& gapAt;
   float deepest, h;                  // metres: cells deeper in solids than `deepest` get values
   std::vector<float> value;          // #voxels: phi
   std::vector<float> depth;          // #voxels: -solidPhi
@@ -73,15 +73,15 @@ struct Extension {
     const auto reachesLiquid = [&](float layers) { return value[from] + layers * h * inward < 0.0f; };
     // A surface that the wall cuts may well leave air behind it, though the liquid holds to the wall.
     const auto away = [&] {
-      return letGo ? letGo(table.coord(from))
+      return gapAt ? gapAt(table.coord(from)) == Gap::opens
                    : value[cell] >= 0.0f && (!liquid || inward > kAlongWall || reachesLiquid(1.0f));
     };
     // Air behind the solid's surface, which has moved with the flow since the liquid let go.
-    if (liquid && away()) return {std::max(value[cell], depth[cell]), Vec3(0.0f), normal};
+    if (liquid && away()) return {gapAt ? std::max(value[cell], depth[cell]) : value[cell], Vec3(0.0f), normal};
     const Vec3 along = slope - inward * normal;
     if (inward > kAlongWall) {
-      // Air between the solid and a surface that goes away from it stays.
-      const bool stays = !liquid && away();
+      // Air between the solid and a surface that does not come nearer stays.
+      const bool stays = gapAt ? gapAt(table.coord(from)) != Gap::closes : !liquid && away();
       return {value[from], stays ? slope : along, stays ? slope : along};
     }
     if (liquid || !reachesLiquid(kSolidLayers) || !away()) return {value[from], slope, slope};
@@ -96,6 +96,7 @@ struct Extension {
     std::array<std::int64_t, 3> nearest{-1, -1, -1};
     Vec3 way(0.0f);  // into the solid, by how much nearer the neighbours are
     std::array<std::int64_t, 6> all;
+    std::array<int, 6> side;  // on which each of them is
     int count = 0;
     for (int axis = 0; axis < 3; ++axis) {
       for (int up = 0; up < 2; ++up) {
@@ -107,6 +108,7 @@ struct Extension {
           if (shallower > 0.0f && !withoutNearest) return false;
           continue;
         }
+        side[count] = 2 * axis + up;
         all[count++] = n;
         if (shallower <= std::abs(way[axis])) continue;
         way[axis] = up != 0 ? -shallower : shallower;
@@ -132,8 +134,9 @@ struct Extension {
     }
     for (int n = 0; length == 0.0f && n < count; ++n) {
       const Guess guess = ask(cell, all[n], normal);
+      const float way = side[n] % 2 == 0 ? h : -h;
       weights += 1.0f;
-      sum += guess.value - value[all[0]];
+      sum += guess.value - value[all[0]] + way * guess.gradient[side[n] / 2];
       carried += guess.carried;
     }
     // The mean of equal values is exactly theirs: what differs from the background by rounding would make
@@ -146,12 +149,12 @@ struct Extension {
 
 }  // namespace
 
-void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo, float deep,
+void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const GapAt& gapAt, float deep,
                       const Visibility* visibility, const FloatGrid* left) {
   const LeafTable table = makeLeafTable(phi.constTree());
   const float h = static_cast<float>(phi.voxelSize()[0]), background = phi.background();
   Extension extension{
-      table, letGo,   deep * h, h, sampleOn(table, phi.constTree()), sampleOn(table, solidPhi.constTree()),
+      table, gapAt,   deep * h, h, sampleOn(table, phi.constTree()), sampleOn(table, solidPhi.constTree()),
       {},    nullptr, {}};
   for (std::size_t n = 0; n < table.size(); ++n)
     extension.sight.push_back(visibility != nullptr ? visibility->leaf(table.origins[n]) : nullptr);

@@ -1,6 +1,7 @@
 #include "sim/friction.h"
 
 #include "sim/acceleration.h"
+#include "sim/extrapolate.h"
 
 #include <utility>
 
@@ -14,9 +15,12 @@ FrictionReport applyFriction(Velocity& velocity, const FloatGrid& phi, const Sol
   if (report.viscosity.skipped) return report;
   Velocity balanced = copyOf(velocity);
   auto& [u, v, w] = balanced.component;
-  report.pressure = project(*u, *v, *w, phi, solid, dt, density, pressure).report;
+  const Projection projection = project(*u, *v, *w, phi, solid, dt, density, pressure);
+  report.pressure = projection.report;
   if (!report.pressure.converged) return report;
   uniteTopology(balanced);
+  // Friction also sees faces that the projection leaves as they were, with all that forces gave them.
+  extrapolate(balanced, projection.valid, phi, *solid.phi);
   const Velocity before = copyOf(balanced);
   report.viscosity = applyViscosity(balanced, phi, solid, dt, density, viscosity);
   if (!report.viscosity.converged) return report;

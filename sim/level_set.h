@@ -36,24 +36,26 @@ inline constexpr double kReinitReach = 0.4;
 void reinitialize(FloatGrid& phi, const FloatGrid& solidPhi, int iterations = 8,
                   const Visibility* visibility = nullptr);
 
-// Asked of cells in the open beside a solid: has the liquid there let go of the solid, or, where the cell is
-// air, does the velocity lead away from the solid?
-using LetGo = std::function<bool(const Coord&)>;
+// What becomes of the gap between the surface and a solid that it runs along, beside a cell in the open: it
+// closes; it stays as wide as it is, as between a pool and a ceiling; or it opens, because the liquid has let
+// go of the solid or, where the cell is air, moves away from it.
+enum class Gap { closes, stays, opens };
+using GapAt = std::function<Gap(const Coord&)>;
 
 // Gives the cells more than half a cell deep in solids, in the leaves that phi has, values such that the
 // surface runs straight on into the solid, with phi's whole gradient. Not with the part along the solid's
 // normal where liquid closes on the solid nearly along it (the last gap is taken for closed), nor where a
 // film thinner than half a cell would begin that flows out of the solid. Where the liquid let go, phi rises
-// along the normal, so that the gap is kept. Without `letGo` everything stays as it is: a gap or a film that
+// along the normal, so that the gap is kept. Without `gap` everything stays as it is: a gap or a film that
 // is there is kept, and none begins. deep: from how deep in a solid on, in voxels. visibility: of the solids;
 // nothing comes through a thin one. left: the solids before they moved, null where they did not; cells that
 // they have left get their values from what is beside them in the open, and are air where nothing is.
-void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const LetGo& letGo = {},
+void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const GapAt& gap = {},
                       float deep = kDeepInSolid, const Visibility* visibility = nullptr,
                       const FloatGrid* left = nullptr);
 
 // The same for solids and sides of the domain: beyond sides of symmetry phi is its own mirror image.
-void extendBeyond(FloatGrid& phi, const SolidField& solid, const LetGo& letGo = {}, float deep = kDeepInSolid,
+void extendBeyond(FloatGrid& phi, const SolidField& solid, const GapAt& gap = {}, float deep = kDeepInSolid,
                   const FloatGrid* left = nullptr);
 // reinitialize, for which sides of symmetry are no solids; the liquid goes on beyond them.
 void redistance(FloatGrid& phi, const SolidField& solid, int iterations);

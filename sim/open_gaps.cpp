@@ -15,7 +15,7 @@ bool touchesLiquid(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord&
   return false;
 }
 
-// A film that leaves a solid does so faster than at this share of what gravity adds in a step.
+// What leaves a solid or closes on it does so faster than at this share of what gravity adds in a step.
 constexpr double kLeaves = 0.05;
 
 // Whether a film thinner than half a cell, so that only the wall's own cell holds it, goes from the wall at
@@ -49,6 +49,24 @@ bool leavesSolid(const FloatGrid& phi, const Velocity& velocity, const SolidFiel
   return !onFloor && !touches;
 }
 
+// Whether liquid comes nearer to a solid beside it: it closes the last gap, in which the velocity would go to
+// 0.
+bool closesOn(const Velocity& velocity, const SolidField& solid, const Coord& cell, const Vec3d& kick) {
+  const FloatGrid* const push[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};
+  Vec3d normal(0.0), speed(0.0);  // out of the solid; against it
+  for (int axis = 0; axis < 3; ++axis) {
+    Coord low = cell, high = cell;
+    low[axis] -= 1;
+    high[axis] += 1;
+    normal[axis] = solid.phi->constTree().getValue(high) - solid.phi->constTree().getValue(low);
+    for (const Coord& face : {cell, high}) {
+      speed[axis] += 0.5 * velocity.component[axis]->constTree().getValue(face);
+      if (push[axis] != nullptr) speed[axis] -= 0.5 * push[axis]->constTree().getValue(face);
+    }
+  }
+  return -speed.dot(normal) > kLeaves * kick.length() * normal.length();
+}
+
 }  // namespace
 
 void openGaps(FloatGrid& phi, const Velocity& velocity, const SolidField& solid, const MaskGrid& separating,
@@ -62,8 +80,11 @@ void openGaps(FloatGrid& phi, const Velocity& velocity, const SolidField& solid,
     for (auto leaf = around.constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
   }
   extendBeyond(phi, solid, [&](const Coord& ijk) {
-    return phi.constTree().getValue(ijk) < 0.0f ? separating.constTree().isValueOn(ijk)
-                                                : leavesSolid(phi, velocity, solid, ijk, kick);
+    const bool liquid = phi.constTree().getValue(ijk) < 0.0f;
+    const bool opens =
+        liquid ? separating.constTree().isValueOn(ijk) : leavesSolid(phi, velocity, solid, ijk, kick);
+    if (opens) return Gap::opens;
+    return closesOn(velocity, solid, ijk, kick) ? Gap::closes : Gap::stays;
   });
   trimBand(phi, *solid.phi);
 }

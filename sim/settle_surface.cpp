@@ -16,15 +16,15 @@ void settleSurface(FloatGrid& phi, const SolidField& solid) {
   for (const Coord& origin : wetLeaves(phi, grown(solid.domain, kLeafDim))) phi.tree().touchLeaf(origin);
   for (auto leaf = solid.phi->constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
   const float h = static_cast<float>(phi.voxelSize()[0]);
-  // A body that ends at a wall has its surface there; extending and reinitialising in turn makes it go on
-  // behind.
-  const LetGo never = [](const Coord&) { return false; };
+  // A body that ends at a wall has no surface there (sim/poured_surface.h), and one that ends before it keeps
+  // its surface: both go straight on.
+  const GapAt gap = [](const Coord&) { return Gap::stays; };
   const int rounds = static_cast<int>(phi.background() / (h * kReinitReach * kIterations)) + 2;
   for (int n = 0; n < rounds; ++n) {
-    extendBeyond(phi, solid, never, kInSolid);
+    extendBeyond(phi, solid, gap, kInSolid);
     redistance(phi, solid, kIterations);
   }
-  extendBeyond(phi, solid, never, kInSolid);
+  extendBeyond(phi, solid, gap, kInSolid);
   trimBand(phi, *solid.phi);
 }
 

@@ -26,6 +26,22 @@ TEST_CASE("friction: a pool rests, whatever its viscosity and walls, also where 
   }
 }
 
+TEST_CASE("friction: liquid in a narrow gap between a ball and a wall rests") {
+  const double viscosity = GENERATE(0.01, 100.0);
+  Options options = tank(24, {box(Vec3d(0.0), Vec3d(0.5, 0.5, 0.5))});
+  options.size = Vec3d(0.5, 0.5, 0.7);
+  options.viscosity = viscosity;
+  options.density = 60.0;
+  options.solids.resize(1);
+  options.solids[0].shape = {Sphere{Vec3d(0.25, 0.12, 0.2), 0.1}};  // a gap of 0.7 cells
+  Solver solver(options);
+  CAPTURE(viscosity);
+  for (int n = 0; n < 6; ++n) {
+    solver.next();
+    REQUIRE(fastestOf(solver.state()) < 1e-5);
+  }
+}
+
 TEST_CASE("friction: nothing is touched where it is negligible") {
   Options options = tank(8, {box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.5))});
   Solver solver(options);

@@ -57,13 +57,13 @@ TEST_CASE("poured surface: a slope keeps its distance at a wall") {
 }
 
 TEST_CASE("poured surface: liquid that ends at a round or square wall starts level") {
-  const Vec3d foot(0.46, 0.44, 0.15), half(0.25, 0.23, 0.0), up(0.0, 0.0, 1.0);
+  const Vec3d foot(0.46, 0.44, 0.15), wide(0.25, 0.23, 0.0), up(0.0, 0.0, 1.0);
   for (const bool round : {true, false}) {
     Options options = tank(24, {});
     options.size = Vec3d(0.97, 0.91, 1.0);  // no whole number of cells
     const auto inside = [&](double from, double to) {
       if (round) return Shape{Cylinder{foot + from * up, foot + to * up, 0.23}};
-      return Shape{Box{foot - half + from * up, foot + half + to * up}};
+      return Shape{Box{foot - wide + from * up, foot + wide + to * up}};
     };
     options.solids.resize(1);
     options.solids[0].shape = {Difference{{{Box{Vec3d(0.1), Vec3d(0.85)}}, inside(0.05, 1.0)}}};
@@ -72,5 +72,26 @@ TEST_CASE("poured surface: liquid that ends at a round or square wall starts lev
     solver.next();
     CAPTURE(round);
     CHECK(fastestOf(solver.state()) < 0.01);
+  }
+}
+
+TEST_CASE("poured surface: a pool stays level round a ball that dips into it") {
+  // Cells below the level, from one that is almost part of it to half of the ball.
+  for (const double dip : {0.1, 0.4, 0.9, 1.4, 2.8}) {
+    Options options = tank(24, {box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.44))});
+    options.size = Vec3d(0.97, 0.91, 1.0);
+    const double h = options.voxelSize(), radius = 2.8 * h;
+    options.solids.resize(2);
+    options.solids[0].shape = {Sphere{Vec3d(0.52, 0.47, 0.44 + radius - dip * h), radius}};
+    // And one that leaves a gap of a cell beside a wall.
+    options.solids[1].shape = {Sphere{Vec3d(0.97 - radius - h, 0.2, 0.44 + radius - dip * h), radius}};
+    Solver solver(options);
+    double fastest = 0.0;
+    for (int n = 0; n < 6; ++n) {
+      solver.next();
+      fastest = std::max(fastest, fastestOf(solver.state()));
+    }
+    CAPTURE(dip);
+    CHECK(fastest < 0.02 * std::sqrt(options.gravity.length() * h));
   }
 }
