@@ -77,7 +77,8 @@ struct Extension {
                    : value[cell] >= 0.0f && (!liquid || inward > kAlongWall || reachesLiquid(1.0f));
     };
     // Air behind the solid's surface, which has moved with the flow since the liquid let go.
-    if (liquid && away()) return {gapAt ? std::max(value[cell], depth[cell]) : value[cell], Vec3(0.0f), normal};
+    if (liquid && away())
+      return {gapAt ? std::max(value[cell], depth[cell]) : value[cell], Vec3(0.0f), normal};
     const Vec3 along = slope - inward * normal;
     if (inward > kAlongWall) {
       // Air between the solid and a surface that does not come nearer stays.

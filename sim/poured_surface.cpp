@@ -13,7 +13,8 @@ namespace {
 constexpr double kNear = 1.8, kTouching = 0.05;
 // Cells along an axis in which a surface is looked for, and their parts: a wall is no thinner.
 constexpr int kReach = 2, kParts = 4;
-// Cosine of the angle between two surfaces that are one; and how far into a solid a body may be put, in cells.
+// Cosine of the angle between two surfaces that are one; and how far into a solid a body may be put, in
+// cells.
 constexpr double kParallel = 0.99, kInto = 0.5;
 // Halvings of a way between cells.
 constexpr int kHalvings = 40;
@@ -31,7 +32,8 @@ Vec3d crossing(const ShapeDistance& distance, Vec3d from, Vec3d to, double low) 
 
 // Whether a body ends at a solid here, at a place on its surface: there they are one, or the body has been
 // put a little into the solid. Where one surface cuts the other it goes on into the solid.
-bool isAtSolid(const ShapeDistance& body, const Distance& solids, const Vec3d& place, double apart, double h) {
+bool isAtSolid(const ShapeDistance& body, const Distance& solids, const Vec3d& place, double apart,
+               double h) {
   const double away = solids(place);
   if (away > apart || away < -kInto * h) return false;
   return std::abs(normalAt(body, place, 0.01 * h).dot(normalAt(solids, place, 0.01 * h))) > kParallel;

@@ -11,8 +11,8 @@ namespace fluidtex::sim {
 // inside. A body ends at solids, or within a twentieth of a cell of them, without a surface there: near a
 // corner between wall and surface its own distance would be that to the wall, and cells there would say that
 // the surface lies too low. There it is the distance to where the surface crosses the axes within
-// two cells, exact for a plane, or more than that of a cell beside the surface. solids: their distance, that of
-// the domain's sides among them. h: the cells' size.
+// two cells, exact for a plane, or more than that of a cell beside the surface. solids: their distance, that
+// of the domain's sides among them. h: the cells' size.
 std::function<double(const Vec3d&)> pouredSurface(const ShapeDistance& body,
                                                   std::function<double(const Vec3d&)> solids, double h);
 

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace fluidtex::sim {
 
@@ -375,6 +376,32 @@ std::array<FloatGrid::Ptr, 3> openFaces(const SolidDistance& distance, const Coo
   return open;
 }
 
+// Gaps between solids that are narrower than a cell, so that no corner of the grid lies in them, are closed:
+// nothing gets into a cell without an open face. It is part of the solids like what is deep in them, or
+// liquid that is in it from the start would never end.
+void closeNarrowGaps(FloatGrid& phi, const std::array<FloatGrid::Ptr, 3>& open, const CoordBBox& domain,
+                     double h) {
+  const auto leaves = leavesOf(phi.tree());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    FloatLeaf& leaf = *leaves[n];
+    const float edge = 0.5f * static_cast<float>(h);
+    std::array<std::optional<openvdb::tree::ValueAccessor<const FloatTree>>, 3> faces;
+    for (int i = 0; i < kLeafSize; ++i) {
+      const float value = leaf.getValue(i);
+      const Coord cell = leaf.offsetToGlobalCoord(i);
+      if (!(value > 0.0f) || value >= edge || !domain.isInside(cell)) continue;
+      bool any = false;
+      for (int axis = 0; axis < 3 && !any; ++axis) {
+        if (!faces[axis]) faces[axis].emplace(open[axis]->constTree());
+        Coord above = cell;
+        above[axis] += 1;
+        any = faces[axis]->getValue(cell) > 0.0f || faces[axis]->getValue(above) > 0.0f;
+      }
+      if (!any) leaf.setValueOnly(i, -edge);
+    }
+  });
+}
+
 }  // namespace
 
 SolidField makeSolidField(const SolidDistance& distance, const SolidDistance& openDistance,
@@ -384,10 +411,13 @@ SolidField makeSolidField(const SolidDistance& distance, const SolidDistance& op
   field.domain = domain;
   field.phi = cellDistances(distance, domain, chunks, h);
   field.phiMirrored = mirrored ? cellDistances(mirrored, domain, chunks, h) : field.phi;
-  const auto& [u, v, w] = openFaces(openDistance, domain, chunks, field.phi->tree(), h);
+  const std::array<FloatGrid::Ptr, 3> open = openFaces(openDistance, domain, chunks, field.phi->tree(), h);
+  const auto& [u, v, w] = open;
   field.openU = u;
   field.openV = v;
   field.openW = w;
+  closeNarrowGaps(*field.phi, open, domain, h);
+  if (field.phiMirrored != field.phi) closeNarrowGaps(*field.phiMirrored, open, domain, h);
   field.visibility = visibilityOf(*field.phi, {u.get(), v.get(), w.get()});
   field.chunks = std::move(chunks);
   return field;

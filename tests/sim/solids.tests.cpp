@@ -261,6 +261,22 @@ TEST_CASE("solids: where two touch it is as solid as elsewhere") {
     for (int k = 4; k < 12; ++k) CHECK(field->phi->tree().getValue(Coord(8, j, k)) < -0.49f * float(h));
 }
 
+TEST_CASE("solids: a gap in which no corner of the grid lies is closed") {
+  for (const double gap : {0.3, 0.6, 0.9, 1.1}) {  // cells between the floor and a block
+    Options options;
+    options.resolution = 16;
+    const double h = options.voxelSize();
+    options.solids.resize(1);
+    options.solids[0].shape = {Box{Vec3d(0.25, 0.25, gap * h), Vec3d(0.75, 0.75, 0.6)}};
+    Solids solids(options);
+    const auto field = solids.at(0.0);
+    const float inGap = field->phi->tree().getValue(Coord(8, 8, 0));
+    CAPTURE(gap);
+    CHECK((inGap > 0.0f) == (gap > 1.0));
+    CHECK(field->phi->tree().getValue(Coord(1, 1, 0)) > 0.0f);
+  }
+}
+
 TEST_CASE("constrain: nothing moves between the two sides of a thin wall") {
   // A wall of 1.8 cells with two centres in it, wherever it ends; the air above it moves off.
   const int n = 16;

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 using namespace fluidtex;
 using sim::Coord;
 using sim::Vec3d;
@@ -90,6 +92,18 @@ TEST_CASE("surroundings: volumes are those of the shapes outside of solids", "[s
   addSolid(options, {sim::Sphere{Vec3d(0.25, 0.4, 0.2), 0.15}});
   const double expected = 0.513 * 0.729 * 0.377 - 4.0 / 3.0 * M_PI * 0.15 * 0.15 * 0.15;
   CHECK(Surroundings(options, {}).pouredVolume() == Approx(expected).epsilon(0.003));
+}
+
+TEST_CASE("surroundings: what is poured into a narrow gap or beside a thin wall is told apart", "[stress]") {
+  sim::Options gap = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.3)));
+  CHECK(Surroundings(gap, {}).inNarrowGaps() == 0.0);
+  CHECK(Surroundings(gap, {}).besideThinWalls() == 0.0);
+  addSolid(gap, box(Vec3d(0.2, 0.2, 0.03), Vec3d(0.8, 0.8, 0.5)));  // 0.6 cells above the floor
+  CHECK(Surroundings(gap, {}).inNarrowGaps() == Catch::Detail::Approx(0.6 * 0.6 * 0.03).epsilon(0.2));
+  // A box of half-cell walls, wet inside on four sides of 10 by 4 cells and a floor of 10 by 10.
+  const double thin = Surroundings(shutBox(), {}).besideThinWalls() / std::pow(0.05, 3);
+  CHECK(thin > 0.4 * (4 * 40 + 100));
+  CHECK(thin < 0.7 * (4 * 40 + 100));
 }
 
 TEST_CASE("volume budget: what comes and goes is allowed, and no more", "[stress]") {

@@ -104,13 +104,15 @@ double VolumeBudget::start(double volume) {
   const double poured = m_surroundings.pouredVolume();
   m_most = std::max(volume, poured);
   m_low = m_high = volume;
-  const double allowed = tolerance() + kOfSurface * m_options.voxelSize() * m_surroundings.pouredSurface();
+  const double allowed = tolerance() + kOfSurface * m_options.voxelSize() * m_surroundings.pouredSurface() +
+                         m_surroundings.besideThinWalls();
   // What drains take away at once may be missing.
   double drained = 0.0;
   for (const sim::Drain& drain : m_options.drains)
     if (drain.from <= 0.0) drained += m_surroundings.volumeIn(drain.shape, 0.0);
   if (volume > poured + allowed) return volume - poured;
-  return volume < poured - drained - allowed ? volume - poured : 0.0;
+  const double low = poured - drained - m_surroundings.inNarrowGaps() - allowed;
+  return volume < low ? volume - poured : 0.0;
 }
 
 double VolumeBudget::advance(double from, double to, double volume) {

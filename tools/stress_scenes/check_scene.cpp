@@ -42,7 +42,7 @@ constexpr double kEnergyTolerance = 0.01;
 // Of the energy of the surface: of films thinner than two cells only half is seen, and all of it is set free.
 constexpr double kFilms = 0.1;
 // Of the speed at which a ripple of a cell's height falls, which is sqrt(g h): what is left at rest is less.
-constexpr double kStill = 0.1;
+constexpr double kStill = 0.05;
 // In a frame. Liquid of the greatest speed that is allowed takes less.
 constexpr int kMostSteps = 500;
 
@@ -112,6 +112,11 @@ bool isDriven(const sim::Options& options) {
          std::find(options.sides.begin(), options.sides.end(), sim::Side::stream) != options.sides.end();
 }
 
+bool anyMoves(const sim::Options& options) {
+  return std::any_of(options.solids.begin(), options.solids.end(),
+                     [](const sim::Solid& solid) { return solid.keyframes.size() > 1; });
+}
+
 // Whether liquid is poured, or a solid comes or goes.
 bool isEvent(const sim::Options& options, double from, double to) {
   const auto now = [&](double time) { return happens(time, from, to, options.frameRate); };
@@ -166,11 +171,22 @@ class Checks {
     const double h = m_options.voxelSize(), owed = std::abs(frame.stats.owed);
     const double always = kOwedOfSurface * h * now.area + kDrop * h * h * h + kOwedOfThin * now.thin;
     const double atOnce = kMostOwedAtOnce * whole + kImpact * m_options.cfl * h * now.area;
+    // What would cover the floor less than a cell deep can become a film that nobody sees.
+    if (frame.stats.owed > 0.0 && whole < h * floorArea()) return;
     m_owing = owed > kMostOwed * whole + always ? m_owing + 1 : 0;
     if (m_owing >= kOwedFrames || owed > atOnce + always)
       fail("owed", fmt::format("{:+.3g} m3, {:+.1f}% of {:.4g} m3, most of it ({:+.3g} of a cell) at {}",
                                frame.stats.owed, 100.0 * frame.stats.owed / whole, whole, now.owed.value,
                                written(now.owed.place)));
+  }
+
+  // m2, of the domain's side that gravity leads to.
+  double floorArea() const {
+    const Vec3d& g = m_options.gravity;
+    int down = 2;
+    for (int a = 0; a < 3; ++a)
+      if (std::abs(g[a]) > std::abs(g[down])) down = a;
+    return m_options.size[(down + 1) % 3] * m_options.size[(down + 2) % 3];
   }
 
   void outside(const sim::State& state, const sim::Frame& frame) {
@@ -194,15 +210,19 @@ class Checks {
 
   // Potential energy and surface are those of the frame, the velocity is of a time `ahead`. Until then the
   // energy of place falls by what gravity does meanwhile: exactly, but for a part of second order, of which
-  // free fall has the most, m (g ahead)^2 / 2. What is owed may have been lost at another height than where
-  // it is.
+  // free fall has the most, m (g ahead)^2 / 2. What is owed, or was, may have been lost at another height
+  // than where it is or came back, and so may a drop that no grid sees.
   void energy(const sim::State& state, const sim::Frame& frame, const Measures& now) {
     // Of liquid that nobody sees nothing is known.
     if (isDriven(m_options) || !std::isfinite(now.lowest)) return;
     const double weight = m_options.gravity.length(), fall = weight * state.ahead;
     const double sum = now.kinetic + now.potential + now.surface - now.falling * state.ahead;
+    if (m_frame == 1 || isEvent(m_options, m_time, frame.time)) m_mostOwed = 0.0;
+    m_mostOwed = std::max(m_mostOwed, std::abs(frame.stats.owed));
+    const double h = m_options.voxelSize();
     const double lifted =
-        m_options.density * std::abs(frame.stats.owed) * (m_surroundings.highest(frame.time) - now.lowest);
+        m_options.density * (m_mostOwed * (m_surroundings.highest(frame.time) - now.lowest) +
+                             (kOwedOfSurface * h * now.area + kDrop * h * h * h) * weight * h);
     const double allowed = kEnergyTolerance * (now.kinetic + now.potential) + kFilms * now.surface + lifted +
                            0.5 * now.mass * fall * fall;
     if (m_frame == 1 || isEvent(m_options, m_time, frame.time)) m_energy = sum;
@@ -236,7 +256,8 @@ class Checks {
                           (isDriven(m_options) ? weight * m_options.size.length() : 0.0);
     const double most = kJets * std::sqrt(given * given + 2.0 * height + 2.0 * weight * h +
                                           4.0 * m_options.surfaceTension / (m_options.density * h));
-    if (now.speed.value > most)
+    // Between solids that close on each other liquid comes out as fast as the gap is narrow.
+    if (now.speed.value > most && !anyMoves(m_options))
       fail("speed", fmt::format("{:.3g} m/s where {:.3g} m/s is possible, at {}", now.speed.value, most,
                                 written(now.speed.place)));
   }
@@ -247,7 +268,7 @@ class Checks {
   VolumeBudget m_budget;
   std::vector<Failure> m_failures;
   int m_frame = 0, m_owing = 0;
-  double m_time = 0.0, m_energy = 0.0;
+  double m_time = 0.0, m_energy = 0.0, m_mostOwed = 0.0;
 };
 
 // The state after the last frame, on so many threads; written, read and gone on with after `broken` frames.

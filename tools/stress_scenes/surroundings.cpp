@@ -12,6 +12,8 @@ bool staysAsItIs(const sim::Solid& solid) {
   return solid.keyframes.empty() && solid.from <= 0.0 && solid.until == sim::kForever;
 }
 
+constexpr int kCellSamples = kSamplesPerCell * kSamplesPerCell * kSamplesPerCell;
+
 // Share of a sample's cube that lies within the surface at that distance.
 double share(double distance, double step) {
   return std::clamp(0.5 - distance / step, 0.0, 1.0);
@@ -67,6 +69,7 @@ Surroundings::Surroundings(const sim::Options& options, const std::vector<std::s
     m_poured += share(distance, m_step) * cube;
     if (std::abs(distance) < 0.5 * m_step) m_pouredSurface += m_step * m_step;
   }
+  findUnresolved(all, openNow, first);
   const double top = highest(sim::kForever);
   const bool calm = !disturbs(options) && std::isfinite(top);
   const double weight = options.gravity.length();
@@ -100,6 +103,58 @@ std::vector<float> Surroundings::distances(const std::function<double(const Vec3
   tbb::parallel_for(std::size_t{0}, values.size(),
                     [&](std::size_t n) { values[n] = static_cast<float>(distance(place(n))); });
   return values;
+}
+
+// open, liquid: distances at the samples.
+void Surroundings::findUnresolved(const sim::Solids& solids, const std::vector<float>& open,
+                                  const std::vector<float>& liquid) {
+  const double h = m_options.voxelSize(), cube = m_step * m_step * m_step;
+  const std::size_t stride[3] = {static_cast<std::size_t>(m_count[1]) * m_count[2],
+                                 static_cast<std::size_t>(m_count[2]), 1};
+  const auto hasOpenCorner = [&](const Coord& cell) {
+    for (int n = 0; n < 8; ++n)
+      if (solids.distance((cell.asVec3d() + Vec3d(n & 1, n >> 1 & 1, n >> 2)) * h, 0.0) > 1e-6 * h) return true;
+    return false;
+  };
+  // Whether the solid at a sample ends within a cell, from side to side, and there is liquid on one of them.
+  const auto isThinWall = [&](const Coord& at, std::size_t n) {
+    for (int a = 0; a < 3; ++a) {
+      int away[2] = {0, 0};
+      bool wet = false;
+      for (int side = 0; side < 2; ++side) {
+        for (int steps = 1; steps <= kSamplesPerCell && away[side] == 0; ++steps) {
+          const int place = at[a] + (side == 0 ? -steps : steps);
+          if (place < 0 || place >= m_count[a]) break;
+          const std::size_t there = side == 0 ? n - steps * stride[a] : n + steps * stride[a];
+          if (open[there] <= 0.0f) continue;
+          away[side] = steps;
+          wet = wet || liquid[there] < 0.0f;
+        }
+      }
+      if (wet && away[0] > 0 && away[1] > 0 && away[0] + away[1] <= kSamplesPerCell + 1) return true;
+    }
+    return false;
+  };
+  for (int cell = 0; cell < m_count[0] * m_count[1] * m_count[2] / kCellSamples; ++cell) {
+    const Coord cells(m_count[0] / kSamplesPerCell, m_count[1] / kSamplesPerCell, m_count[2] / kSamplesPerCell);
+    const Coord at(cell / (cells[1] * cells[2]), cell / cells[2] % cells[1], cell % cells[2]);
+    double wet = 0.0;
+    bool cut = false, thin = false;
+    for (int n = 0; n < kCellSamples; ++n) {
+      const Coord sample(at[0] * kSamplesPerCell + n / (kSamplesPerCell * kSamplesPerCell),
+                         at[1] * kSamplesPerCell + n / kSamplesPerCell % kSamplesPerCell,
+                         at[2] * kSamplesPerCell + n % kSamplesPerCell);
+      const std::size_t index = sample[0] * stride[0] + sample[1] * stride[1] + sample[2];
+      wet += share(std::max(liquid[index], -open[index]), m_step);
+      cut = cut || open[index] <= static_cast<float>(h);
+      thin = thin || (open[index] <= 0.0f && isThinWall(sample, index));
+    }
+    if (wet > 0.0 && cut && !hasOpenCorner(at)) {
+      m_inNarrowGaps += wet * cube;
+    } else if (thin) {
+      m_besideThinWalls += 0.5 * h * h * h;
+    }
+  }
 }
 
 // highest: no place with more of -gravity . x is entered.

@@ -42,6 +42,11 @@ class Surroundings {
   // Of all that is there at the start, and how large its surface is, m2.
   double pouredVolume() const { return m_poured; }
   double pouredSurface() const { return m_pouredSurface; }
+  // m3 of it in cells with no corner in the open: gaps narrower than a cell, which the solver closes.
+  double inNarrowGaps() const { return m_inNarrowGaps; }
+  // m3 that cells may be wrong by in which a wall thinner than a cell stands beside liquid: half of each, as
+  // a cell belongs to one side of a wall.
+  double besideThinWalls() const { return m_besideThinWalls; }
 
   // Most of -gravity . x, m2/s2, of what is poured or comes in until time t; -infinity where there is
   // nothing.
@@ -50,6 +55,7 @@ class Surroundings {
  private:
   Vec3d place(std::size_t sample) const;
   std::vector<float> distances(const std::function<double(const Vec3d&)>& distance) const;
+  void findUnresolved(const sim::Solids& solids, const std::vector<float>& open, const std::vector<float>& liquid);
   void flood(const std::vector<float>& open, const std::vector<float>& liquid, double highest);
 
   const sim::Options& m_options;
@@ -58,7 +64,7 @@ class Surroundings {
   std::vector<std::uint8_t> m_reached;
   bool m_unbounded = false;  // liquid can get out of [0, size] through an unbounded side
   bool m_atRest = false;
-  double m_poured = 0.0, m_pouredSurface = 0.0;
+  double m_poured = 0.0, m_pouredSurface = 0.0, m_inNarrowGaps = 0.0, m_besideThinWalls = 0.0;
   struct Body {
     double from, highest;
   };
