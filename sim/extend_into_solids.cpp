@@ -22,7 +22,7 @@ constexpr float kAlongWall = 0.55f;
 
 struct Extension {
   const LeafTable& table;
-  const GapAt& gapAt;
+  const GapRules& rules;
   float deepest, h;                  // metres: cells deeper in solids than `deepest` get values
   std::vector<float> value;          // #voxels: phi
   std::vector<float> depth;          // #voxels: -solidPhi
@@ -73,16 +73,17 @@ struct Extension {
     const auto reachesLiquid = [&](float layers) { return value[from] + layers * h * inward < 0.0f; };
     // A surface that the wall cuts may well leave air behind it, though the liquid holds to the wall.
     const auto away = [&] {
-      return gapAt ? gapAt(table.coord(from)) == Gap::opens
-                   : value[cell] >= 0.0f && (!liquid || inward > kAlongWall || reachesLiquid(1.0f));
+      return rules.opens ? rules.opens(table.coord(from))
+                         : value[cell] >= 0.0f && (!liquid || inward > kAlongWall || reachesLiquid(1.0f));
     };
     // Air behind the solid's surface, which has moved with the flow since the liquid let go.
     if (liquid && away())
-      return {gapAt ? std::max(value[cell], depth[cell]) : value[cell], Vec3(0.0f), normal};
+      return {rules.opens ? std::max(value[cell], depth[cell]) : value[cell], Vec3(0.0f), normal};
     const Vec3 along = slope - inward * normal;
     if (inward > kAlongWall) {
       // Air between the solid and a surface that does not come nearer stays.
-      const bool stays = gapAt ? gapAt(table.coord(from)) != Gap::closes : !liquid && away();
+      const bool stays =
+          rules.closes ? (!liquid && away()) || !rules.closes(table.coord(from)) : !liquid && away();
       return {value[from], stays ? slope : along, stays ? slope : along};
     }
     if (liquid || !reachesLiquid(kSolidLayers) || !away()) return {value[from], slope, slope};
@@ -135,9 +136,9 @@ struct Extension {
     }
     for (int n = 0; length == 0.0f && n < count; ++n) {
       const Guess guess = ask(cell, all[n], normal);
-      const float way = side[n] % 2 == 0 ? h : -h;
+      const float step = side[n] % 2 == 0 ? h : -h;
       weights += 1.0f;
-      sum += guess.value - value[all[0]] + way * guess.gradient[side[n] / 2];
+      sum += guess.value - value[all[0]] + step * guess.gradient[side[n] / 2];
       carried += guess.carried;
     }
     // The mean of equal values is exactly theirs: what differs from the background by rounding would make
@@ -150,12 +151,12 @@ struct Extension {
 
 }  // namespace
 
-void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const GapAt& gapAt, float deep,
+void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const GapRules& rules, float deep,
                       const Visibility* visibility, const FloatGrid* left) {
   const LeafTable table = makeLeafTable(phi.constTree());
   const float h = static_cast<float>(phi.voxelSize()[0]), background = phi.background();
   Extension extension{
-      table, gapAt,   deep * h, h, sampleOn(table, phi.constTree()), sampleOn(table, solidPhi.constTree()),
+      table, rules,   deep * h, h, sampleOn(table, phi.constTree()), sampleOn(table, solidPhi.constTree()),
       {},    nullptr, {}};
   for (std::size_t n = 0; n < table.size(); ++n)
     extension.sight.push_back(visibility != nullptr ? visibility->leaf(table.origins[n]) : nullptr);

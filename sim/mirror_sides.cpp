@@ -34,9 +34,9 @@ void mirrorAtSides(FloatGrid& phi, const SolidField& solid) {
 
 }  // namespace
 
-void extendBeyond(FloatGrid& phi, const SolidField& solid, const GapAt& gap, float deep,
+void extendBeyond(FloatGrid& phi, const SolidField& solid, const GapRules& rules, float deep,
                   const FloatGrid* left) {
-  extendIntoSolids(phi, *solid.phi, gap, deep, solid.visibility.get(), left);
+  extendIntoSolids(phi, *solid.phi, rules, deep, solid.visibility.get(), left);
   mirrorAtSides(phi, solid);
 }
 

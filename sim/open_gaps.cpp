@@ -15,8 +15,9 @@ bool touchesLiquid(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord&
   return false;
 }
 
-// What leaves a solid or closes on it does so faster than at this share of what gravity adds in a step.
-constexpr double kLeaves = 0.05;
+// What leaves a solid or closes on it does so faster than at this share of what gravity adds in a step. And
+// what moves by less than this share of a cell in a step stands.
+constexpr double kLeaves = 0.05, kStands = 1e-3;
 
 // Whether a film thinner than half a cell, so that only the wall's own cell holds it, goes from the wall at
 // this cell. It has no pressure of its own: it goes where the velocity leads away from the solid, `kick`
@@ -49,11 +50,12 @@ bool leavesSolid(const FloatGrid& phi, const Velocity& velocity, const SolidFiel
   return !onFloor && !touches;
 }
 
-// Whether liquid comes nearer to a solid beside it: it closes the last gap, in which the velocity would go to
-// 0.
-bool closesOn(const Velocity& velocity, const SolidField& solid, const Coord& cell, const Vec3d& kick) {
+// Whether a cell of liquid moves against a solid beside it, or is driven against it: kick is what gravity
+// adds to its velocity in a step. One that stands on a floor has the floor's velocity, whatever gap is left.
+bool closesOn(const Velocity& velocity, const SolidField& solid, const Coord& cell, const Vec3d& kick,
+              double slowest) {
   const FloatGrid* const push[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};
-  Vec3d normal(0.0), speed(0.0);  // out of the solid; against it
+  Vec3d normal(0.0), speed = kick;  // out of the solid; against it
   for (int axis = 0; axis < 3; ++axis) {
     Coord low = cell, high = cell;
     low[axis] -= 1;
@@ -64,13 +66,13 @@ bool closesOn(const Velocity& velocity, const SolidField& solid, const Coord& ce
       if (push[axis] != nullptr) speed[axis] -= 0.5 * push[axis]->constTree().getValue(face);
     }
   }
-  return -speed.dot(normal) > kLeaves * kick.length() * normal.length();
+  return -speed.dot(normal) > slowest * normal.length();
 }
 
 }  // namespace
 
 void openGaps(FloatGrid& phi, const Velocity& velocity, const SolidField& solid, const MaskGrid& separating,
-              const Vec3d& kick) {
+              const Vec3d& kick, double dt) {
   if (!separating.empty()) {
     // The cut reaches the cells beside those that let go; leaves are needed as deep as stencils reach.
     MaskGrid around(separating);
@@ -79,13 +81,14 @@ void openGaps(FloatGrid& phi, const Velocity& velocity, const SolidField& solid,
     openvdb::tools::dilateActiveValues(around.tree(), 3, openvdb::tools::NN_FACE);
     for (auto leaf = around.constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
   }
-  extendBeyond(phi, solid, [&](const Coord& ijk) {
-    const bool liquid = phi.constTree().getValue(ijk) < 0.0f;
-    const bool opens =
-        liquid ? separating.constTree().isValueOn(ijk) : leavesSolid(phi, velocity, solid, ijk, kick);
-    if (opens) return Gap::opens;
-    return closesOn(velocity, solid, ijk, kick) ? Gap::closes : Gap::stays;
-  });
+  GapRules rules;
+  rules.opens = [&](const Coord& cell) {
+    return phi.constTree().getValue(cell) < 0.0f ? separating.constTree().isValueOn(cell)
+                                                 : leavesSolid(phi, velocity, solid, cell, kick);
+  };
+  const double slowest = kLeaves * kick.length() + kStands * solid.voxelSize / dt;
+  rules.closes = [&](const Coord& cell) { return closesOn(velocity, solid, cell, kick, slowest); };
+  extendBeyond(phi, solid, rules);
   trimBand(phi, *solid.phi);
 }
 

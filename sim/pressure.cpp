@@ -305,8 +305,8 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
     PoissonSolver poisson(system, singular);
     const PoissonReport solved =
         poisson.solve(std::move(b), x, options.tolerance, options.maxIterations,
-                      {kSeparationTolerance, [&](const std::vector<double>& loose) {
-                         const bool goOn = !separates(loose);
+                      {kSeparationTolerance, [&](const std::vector<double>& rough) {
+                         const bool goOn = !separates(rough);
                          if (goOn) q = std::vector<double>();  // memory is shortest while the solve runs
                          return goOn;
                        }});

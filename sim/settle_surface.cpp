@@ -18,13 +18,14 @@ void settleSurface(FloatGrid& phi, const SolidField& solid) {
   const float h = static_cast<float>(phi.voxelSize()[0]);
   // A body that ends at a wall has no surface there (sim/poured_surface.h), and one that ends before it keeps
   // its surface: both go straight on.
-  const GapAt gap = [](const Coord&) { return Gap::stays; };
+  const auto never = [](const Coord&) { return false; };
+  const GapRules rules{never, never};
   const int rounds = static_cast<int>(phi.background() / (h * kReinitReach * kIterations)) + 2;
   for (int n = 0; n < rounds; ++n) {
-    extendBeyond(phi, solid, gap, kInSolid);
+    extendBeyond(phi, solid, rules, kInSolid);
     redistance(phi, solid, kIterations);
   }
-  extendBeyond(phi, solid, gap, kInSolid);
+  extendBeyond(phi, solid, rules, kInSolid);
   trimBand(phi, *solid.phi);
 }
 

@@ -227,7 +227,10 @@ Faces openShares(const SolidDistance& distance, const FloatTree& phi, const Coor
       const int s = 1 << (axis + 1) % 3, t = 1 << (axis + 2) % 3, corners[4] = {0, s, s | t, t};
       std::array<double, 4> d;
       for (int n = 0; n < 4; ++n) d[n] = places.corner(cornerOf(local, corners[n]));
-      if (std::max({d[0], d[1], d[2], d[3]}) <= 0.0) continue;
+      const auto [least, most] = std::minmax({d[0], d[1], d[2], d[3]});
+      // All corners on walls: in the plane of one the face is shut, between two it is open.
+      const bool between = least == 0.0 && most == 0.0 && low > 0.0 && high > 0.0;
+      if (most <= 0.0 && !between) continue;
       if (low > 0.0 && high > 0.0 &&
           isCrossed(distance, places.centrePlace(below), places.centrePlace(local), low, high, h,
                     kThinnestWall * h))
@@ -235,7 +238,7 @@ Faces openShares(const SolidDistance& distance, const FloatTree& phi, const Coor
       const unsigned lowSide = sideOf(below) >> (1 << axis), highSide = sideOf(local);
       for (int n = 0; n < 4; ++n)
         if ((lowSide & highSide & 1u << corners[n]) == 0) d[n] = -std::abs(d[n]);
-      faces[axis][c] = static_cast<float>(openAreaFraction(d[0], d[1], d[2], d[3]));
+      faces[axis][c] = between ? 1.0f : static_cast<float>(openAreaFraction(d[0], d[1], d[2], d[3]));
     }
   }
   return faces;
@@ -377,8 +380,8 @@ std::array<FloatGrid::Ptr, 3> openFaces(const SolidDistance& distance, const Coo
 }
 
 // Gaps between solids that are narrower than a cell, so that no corner of the grid lies in them, are closed:
-// nothing gets into a cell without an open face. It is part of the solids like what is deep in them, or
-// liquid that is in it from the start would never end.
+// nothing gets into a cell without an open face, or out of it. It is made part of the solids: liquid that was
+// poured into it would be there for ever, and make surface beside it anew in each step.
 void closeNarrowGaps(FloatGrid& phi, const std::array<FloatGrid::Ptr, 3>& open, const CoordBBox& domain,
                      double h) {
   const auto leaves = leavesOf(phi.tree());

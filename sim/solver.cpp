@@ -202,6 +202,7 @@ void Solver::applyEvents() {
   bool changed = m_state.frame == 0;
   Liquid liquid = liquidOf(m_state, m_state.phi->deepCopy(), {});
   std::vector<std::pair<const LiquidBody*, ShapeDistance>> due;
+  std::vector<bool> poured = m_state.poured;
   FloatGrid dueLiquid(liquid.phi->background());
   dueLiquid.setTransform(cellTransform(h));
   for (std::size_t n = 0; n < m_options.liquid.size(); ++n) {
@@ -209,7 +210,7 @@ void Solver::applyEvents() {
     if (m_state.poured[n] || body.from > now) continue;
     due.emplace_back(&body, ShapeDistance(body.shape, h, domainBox(m_options)));
     unite(dueLiquid, due.back().second, domainCells(m_options));
-    m_state.poured[n] = true;
+    poured[n] = true;
   }
   const auto before = m_solid;
   const auto active = m_solids->active(now);
@@ -271,6 +272,7 @@ void Solver::applyEvents() {
         withPoured(liquid.owed.get(), {dueLiquid, *whole, distance, start}, *liquid.phi, *m_solid, flows);
   }
   store(m_state, std::move(liquid), h);
+  m_state.poured = std::move(poured);
 }
 
 void Solver::tellOfDeficit() {

@@ -215,7 +215,7 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, double kick, co
   if (viscous) stickToWalls(liquid.velocity, solid, projection.valid);
   const bool lets = driven && !projection.separating->empty();
   const ShownLiquid shown = lets ? shownAround(*projection.separating, *liquid.phi, solid) : ShownLiquid{};
-  openGaps(*liquid.phi, liquid.velocity, solid, *projection.separating, options.gravity * dt);
+  openGaps(*liquid.phi, liquid.velocity, solid, *projection.separating, options.gravity * dt, dt);
   if (lets) oweChange(*liquid.owed, shown, *liquid.phi, solid);
   const double fastest = maxAbs(liquid.velocity);
   if (!std::isfinite(fastest)) return false;

@@ -56,10 +56,10 @@ TEST_CASE("bump: only what slopes along the surface counts", "[render]") {
   auto surface = sheet([](const Vec3f&) { return 0.7f; });
   CHECK(farthest(bumpedNormals(surface, {"height", 8.0}), Vec3f(0.0f, 0.0f, 1.0f)) < 1e-6);
   const auto ball = [] {
-    auto ball = shapes::sphere(Vec3f(0.0f), 1.0f, 4, Vec4f(1.0f));
-    ball.spacing = 0.05;
-    for (const Vec3f& p : ball.positions) ball.maps["height"].push_back(p[2]);
-    return ball;
+    auto sphere = shapes::sphere(Vec3f(0.0f), 1.0f, 4, Vec4f(1.0f));
+    sphere.spacing = 0.05;
+    for (const Vec3f& p : sphere.positions) sphere.maps["height"].push_back(p[2]);
+    return sphere;
   }();
   const std::vector<Vec3f> normals = bumpedNormals(ball, {"height", 4.0});
   for (std::size_t v = 0; v < normals.size(); ++v) {

@@ -261,7 +261,7 @@ TEST_CASE("level set: the surface goes on straight into a floor") {
     if (solid->tree().getValue(it.getCoord()) < -0.5f * h) it.setValue(static_cast<float>(-5 * h));
   }
   // Nothing has let go: constant along the floor's normal, as the slope into the floor is falling: linear.
-  extendIntoSolids(*f.phi, *solid, [](const Coord&) { return Gap::closes; });
+  extendIntoSolids(*f.phi, *solid, {[](const Coord&) { return false; }, [](const Coord&) { return true; }});
   CHECK(checkPlaneIn(*solid, *f.phi, plane, 2.6f, 3.0) > 100);
 }
 
@@ -282,7 +282,7 @@ TEST_CASE("level set: liquid that rests on a floor goes on below it, liquid that
   const FloatGrid::Ptr solid = floorBelow();
   for (const bool letGo : {false, true}) {
     Fixture f(h, Coord(32), layer);
-    extendIntoSolids(*f.phi, *solid, [&](const Coord&) { return letGo ? Gap::opens : Gap::closes; });
+    extendIntoSolids(*f.phi, *solid, {[&](const Coord&) { return letGo; }, [](const Coord&) { return true; }});
     const float below = f.phi->tree().getValue(Coord(16, 16, 7)),
                 above = f.phi->tree().getValue(Coord(16, 16, 8));
     CHECK(above < 0.0f);

@@ -142,6 +142,38 @@ TEST_CASE("solver: however much is owed, the surface goes half a cell a step at 
   CHECK_THAT(maxAbs({{now.su, now.sv, now.sw}}) * dt * 32.0, Catch::Matchers::WithinRel(0.5, 1e-5));
 }
 
+TEST_CASE("solver: a gap below water closes") {
+  for (const double gap : {0.1, 0.3, 0.45, 0.6, 1.2}) {
+    Options options = tank(16, {box(Vec3d(0.0, 0.0, gap / 16.0), Vec3d(1.0, 1.0, 0.3))});
+    Solver solver(options);
+    const FrameStats first = solver.next().stats;
+    for (int n = 0; n < 16; ++n) solver.next();
+    const State& state = solver.state();
+    CAPTURE(gap);
+    CHECK(state.phi->tree().getValue(Coord(8, 8, -1)) < 0.0f);
+    const double level = 4.5 - 16.0 * state.phi->tree().getValue(Coord(8, 8, 4));
+    CHECK(level == Catch::Detail::Approx(16.0 * (first.volume + first.owed)).margin(0.05));
+    CHECK(fastestOf(state) < 0.1);
+  }
+}
+
+TEST_CASE("solver: a gap between a pool and what is above it stays") {
+  for (const double gap : {0.15, 0.3, 0.45, 0.6, 1.2}) {
+    Options options = tank(16, {box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.5 - gap / 16.0))});
+    options.solids.resize(1);
+    options.solids[0].shape = {Box{Vec3d(0.25, 0.25, 0.5), Vec3d(0.75, 0.75, 0.8)}};
+    Solver solver(options);
+    for (int n = 0; n < 10; ++n) solver.next();
+    const State& state = solver.state();
+    CAPTURE(gap);
+    CHECK(fastestOf(state) < 1e-3);
+    for (const int i : {2, 8}) {  // beside the box and below it
+      const double level = 7.5 - 16.0 * state.phi->tree().getValue(Coord(i, 8, 7));
+      CHECK(level == Catch::Detail::Approx(8.0 - gap).margin(0.02));
+    }
+  }
+}
+
 TEST_CASE("solver: water leaves a ceiling") {
   Solver solver(tank(24, {box(Vec3d(0.25, 0.25, 0.8), Vec3d(0.75, 0.75, 1.0))}));
   const double start = centreHeight(solver.next());

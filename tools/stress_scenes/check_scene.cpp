@@ -31,6 +31,8 @@ constexpr double kOwedOfSurface = 0.03;
 constexpr double kDrop = 4.2;
 // Of what sheets and threads of a cell or two show so much may be wrong: no grid knows how thick they are.
 constexpr double kOwedOfThin = 0.5;
+// Cells: surface over less liquid than that is that of films.
+constexpr double kFilmThickness = 0.6;
 // Liquid that meets a wall within a step goes into it until the step ends, by `cfl` cells at most. So much of
 // that may be owed at once, times the surface's area.
 constexpr double kImpact = 0.1;
@@ -39,6 +41,8 @@ constexpr double kImpact = 0.1;
 constexpr double kJets = 3.0;
 // Of the energy of motion and place: what the surface's volume, read off phi, is not exact by.
 constexpr double kEnergyTolerance = 0.01;
+// Cells that what is owed may go until it is surface again.
+constexpr double kGivenBack = 8.0;
 // Of the energy of the surface: of films thinner than two cells only half is seen, and all of it is set free.
 constexpr double kFilms = 0.1;
 // Of the speed at which a ripple of a cell's height falls, which is sqrt(g h): what is left at rest is less.
@@ -171,22 +175,14 @@ class Checks {
     const double h = m_options.voxelSize(), owed = std::abs(frame.stats.owed);
     const double always = kOwedOfSurface * h * now.area + kDrop * h * h * h + kOwedOfThin * now.thin;
     const double atOnce = kMostOwedAtOnce * whole + kImpact * m_options.cfl * h * now.area;
-    // What would cover the floor less than a cell deep can become a film that nobody sees.
-    if (frame.stats.owed > 0.0 && whole < h * floorArea()) return;
-    m_owing = owed > kMostOwed * whole + always ? m_owing + 1 : 0;
+    // What is seen is films, little more than half a cell thick on the mean: beside them are those that nobody sees.
+    const bool films = frame.stats.owed > 0.0 && now.mass / m_options.density < kFilmThickness * h * now.area;
+    m_owing = !films && owed > kMostOwed * whole + always ? m_owing + 1 : 0;
+    if (films) return;
     if (m_owing >= kOwedFrames || owed > atOnce + always)
       fail("owed", fmt::format("{:+.3g} m3, {:+.1f}% of {:.4g} m3, most of it ({:+.3g} of a cell) at {}",
                                frame.stats.owed, 100.0 * frame.stats.owed / whole, whole, now.owed.value,
                                written(now.owed.place)));
-  }
-
-  // m2, of the domain's side that gravity leads to.
-  double floorArea() const {
-    const Vec3d& g = m_options.gravity;
-    int down = 2;
-    for (int a = 0; a < 3; ++a)
-      if (std::abs(g[a]) > std::abs(g[down])) down = a;
-    return m_options.size[(down + 1) % 3] * m_options.size[(down + 2) % 3];
   }
 
   void outside(const sim::State& state, const sim::Frame& frame) {
@@ -210,22 +206,24 @@ class Checks {
 
   // Potential energy and surface are those of the frame, the velocity is of a time `ahead`. Until then the
   // energy of place falls by what gravity does meanwhile: exactly, but for a part of second order, of which
-  // free fall has the most, m (g ahead)^2 / 2. What is owed, or was, may have been lost at another height
-  // than where it is or came back, and so may a drop that no grid sees.
+  // free fall has the most, m (g ahead)^2 / 2. What is owed may have been lost at another height than where
+  // it is, what was owed some cells from where it came back, and of a drop that no grid sees a cell is the
+  // least that can be known.
   void energy(const sim::State& state, const sim::Frame& frame, const Measures& now) {
+    const double h = m_options.voxelSize(), owed = std::abs(frame.stats.owed);
+    const bool event = m_frame == 1 || isEvent(m_options, m_time, frame.time);
+    m_mostOwed = event ? owed : std::max(m_mostOwed, owed);
+    if (event) m_energy = INFINITY;
     // Of liquid that nobody sees nothing is known.
     if (isDriven(m_options) || !std::isfinite(now.lowest)) return;
     const double weight = m_options.gravity.length(), fall = weight * state.ahead;
     const double sum = now.kinetic + now.potential + now.surface - now.falling * state.ahead;
-    if (m_frame == 1 || isEvent(m_options, m_time, frame.time)) m_mostOwed = 0.0;
-    m_mostOwed = std::max(m_mostOwed, std::abs(frame.stats.owed));
-    const double h = m_options.voxelSize();
+    const double height = m_surroundings.highest(frame.time) - now.lowest;
     const double lifted =
-        m_options.density * (m_mostOwed * (m_surroundings.highest(frame.time) - now.lowest) +
+        m_options.density * (owed * height + (m_mostOwed - owed) * std::min(height, weight * kGivenBack * h) +
                              (kOwedOfSurface * h * now.area + kDrop * h * h * h) * weight * h);
     const double allowed = kEnergyTolerance * (now.kinetic + now.potential) + kFilms * now.surface + lifted +
                            0.5 * now.mass * fall * fall;
-    if (m_frame == 1 || isEvent(m_options, m_time, frame.time)) m_energy = sum;
     // A volume that is wrong has a wrong energy.
     if (sum > m_energy + allowed && !failed("volume"))
       fail("energy", fmt::format("{:.4g} J after {:.4g} J, {:+.1f}%; fastest {:.3g} m/s at {}", sum, m_energy,
@@ -254,10 +252,11 @@ class Checks {
     const double given = givenSpeed(m_options);
     const double height = std::max(0.0, m_surroundings.highest(time) - now.lowest) +
                           (isDriven(m_options) ? weight * m_options.size.length() : 0.0);
-    const double most = kJets * std::sqrt(given * given + 2.0 * height + 2.0 * weight * h +
-                                          4.0 * m_options.surfaceTension / (m_options.density * h));
-    // Between solids that close on each other liquid comes out as fast as the gap is narrow.
-    if (now.speed.value > most && !anyMoves(m_options))
+    // Between solids that close on each other liquid comes out the faster the narrower the gap is.
+    const double most = (anyMoves(m_options) ? 3.0 : 1.0) * kJets *
+                        std::sqrt(given * given + 2.0 * height + 2.0 * weight * h +
+                                  4.0 * m_options.surfaceTension / (m_options.density * h));
+    if (now.speed.value > most)
       fail("speed", fmt::format("{:.3g} m/s where {:.3g} m/s is possible, at {}", now.speed.value, most,
                                 written(now.speed.place)));
   }

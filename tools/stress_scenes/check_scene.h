@@ -20,11 +20,11 @@ struct Failure {
 //   poured   on the first frame there is as much liquid as the shapes hold
 //   volume   liquid and what is owed are together what was poured, what came and what went, to 1% of it
 //   owed     what is owed is less than 2% of the liquid, but for a few frames, and half of thin sheets; more
-//            may be owed of what would be a film on the floor, never less than nothing
+//            may be owed while what is seen is films
 //   outside  no liquid where there is no open way to
 //   energy   of motion, place and surface together, with what liquid that is owed may have, does not rise
 //            where nothing drives the liquid
-//   speed    is no more than what gravity, height and what drives the liquid can give, but where solids move
+//   speed    is no more than what gravity, height and what drives the liquid can give, three times that where solids move
 //   rest     what is at rest stays at rest
 //   threads  the state after the last frame has the same bytes on one thread as on two
 //   restart  and the same bytes where it was written and read again half way

@@ -113,7 +113,8 @@ void Surroundings::findUnresolved(const sim::Solids& solids, const std::vector<f
                                  static_cast<std::size_t>(m_count[2]), 1};
   const auto hasOpenCorner = [&](const Coord& cell) {
     for (int n = 0; n < 8; ++n)
-      if (solids.distance((cell.asVec3d() + Vec3d(n & 1, n >> 1 & 1, n >> 2)) * h, 0.0) > 1e-6 * h) return true;
+      if (solids.distance((cell.asVec3d() + Vec3d(n & 1, n >> 1 & 1, n >> 2)) * h, 0.0) > 1e-6 * h)
+        return true;
     return false;
   };
   // Whether the solid at a sample ends within a cell, from side to side, and there is liquid on one of them.
@@ -136,7 +137,8 @@ void Surroundings::findUnresolved(const sim::Solids& solids, const std::vector<f
     return false;
   };
   for (int cell = 0; cell < m_count[0] * m_count[1] * m_count[2] / kCellSamples; ++cell) {
-    const Coord cells(m_count[0] / kSamplesPerCell, m_count[1] / kSamplesPerCell, m_count[2] / kSamplesPerCell);
+    const Coord cells(m_count[0] / kSamplesPerCell, m_count[1] / kSamplesPerCell,
+                      m_count[2] / kSamplesPerCell);
     const Coord at(cell / (cells[1] * cells[2]), cell / cells[2] % cells[1], cell % cells[2]);
     double wet = 0.0;
     bool cut = false, thin = false;
