@@ -192,7 +192,7 @@ FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi,
       if (!made[n]) made[n] = std::make_unique<FloatLeaf>(origin, 0.0f, false);
       const Bend bend = bendAt(values + at);
       made[n]->setValueOnly(c, static_cast<float>(bend.curvature / h));
-      made[n]->setActiveState(c, bend.smooth);
+      made[n]->setActiveState(c, bend.smooth || solidPhi.tree().getValue(cell) < h);
     }
   });
   FloatGrid::Ptr curvature = FloatGrid::create(0.0f);

@@ -69,14 +69,27 @@ bool closesOn(const Velocity& velocity, const SolidField& solid, const Coord& ce
   return -speed.dot(normal) > slowest * normal.length();
 }
 
+// Cells beside each other whose distances to a wall differ by no more than this share of a cell lie along it.
+constexpr float kAlong = 0.25f;
+
 }  // namespace
 
 void openGaps(FloatGrid& phi, const Velocity& velocity, const SolidField& solid, const MaskGrid& separating,
               const Vec3d& kick, double dt) {
   if (!separating.empty()) {
-    // The cut reaches the cells beside those that let go; leaves are needed as deep as stencils reach.
+    // The cut reaches the cells beside those that let go, along the wall: farther from it another wall may be
+    // nearer, which the liquid stays at.
     MaskGrid around(separating);
-    openvdb::tools::dilateActiveValues(around.tree(), 1, openvdb::tools::NN_FACE);
+    const auto distance = solid.phi->getConstAccessor();
+    const float along = kAlong * static_cast<float>(solid.voxelSize);
+    for (auto it = separating.cbeginValueOn(); it; ++it) {
+      const float here = distance.getValue(it.getCoord());
+      for (int side = 0; side < 6; ++side) {
+        Coord beside = it.getCoord();
+        beside[side / 2] += side % 2 == 0 ? -1 : 1;
+        if (distance.getValue(beside) <= here + along) around.tree().setValueOn(beside);
+      }
+    }
     cutSolids(phi, *solid.phi, around);
     openvdb::tools::dilateActiveValues(around.tree(), 3, openvdb::tools::NN_FACE);
     for (auto leaf = around.constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
