@@ -105,6 +105,27 @@ TEST_CASE("curvature: a drop on a wall bends as if it went on behind it as its m
   }
 }
 
+TEST_CASE("curvature: the foot of a front bends, however flat it meets the floor") {
+  constexpr int kCells = 24;
+  const double h = 1.0 / kCells;
+  for (const double degrees : {20.0, 40.0, 70.0}) {
+    const double angle = degrees * M_PI / 180.0;
+    const auto phi = phiOf(
+        kCells, [&](const Vec3d& x) { return (x[0] - 0.51) * std::sin(angle) + x[2] * std::cos(angle); });
+    Options options;
+    options.resolution = kCells;
+    const auto solid = Solids(options).at(0.0);
+    const auto curvature = surfaceCurvature(*phi, *solid->phi);
+    CAPTURE(degrees);
+    // The cells that the surface enters last.
+    const int foot = static_cast<int>(0.51 * kCells - 0.5 / std::tan(angle));
+    float bend = 0.0f;
+    CHECK(curvature->tree().probeValue(Coord(foot, 12, 0), bend));
+    CHECK(bend * h > 0.3 * std::cos(angle));
+    CHECK(bend * h <= 1.0);
+  }
+}
+
 TEST_CASE("surface tension: none changes no bit, and a flat surface does not feel it") {
   const Velocity without = pool(0.0, true), flat = pool(10.0, false), rippled = pool(10.0, true);
   for (int a = 0; a < 3; ++a) {

@@ -7,6 +7,25 @@
 using namespace fluidtex;
 using sim::Vec3d;
 
+TEST_CASE("stress: a front with surface tension gains no energy on a floor", "[stress]") {
+  sim::Options options;
+  options.resolution = 24;
+  options.size = Vec3d(1.0, 0.25, 0.5);
+  options.surfaceTension = 50.0;
+  options.liquid.push_back({{sim::Box{Vec3d(0.0), Vec3d(0.33, 0.25, 0.25)}}});
+  sim::Solver solver(options);
+  sim::Solids solids(options);
+  double start = 0.0;
+  for (int n = 0; n < 8; ++n) {
+    const sim::Frame frame = solver.next();
+    const auto field = solids.around({solver.state().phi.get()}, frame.time, solids.active(frame.time));
+    const stress::Measures now = stress::measure(solver.state(), *field, options);
+    const double sum = now.kinetic + now.potential + now.surface - now.falling * solver.state().ahead;
+    if (n == 0) start = sum;
+    CHECK(sum < 1.03 * start);
+  }
+}
+
 TEST_CASE("stress: the mass that is measured is that of the volume, of thin sheets and cut cells too",
           "[stress]") {
   sim::Options options;
