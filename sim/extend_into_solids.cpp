@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 namespace fluidtex::sim {
@@ -103,8 +104,10 @@ struct Extension {
     for (int axis = 0; axis < 3; ++axis) {
       for (int up = 0; up < 2; ++up) {
         const std::int64_t n = beside(cell, 2 * axis + up);
-        // What a solid has left asks the open only.
+        // What a solid has left asks the open only; and what is open in part, none that is not: what comes out
+        // of the depth of a wall may be liquid from its other side.
         if (n < 0 || (depth[cell] <= deepest && depth[n] > deepest)) continue;
+        if (depth[cell] <= kDeepInSolid * h && depth[n] > kDeepInSolid * h) continue;
         const float shallower = depth[cell] - depth[n];
         if (!isSet(known, n)) {
           if (shallower > 0.0f && !withoutNearest) return false;
@@ -125,10 +128,15 @@ struct Extension {
     const float length = way.length();
     const Vec3 normal = length > 0.0f ? way / length : Vec3(0.0f);
     float weights = 0.0f, sum = 0.0f;
+    float air = std::numeric_limits<float>::infinity();  // least of those asked, where all are air in the solid
+    const auto note = [&](std::int64_t from) {
+      air = depth[from] > deepest && value[from] >= 0.0f ? std::min(air, value[from]) : -1.0f;
+    };
     Vec3 carried(0.0f);
     for (int axis = 0; axis < 3; ++axis) {
       if (nearest[axis] < 0) continue;
       const Guess guess = ask(cell, nearest[axis], normal);
+      note(nearest[axis]);
       const float weight = std::abs(way[axis]);
       weights += weight;
       sum += weight * (guess.value - value[all[0]]) + way[axis] * h * guess.gradient[axis];
@@ -136,6 +144,7 @@ struct Extension {
     }
     for (int n = 0; length == 0.0f && n < count; ++n) {
       const Guess guess = ask(cell, all[n], normal);
+      note(all[n]);
       const float step = side[n] % 2 == 0 ? h : -h;
       weights += 1.0f;
       sum += guess.value - value[all[0]] + step * guess.gradient[side[n] / 2];
@@ -144,6 +153,8 @@ struct Extension {
     // The mean of equal values is exactly theirs: what differs from the background by rounding would make
     // leaves that hold nothing else, and those further ones along the edges between walls.
     value[cell] = value[all[0]] + sum / weights;
+    // A surface on the other side of the solid, which air far from it slopes towards, does not come through.
+    if (air >= 0.0f && value[cell] < 0.0f) value[cell] = air;
     gradient[cell] = carried / weights;
     return true;
   }

@@ -43,7 +43,7 @@ bool comesOut(const ShapeDistance& body, const Distance& solids, const Vec3d& pl
   for (const double cells : kAround) {
     for (const Vec3d& way : {one, -one, other, -other}) {
       const Vec3d there = place + cells * h * way;
-      if (std::abs(body(there)) < 0.25 * cells * h && solids(there) > kTouching * h) return true;
+      if (std::abs(body(there)) < 0.5 * h && solids(there) > kTouching * h) return true;
     }
   }
   return false;

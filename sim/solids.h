@@ -71,11 +71,6 @@ struct SolidField {
 // The same solids with no speed, and given faces with none.
 SolidField atRest(const SolidField& solid);
 
-// Open share of a square face from the solid's signed distance at its corners, taken linear along the edges
-// (marching squares): d00, d10, d11, d01 in order around the face, positive where open.
-// Ng, Min, Gibou, "An efficient fluid-solid coupling algorithm for single-phase flows", 2009.
-double openAreaFraction(double d00, double d10, double d11, double d01);
-
 // Solids of a scene over time. Meshes are read once, when constructed (throws as readMesh and MovingMesh do).
 class Solids {
  public:

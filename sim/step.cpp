@@ -81,13 +81,38 @@ void setSourceTemperature(FloatGrid& temperature, const RunningFlows& flows) {
   }
 }
 
+// Air around sources that only keep full is at rest: what is filled up there is new, and has not fallen with
+// what it takes the place of. phi: the liquid's.
+void restBesideSources(Velocity& velocity, const FloatGrid& phi, const RunningFlows& flows) {
+  const float reach = static_cast<float>(kMaxTrace * phi.voxelSize()[0]);
+  for (const auto& [source, factor] : flows.sources) {
+    if (source->velocity[0] != nullptr) continue;
+    const FloatGrid& shape = *source->phi;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto leaves = leavesOf(velocity.component[axis]->tree());
+      tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+        const auto liquid = phi.getConstAccessor(), distance = shape.getConstAccessor();
+        for (auto it = leaves[n]->beginValueOn(); it; ++it) {
+          const Coord above = it.getCoord();
+          Coord below = above;
+          below[axis] -= 1;
+          if (std::min(distance.getValue(above), distance.getValue(below)) < reach &&
+              liquid.getValue(above) >= 0.0f && liquid.getValue(below) >= 0.0f)
+            it.setValue(0.0f);
+        }
+      });
+    }
+  }
+}
+
 // Carries the velocity over into `next`, whose surface and leaves are known. Forces act along the path, half
 // of them those of its start; what follows in the step adds them as they are at its end. Half the difference
 // makes the step second order in time.
-void carryVelocity(const Liquid& liquid, Liquid& next, double dt) {
+void carryVelocity(const Liquid& liquid, Liquid& next, const RunningFlows& flows, double dt) {
   const bool before = liquid.acceleration.component[0] != nullptr;
   Velocity carried = before ? plus(liquid.velocity, liquid.acceleration, 0.5 * dt) : copyOf(liquid.velocity);
   extendLinearly(carried, *liquid.phi);
+  restBesideSources(carried, *liquid.phi, flows);
   advectVelocity(liquid.velocity, carried, next.velocity, *next.phi, dt);
   if (before) next.velocity = plus(next.velocity, liquid.acceleration, -0.5 * dt);
 }
@@ -295,7 +320,7 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
     regainSurface(*next.phi, next.markers, *next.owed, solid);
   }
   next.velocity = velocityFor(*next.phi, solid);
-  carryVelocity(liquid, next, dt);
+  carryVelocity(liquid, next, flows, dt);
   liquid.acceleration = {};
   addGravity(next.velocity, options.gravity * kick);
   const SolidField around = withFlows(solid, flows, *next.phi, liquid.velocity, options.gravity, dt);

@@ -1,3 +1,4 @@
+#include "sim/open_faces.h"
 #include "sim/solids.h"
 
 #include "sim/mac_grid.h"
