@@ -104,8 +104,8 @@ struct Extension {
     for (int axis = 0; axis < 3; ++axis) {
       for (int up = 0; up < 2; ++up) {
         const std::int64_t n = beside(cell, 2 * axis + up);
-        // What a solid has left asks the open only; and what is open in part, none that is not: what comes out
-        // of the depth of a wall may be liquid from its other side.
+        // What a solid has left asks the open only; and what is open in part, none that is not: what comes
+        // out of the depth of a wall may be liquid from its other side.
         if (n < 0 || (depth[cell] <= deepest && depth[n] > deepest)) continue;
         if (depth[cell] <= kDeepInSolid * h && depth[n] > kDeepInSolid * h) continue;
         const float shallower = depth[cell] - depth[n];
@@ -128,7 +128,8 @@ struct Extension {
     const float length = way.length();
     const Vec3 normal = length > 0.0f ? way / length : Vec3(0.0f);
     float weights = 0.0f, sum = 0.0f;
-    float air = std::numeric_limits<float>::infinity();  // least of those asked, where all are air in the solid
+    float air =
+        std::numeric_limits<float>::infinity();  // least of those asked, where all are air in the solid
     const auto note = [&](std::int64_t from) {
       air = depth[from] > deepest && value[from] >= 0.0f ? std::min(air, value[from]) : -1.0f;
     };
@@ -153,8 +154,8 @@ struct Extension {
     // The mean of equal values is exactly theirs: what differs from the background by rounding would make
     // leaves that hold nothing else, and those further ones along the edges between walls.
     value[cell] = value[all[0]] + sum / weights;
-    // A surface on the other side of the solid, which air far from it slopes towards, does not come through.
-    if (air >= 0.0f && value[cell] < 0.0f) value[cell] = air;
+    // Into what is open in part no surface comes that air only slopes towards: it may be behind the solid.
+    if (air >= 0.0f && value[cell] < 0.0f && depth[cell] <= kDeepInSolid * h) value[cell] = air;
     gradient[cell] = carried / weights;
     return true;
   }

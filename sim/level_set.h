@@ -50,16 +50,17 @@ struct GapRules {
 // normal where the surface is nearly parallel to the solid and the gap between them closes (nothing else
 // would close the last half cell: there the velocity is the solid's), nor where a film thinner than half a
 // cell would begin that flows out of the solid. Where the gap opens, phi rises along the normal. Without
-// rules everything stays as it is: a gap or a film that is there is kept, and none begins. deep: from how deep in a solid on, in voxels. visibility: of the solids;
-// nothing comes through a thin one. left: the solids before they moved, null where they did not; cells that
-// they have left get their values from what is beside them in the open, and are air where nothing is.
+// rules everything stays as it is: a gap or a film that is there is kept, and none begins. deep: from how
+// deep in a solid on, in voxels. visibility: of the solids; nothing comes through a thin one. left: the
+// solids before they moved, null where they did not; cells that they have left get their values from what is
+// beside them in the open, and are air where nothing is.
 void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const GapRules& rules = {},
                       float deep = kDeepInSolid, const Visibility* visibility = nullptr,
                       const FloatGrid* left = nullptr);
 
 // The same for solids and sides of the domain: beyond sides of symmetry phi is its own mirror image.
-void extendBeyond(FloatGrid& phi, const SolidField& solid, const GapRules& rules = {}, float deep = kDeepInSolid,
-                  const FloatGrid* left = nullptr);
+void extendBeyond(FloatGrid& phi, const SolidField& solid, const GapRules& rules = {},
+                  float deep = kDeepInSolid, const FloatGrid* left = nullptr);
 // reinitialize, for which sides of symmetry are no solids; the liquid goes on beyond them.
 void redistance(FloatGrid& phi, const SolidField& solid, int iterations);
 

@@ -261,3 +261,22 @@ TEST_CASE("flows: a round source gives what its own front would, however it poin
     CHECK(given * 54.0 / kFrames == Catch::Detail::Approx(speed * M_PI * radius * radius).epsilon(0.1));
   }
 }
+
+TEST_CASE("flows: a source without velocity gives liquid that falls from rest, as much in each frame") {
+  Options options;
+  options.resolution = 16;
+  options.sources.resize(1);
+  options.sources[0].shape = {Sphere{Vec3d(0.5, 0.5, 0.75), 0.15}};
+  Solver solver(options);
+  std::vector<double> sum;
+  double fastest = 0.0;
+  for (int n = 0; n < 30; ++n) {
+    const FrameStats stats = solver.next().stats;
+    sum.push_back(stats.volume + stats.owed);
+    fastest = std::max(fastest, largestDifference(solver.state(), 0.0));
+  }
+  // From its lower end to the floor and back up in a corner; it fell for 1.2 s and ever faster before.
+  CHECK(fastest < 2.0 * std::sqrt(2.0 * options.gravity.length() * 0.9));
+  const double middle = sum[19] - sum[9], late = sum[29] - sum[19];
+  CHECK(late == Catch::Detail::Approx(middle).epsilon(0.2));
+}

@@ -282,7 +282,8 @@ TEST_CASE("level set: liquid that rests on a floor goes on below it, liquid that
   const FloatGrid::Ptr solid = floorBelow();
   for (const bool letGo : {false, true}) {
     Fixture f(h, Coord(32), layer);
-    extendIntoSolids(*f.phi, *solid, {[&](const Coord&) { return letGo; }, [](const Coord&) { return true; }});
+    extendIntoSolids(*f.phi, *solid,
+                     {[&](const Coord&) { return letGo; }, [](const Coord&) { return true; }});
     const float below = f.phi->tree().getValue(Coord(16, 16, 7)),
                 above = f.phi->tree().getValue(Coord(16, 16, 8));
     CHECK(above < 0.0f);

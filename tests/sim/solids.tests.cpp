@@ -1,5 +1,5 @@
-#include "sim/open_faces.h"
 #include "sim/solids.h"
+#include "sim/open_faces.h"
 
 #include "sim/mac_grid.h"
 
