@@ -28,12 +28,24 @@ class Fairer {
   Fairer(EditableMesh& mesh, const LevelSet& phi) : m_mesh(mesh), m_phi(phi) {}
 
   void run() {
+    const Faults left = attempt();
+    if (left.none()) return;
+    // What splitting has only made a finer knot of is made coarse again, and gets one more try.
+    coarsen(around(left, kKnot));
+    attempt();
+  }
+
+ private:
+  static constexpr int kKnot = 6;  // rings
+
+  // The faults that are left.
+  Faults attempt() {
     constexpr int kRounds = 40, kSweeps = 40, kHopeless = 12;
     constexpr std::size_t kSplitsPerFault = 8, kSomeSplits = 64;
     constexpr int kRefined = 4;                     // rounds, until all edges around are split
     constexpr double kShrink = 0.5, kKeep = -0.53;  // second half of a pass of smooth()
     Faults faults = faultsOf(m_mesh);
-    if (faults.none()) return;
+    if (faults.none()) return faults;
     if (roundOffDrops(m_mesh, m_phi, around(faults, 0))) faults = faultsOf(m_mesh);
     // Where there is less hope than that, as in noise, time and vertices must have an end.
     m_splitsLeft = kSomeSplits + kSplitsPerFault * countOf(faults);
@@ -62,9 +74,9 @@ class Fairer {
       faults = faultsAt(m_mesh, touched());
       if (countOf(faults) < fewest) fewest = countOf(faults), best = round;
     }
+    return faults;
   }
 
- private:
   static std::size_t countOf(const Faults& faults) { return faults.folds.size() + faults.spikes.size(); }
 
   std::vector<std::uint32_t> withNeighbors(const std::vector<std::uint32_t>& vertices) {
@@ -192,6 +204,33 @@ class Fairer {
          {EditableMesh::next(h), EditableMesh::previous(h), EditableMesh::next(t), EditableMesh::previous(t)})
       worst = std::min(worst, turn(m_mesh, e));
     return worst;
+  }
+
+  // Removes edges of a region that are much shorter than those of the whole mesh.
+  void coarsen(const std::vector<std::uint32_t>& region) {
+    constexpr double kShort = 0.6;
+    double sum = 0.0, count = 0.0;
+    for (std::uint32_t h = 0; h < m_mesh.origin.size(); ++h) {
+      if (!m_mesh.alive(h)) continue;
+      sum += std::sqrt(length2(h));
+      count += 1.0;
+    }
+    const double least = kShort * sum / std::max(count, 1.0);
+    for (std::uint32_t v : region) {
+      // Each vertex takes in its nearest neighbours, one after the other.
+      for (int n = 0; n < 8 && m_mesh.outgoing[v] != kNone; ++n) {
+        std::uint32_t shortest = kNone;
+        m_mesh.around(v, [&](std::uint32_t h) {
+          if (length2(h) < least * least && m_mesh.canCollapse(h) &&
+              (shortest == kNone || length2(h) < length2(shortest)))
+            shortest = h;
+        });
+        if (shortest == kNone) break;
+        m_moved.push_back(m_mesh.target(shortest));
+        m_mesh.collapse(shortest);
+      }
+    }
+    std::erase_if(m_moved, [&](std::uint32_t v) { return m_mesh.outgoing[v] == kNone; });
   }
 
   // Removes edges that are much shorter than those around, and turns edges where that folds less.

@@ -43,7 +43,7 @@ TEST_CASE("a dam break's surface: even, near the level set and sound on every fr
     // folds and no vertex sticks out for it.
     CHECK(q.distance < 0.1);
     CHECK(q.worstDistance < 1.0);
-    CHECK(q.folded <= mesh.triangles.size() / 50);
+    CHECK(q.folded <= int(mesh.triangles.size() / 50));
     // From frame 13 on it splashes: threads and rims thinner than a voxel differ from run to run of a solver
     // that has changed by rounding.
     CHECK(q.variation <= (number < 13 ? 0.16 : 0.3));
