@@ -39,6 +39,20 @@ Coord cellAt(const Coord& origin, const Vec3f& x) {
                          static_cast<int>(std::floor(x[2])));
 }
 
+// The end of a trace, or where it enters a cell deep in a solid: what lies behind is other liquid.
+template <class Accessor>
+Vec3f endInSolid(const Accessor& solidPhi, const Coord& origin, const Vec3f& start, const Vec3f& end,
+                 float deep) {
+  constexpr float kStep = 0.5f;
+  const Vec3f way = end - start;
+  const float length = way.length();
+  for (float gone = kStep; gone < length; gone += kStep) {
+    const Vec3f x = start + way * (gone / length);
+    if (solidPhi.getValue(cellAt(origin, x)) < deep) return x;
+  }
+  return end;
+}
+
 // phi at a place whose cell does not see all around it.
 float oneSided(const Window& window, const Vec3f& x, const VisibleCells& visible, float h, bool leaves) {
   Stencil values;
@@ -77,6 +91,7 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
   tbb::parallel_for(Range(0, leaves.size()), [&](const Range& range) {
     VelocityWindow window(reach + 1);
     Window before(reach + 2, Vec3f(0.5f));
+    const auto solids = solidPhi.getConstAccessor();
     for (std::size_t n = range.begin(); n != range.end(); ++n) {
       const Coord origin = leaves[n]->origin();
       const int near = std::min(reach, static_cast<int>(std::ceil(local.from(origin))) + 1);
@@ -92,10 +107,13 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
       const bool thinWalls =
           visibility != nullptr &&
           visibility->touches(grown(openvdb::CoordBBox::createCube(origin, kLeafDim), near));
-      const auto look = [&](int i, const Vec3f& from) {
+      const auto look = [&](int i, Vec3f from) {
         float& out = (*moved[n])[i];
+        const Vec3f centre(float(i >> 6) + 0.5f, float((i >> 3) & 7) + 0.5f, float(i & 7) + 0.5f);
+        // Where no solid is nearer than the trace is long there is none on it.
+        if (solid[i] < (from - centre).length() * h)
+          from = endInSolid(solids, origin, centre, from, -kDeepInSolid * h);
         if (const VisibleCells* visible = thinWalls ? visibility->around(cellAt(origin, from)) : nullptr) {
-          const Vec3f centre(float(i >> 6) + 0.5f, float((i >> 3) & 7) + 0.5f, float(i & 7) + 0.5f);
           out = oneSided(before, from, *visible, h, (from - centre).length() > kMoves);
           return;
         }

@@ -251,6 +251,19 @@ Distance planeAlong(const Vec3d& normal) {
 
 }  // namespace
 
+TEST_CASE("level set: no liquid is read through a plate that a step is longer than") {
+  // Water on a plate of 1.7 cells, air below it, which moves down by 2.5 cells in a step.
+  const double h = kFloorCell, top = 0.5 + 1.7 * h;
+  Fixture f(h, Coord(32), [&](const Vec3d& x) { return top - x.z(); });
+  FloatGrid::Ptr plate = makePhi(h, 3 * h);
+  unite(
+      *plate, [&](const Vec3d& x) { return std::max(0.5 - x.z(), x.z() - top); },
+      grown(firstCells(Coord(32)), 8));
+  advectPhi(*f.phi, f.velocity([](const Vec3d&) { return Vec3d(0.0, 0.0, -1.0); }), *plate, 2.5 * h);
+  for (int k = 10; k < 16; ++k) CHECK(f.phi->tree().getValue(Coord(16, 16, k)) > 0.0f);  // the plate is at 16
+  CHECK(f.phi->tree().getValue(Coord(16, 16, 20)) < 0.0f);
+}
+
 TEST_CASE("level set: the surface goes on straight into a floor") {
   // Liquid below a slanted plane.
   const double h = kFloorCell;
