@@ -83,8 +83,7 @@ struct Extension {
     const Vec3 along = slope - inward * normal;
     if (inward > kAlongWall) {
       // Air between the solid and a surface that does not come nearer stays.
-      const bool stays =
-          rules.closes ? (!liquid && away()) || !rules.closes(table.coord(from)) : !liquid && away();
+      const bool stays = (!liquid && away()) || (rules.closes && !rules.closes(table.coord(from)));
       return {value[from], stays ? slope : along, stays ? slope : along};
     }
     if (liquid || !reachesLiquid(kSolidLayers) || !away()) return {value[from], slope, slope};

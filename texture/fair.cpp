@@ -230,7 +230,6 @@ class Fairer {
         m_mesh.collapse(shortest);
       }
     }
-    std::erase_if(m_moved, [&](std::uint32_t v) { return m_mesh.outgoing[v] == kNone; });
   }
 
   // Removes edges that are much shorter than those around, and turns edges where that folds less.

@@ -175,7 +175,8 @@ class Checks {
     const double h = m_options.voxelSize(), owed = std::abs(frame.stats.owed);
     const double always = kOwedOfSurface * h * now.area + kDrop * h * h * h + kOwedOfThin * now.thin;
     const double atOnce = kMostOwedAtOnce * whole + kImpact * m_options.cfl * h * now.area;
-    // What is seen is films, little more than half a cell thick on the mean: beside them are those that nobody sees.
+    // What is seen is films, little more than half a cell thick on the mean: beside them are those that
+    // nobody sees.
     const bool films = frame.stats.owed > 0.0 && now.mass / m_options.density < kFilmThickness * h * now.area;
     m_owing = !films && owed > kMostOwed * whole + always ? m_owing + 1 : 0;
     if (films) return;

@@ -24,7 +24,8 @@ struct Failure {
 //   outside  no liquid where there is no open way to
 //   energy   of motion, place and surface together, with what liquid that is owed may have, does not rise
 //            where nothing drives the liquid
-//   speed    is no more than what gravity, height and what drives the liquid can give, three times that where solids move
+//   speed    is no more than what gravity, height and what drives the liquid can give, three times
+//            that where solids move
 //   rest     what is at rest stays at rest
 //   threads  the state after the last frame has the same bytes on one thread as on two
 //   restart  and the same bytes where it was written and read again half way

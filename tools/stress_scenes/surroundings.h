@@ -55,7 +55,8 @@ class Surroundings {
  private:
   Vec3d place(std::size_t sample) const;
   std::vector<float> distances(const std::function<double(const Vec3d&)>& distance) const;
-  void findUnresolved(const sim::Solids& solids, const std::vector<float>& open, const std::vector<float>& liquid);
+  void findUnresolved(const sim::Solids& solids, const std::vector<float>& open,
+                      const std::vector<float>& liquid);
   void flood(const std::vector<float>& open, const std::vector<float>& liquid, double highest);
 
   const sim::Options& m_options;
