@@ -3,6 +3,7 @@
 #include "sim/leaf_table.h"
 #include "sim/level_set.h"
 #include "sim/local_reach.h"
+#include "sim/trace_end.h"
 #include "sim/velocity_window.h"
 
 #include <openvdb/tools/Morphology.h>
@@ -37,20 +38,6 @@ bool isFlat(const Window& window) {
 Coord cellAt(const Coord& origin, const Vec3f& x) {
   return origin.offsetBy(static_cast<int>(std::floor(x[0])), static_cast<int>(std::floor(x[1])),
                          static_cast<int>(std::floor(x[2])));
-}
-
-// The end of a trace, or where it enters a cell deep in a solid: what lies behind is other liquid.
-template <class Accessor>
-Vec3f endInSolid(const Accessor& solidPhi, const Coord& origin, const Vec3f& start, const Vec3f& end,
-                 float deep) {
-  constexpr float kStep = 0.5f;
-  const Vec3f way = end - start;
-  const float length = way.length();
-  for (float gone = kStep; gone < length; gone += kStep) {
-    const Vec3f x = start + way * (gone / length);
-    if (solidPhi.getValue(cellAt(origin, x)) < deep) return x;
-  }
-  return end;
 }
 
 // phi at a place whose cell does not see all around it.
@@ -91,7 +78,7 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
   tbb::parallel_for(Range(0, leaves.size()), [&](const Range& range) {
     VelocityWindow window(reach + 1);
     Window before(reach + 2, Vec3f(0.5f));
-    const auto solids = solidPhi.getConstAccessor();
+    TraceEnd end(solidPhi, visibility);
     for (std::size_t n = range.begin(); n != range.end(); ++n) {
       const Coord origin = leaves[n]->origin();
       const int near = std::min(reach, static_cast<int>(std::ceil(local.from(origin))) + 1);
@@ -100,20 +87,15 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
       before.load(phi.constTree(), origin);
       if (isFlat(before)) continue;
       window.load(velocity, origin);
-      float scratch[kLeafSize];
-      const float* solid = leafValues(solidPhi.constTree(), origin, scratch);
+      end.setLeaf(origin, near);
       moved[n] = std::make_unique<LeafBuffer>();
       std::copy_n(leaves[n]->buffer().data(), kLeafSize, moved[n]->data());
-      const bool thinWalls =
-          visibility != nullptr &&
-          visibility->touches(grown(openvdb::CoordBBox::createCube(origin, kLeafDim), near));
       const auto look = [&](int i, Vec3f from) {
         float& out = (*moved[n])[i];
         const Vec3f centre(float(i >> 6) + 0.5f, float((i >> 3) & 7) + 0.5f, float(i & 7) + 0.5f);
-        // Where no solid is nearer than the trace is long there is none on it.
-        if (solid[i] < (from - centre).length() * h)
-          from = endInSolid(solids, origin, centre, from, -kDeepInSolid * h);
-        if (const VisibleCells* visible = thinWalls ? visibility->around(cellAt(origin, from)) : nullptr) {
+        from = end(i, centre, from);
+        if (const VisibleCells* visible =
+                end.nearThinWalls() ? visibility->around(cellAt(origin, from)) : nullptr) {
           out = oneSided(before, from, *visible, h, (from - centre).length() > kMoves);
           return;
         }
@@ -124,7 +106,7 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
         const float cubic = before.cubic(from);
         if (cubic > low && cubic < high) out = cubic;
       };
-      forPairs([&](int i) { return solid[i] > deepest; },
+      forPairs([&](int i) { return end.solidAt(i) > deepest; },
                [&](int i, int other) {
                  const auto [from, fromOther] = window.traceCentres(i, other, step);
                  look(i, from);

@@ -3,6 +3,7 @@
 #include "sim/heat.h"
 
 #include "sim/leaf_table.h"
+#include "sim/trace_end.h"
 #include "sim/velocity_window.h"
 
 #include <tbb/parallel_for.h>
@@ -13,7 +14,7 @@
 namespace fluidtex::sim {
 
 FloatGrid::Ptr advectTemperature(const FloatGrid& from, const Velocity& velocity, const FloatTree& like,
-                                 const FloatGrid& phiTo, double dt) {
+                                 const FloatGrid& phiTo, const SolidField& solid, double dt) {
   const double h = from.voxelSize()[0];
   const float step = static_cast<float>(dt / h);
   const int halo = std::min(kLeafDim, static_cast<int>(std::ceil(dt * maxAbs(velocity) / h)) + 2);
@@ -41,15 +42,20 @@ FloatGrid::Ptr advectTemperature(const FloatGrid& from, const Velocity& velocity
   struct Windows {
     VelocityWindow flow;
     Window before, predicted;
+    TraceEnd end;
+    // From a cell's centre.
+    Vec3f trace(int offset, const Vec3f& x, float step) const { return end(offset, x, flow.trace(x, step)); }
   };
   const auto load = [&](const Coord& origin) {
-    Windows windows{VelocityWindow(halo), Window(halo, centre), Window(halo, centre)};
+    Windows windows{VelocityWindow(halo), Window(halo, centre), Window(halo, centre),
+                    TraceEnd(*solid.phi, solid.visibility.get())};
+    windows.end.setLeaf(origin, halo);
     windows.flow.load(velocity, origin);
     windows.before.load(from.constTree(), origin);
     return windows;
   };
   forLiquid(load, [&](const Windows& windows, std::size_t n, int i, const Vec3f& x) {
-    guess[n]->buffer().data()[i] = windows.before.at(windows.flow.trace(x, -step));
+    guess[n]->buffer().data()[i] = windows.before.at(windows.trace(i, x, -step));
   });
   const auto loadBoth = [&](const Coord& origin) {
     Windows windows = load(origin);
@@ -58,8 +64,8 @@ FloatGrid::Ptr advectTemperature(const FloatGrid& from, const Velocity& velocity
   };
   forLiquid(loadBoth, [&](const Windows& windows, std::size_t n, int i, const Vec3f& x) {
     const float plain = guess[n]->buffer().data()[i];
-    const auto [low, high] = windows.before.range(windows.flow.trace(x, -step));
-    const float back = windows.predicted.at(windows.flow.trace(x, step));
+    const auto [low, high] = windows.before.range(windows.trace(i, x, -step));
+    const float back = windows.predicted.at(windows.trace(i, x, step));
     target[n]->buffer().data()[i] = std::clamp(plain + 0.5f * (windows.before.at(x) - back), low, high);
   });
   return result;

@@ -4,6 +4,7 @@
 
 #include "sim/leaf_table.h"
 #include "sim/local_reach.h"
+#include "sim/trace_end.h"
 #include "sim/velocity_window.h"
 
 #include <tbb/parallel_for.h>
@@ -12,9 +13,19 @@
 #include <cmath>
 
 namespace fluidtex::sim {
+namespace {
+
+// Of a cell's lower face, in cells from the leaf's lower corner.
+Vec3f faceCentre(int offset, int axis) {
+  const Vec3f corner(static_cast<float>(offset >> 6), static_cast<float>((offset >> 3) & 7),
+                     static_cast<float>(offset & 7));
+  return corner + faceShift(axis);
+}
+
+}  // namespace
 
 void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to, const FloatGrid& phi,
-                    double dt) {
+                    const FloatGrid& solidPhi, double dt, const Visibility* visibility) {
   const float h = static_cast<float>(phi.voxelSize()[0]);
   const float step = static_cast<float>(-dt) / h;
   const LocalReach reach(from, dt);
@@ -24,6 +35,7 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
   tbb::parallel_for(Range(0, leaves[0].size()), [&](const Range& range) {
     VelocityWindow window(kLeafDim), content(kLeafDim);
     Window distance(1, Vec3f(0.5f));
+    TraceEnd end(solidPhi, visibility);
     for (std::size_t n = range.begin(); n != range.end(); ++n) {
       const Coord origin = leaves[0][n]->origin();
       distance.load(phi.constTree(), origin);
@@ -36,6 +48,7 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
       content.setHalo(halo);
       window.load(from, origin);
       content.load(carried, origin);
+      end.setLeaf(origin, halo);
       for (int axis = 0; axis < 3; ++axis) {
         const FloatLeaf& leaf = *leaves[axis][n];
         const std::ptrdiff_t below = axis == 0 ? side * side : (axis == 1 ? side : 1);
@@ -45,7 +58,8 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
         };
         const Window& own = content.component(axis);
         float* const out = leaves[axis][n]->buffer().data();
-        const auto take = [&](int i, const Vec3f& place) {
+        const auto take = [&](int i, Vec3f place) {
+          place = end(i, faceCentre(i, axis), place);
           const auto [low, high] = own.range(place);
           out[i] = std::clamp(own.cubic(place), low, high);
         };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/mac_grid.h"
+#include "sim/visibility.h"
 
 namespace fluidtex::sim {
 
@@ -9,8 +10,9 @@ namespace fluidtex::sim {
 // itself, for self-advection), at the active faces of `to` that touch liquid (a cell with phi < 0; phi: the
 // surface after, metres); other faces stay as they are. Semi-Lagrangian with a third-order Runge-Kutta
 // back-trace and cubic interpolation, limited to the values around the traced point. `from` and `carried`, of
-// one topology, must be extrapolated for at least dt max|u| / h + 2 cells around the liquid.
+// one topology, must be extrapolated for at least dt max|u| / h + 2 cells around the liquid. Traces end in
+// solids (see TraceEnd; solidPhi, visibility: as in SolidField).
 void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to, const FloatGrid& phi,
-                    double dt);
+                    const FloatGrid& solidPhi, double dt, const Visibility* visibility = nullptr);
 
 }  // namespace fluidtex::sim

@@ -29,9 +29,10 @@ void extendTemperature(FloatGrid& temperature, const FloatGrid& phi, const Float
 
 // The temperature after dt seconds of being carried by `velocity`, in the liquid's cells (phiTo < 0) of the
 // leaves of `like`: semi-Lagrangian with a third-order Runge-Kutta back-trace and MacCormack's correction,
-// limited to the values around the traced point. `from` must be extended as far as the velocity leads.
+// limited to the values around the traced point. `from` must be extended as far as the velocity leads. Traces
+// end in solids (see TraceEnd).
 FloatGrid::Ptr advectTemperature(const FloatGrid& from, const Velocity& velocity, const FloatTree& like,
-                                 const FloatGrid& phiTo, double dt);
+                                 const FloatGrid& phiTo, const SolidField& solid, double dt);
 
 // Conduction in the liquid, radiation from its surface (Stefan and Boltzmann's law against the surroundings)
 // and loss to walls, for dt seconds; implicit, with the radiation's conductance as it is before, so that no

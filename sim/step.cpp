@@ -108,12 +108,13 @@ void restBesideSources(Velocity& velocity, const FloatGrid& phi, const RunningFl
 // Carries the velocity over into `next`, whose surface and leaves are known. Forces act along the path, half
 // of them those of its start; what follows in the step adds them as they are at its end. Half the difference
 // makes the step second order in time.
-void carryVelocity(const Liquid& liquid, Liquid& next, const RunningFlows& flows, double dt) {
+void carryVelocity(const Liquid& liquid, Liquid& next, const SolidField& solid, const RunningFlows& flows,
+                   double dt) {
   const bool before = liquid.acceleration.component[0] != nullptr;
   Velocity carried = before ? plus(liquid.velocity, liquid.acceleration, 0.5 * dt) : copyOf(liquid.velocity);
   extendLinearly(carried, *liquid.phi);
   restBesideSources(carried, *liquid.phi, flows);
-  advectVelocity(liquid.velocity, carried, next.velocity, *next.phi, dt);
+  advectVelocity(liquid.velocity, carried, next.velocity, *next.phi, *solid.phi, dt, solid.visibility.get());
   if (before) next.velocity = plus(next.velocity, liquid.acceleration, -0.5 * dt);
 }
 
@@ -122,7 +123,7 @@ void carryVelocity(const Liquid& liquid, Liquid& next, const RunningFlows& flows
 bool moveHeat(const Liquid& liquid, Liquid& next, const SolidField& solid, const RunningFlows& flows,
               double dt, const Options& options) {
   next.temperature = advectTemperature(*liquid.temperature, movingVelocity(liquid),
-                                       next.velocity.component[0]->constTree(), *next.phi, dt);
+                                       next.velocity.component[0]->constTree(), *next.phi, solid, dt);
   setSourceTemperature(*next.temperature, flows);
   const bool done = conductHeat(*next.temperature, *next.phi, solid, dt, options.density, options.heat);
   extendTemperature(*next.temperature, *next.phi, *solid.phi, kTemperatureLayers);
@@ -320,7 +321,7 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
     regainSurface(*next.phi, next.markers, *next.owed, solid);
   }
   next.velocity = velocityFor(*next.phi, solid);
-  carryVelocity(liquid, next, flows, dt);
+  carryVelocity(liquid, next, solid, flows, dt);
   liquid.acceleration = {};
   addGravity(next.velocity, options.gravity * kick);
   const SolidField around = withFlows(solid, flows, *next.phi, liquid.velocity, options.gravity, dt);

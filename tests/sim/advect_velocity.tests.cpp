@@ -16,10 +16,10 @@ using Field = std::function<Vec3d(const Vec3d&)>;
 // Liquid everywhere in the unit box, whose leaves, and one layer more, hold velocities.
 struct Fixture {
   double h;
-  FloatGrid::Ptr phi;
+  FloatGrid::Ptr phi, noSolid;
   FloatTree topology{0.0f};
 
-  explicit Fixture(int n) : h(1.0 / n), phi(makePhi(h, 6 * h)) {
+  explicit Fixture(int n) : h(1.0 / n), phi(makePhi(h, 6 * h)), noSolid(makePhi(h, 9 * h)) {
     phi->tree().fill(openvdb::CoordBBox(Coord(-64), Coord(n + 64)), static_cast<float>(-6 * h), false);
     for (int i = -8; i < n + 8; i += 8) {
       for (int j = -8; j < n + 8; j += 8) {
@@ -55,7 +55,7 @@ TEST_CASE("advect velocity: a uniform stream stays as it is") {
   Fixture f(24);
   const Velocity from = f.set([](const Vec3d&) { return Vec3d(1.0, -0.5, 0.25); });
   Velocity to = makeVelocity(f.h, f.topology);
-  advectVelocity(from, from, to, *f.phi, 2.5 * f.h);
+  advectVelocity(from, from, to, *f.phi, *f.noSolid, 2.5 * f.h);
   CHECK(f.error(to, [](const Vec3d&) { return Vec3d(1.0, -0.5, 0.25); }) < 1e-6);
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("advect velocity: shear and stretching, which are linear, are exact bu
   const double dt = 0.05;
   const Velocity from = f.set([](const Vec3d& x) { return Vec3d(x.x(), 0.3 * x.x(), 0.0); });
   Velocity to = makeVelocity(f.h, f.topology);
-  advectVelocity(from, from, to, *f.phi, dt);
+  advectVelocity(from, from, to, *f.phi, *f.noSolid, dt);
   // x0 = x exp(-dt) along the frozen velocity.
   const double shrink = std::exp(-dt);
   CHECK(f.error(to, [&](const Vec3d& x) { return Vec3d(shrink * x.x(), 0.3 * shrink * x.x(), 0.0); }) < 1e-5);
@@ -86,7 +86,7 @@ TEST_CASE("advect velocity: second order in space for a smooth pattern in a stre
     const int steps = 3 << level;
     for (int n = 0; n < steps; ++n) {
       Velocity to = makeVelocity(f.h, f.topology);
-      advectVelocity(velocity, velocity, to, *f.phi, time / steps);
+      advectVelocity(velocity, velocity, to, *f.phi, *f.noSolid, time / steps);
       velocity = to;
     }
     error[level] = f.error(velocity, exact(time));
@@ -100,7 +100,7 @@ TEST_CASE("advect velocity: never beyond the values it came from") {
   Fixture f(24);
   const Velocity from = f.set([](const Vec3d& x) { return Vec3d(1.0, x.x() < 0.5 ? 1.0 : -1.0, 0.0); });
   Velocity to = makeVelocity(f.h, f.topology);
-  advectVelocity(from, from, to, *f.phi, 1.4 * f.h);
+  advectVelocity(from, from, to, *f.phi, *f.noSolid, 1.4 * f.h);
   const FloatGrid& v = *to.component[1];
   for (auto it = v.cbeginValueOn(); it; ++it) {
     const Vec3d x = v.indexToWorld(it.getCoord());
@@ -113,6 +113,6 @@ TEST_CASE("advect velocity: faces without liquid are left alone") {
   FloatGrid::Ptr air = makePhi(f.h, 6 * f.h);
   const Velocity from = f.set([](const Vec3d&) { return Vec3d(1.0, 1.0, 1.0); });
   Velocity to = makeVelocity(f.h, f.topology);
-  advectVelocity(from, from, to, *air, f.h);
+  advectVelocity(from, from, to, *air, *f.noSolid, f.h);
   CHECK(maxAbs(to) == 0.0);
 }

@@ -78,7 +78,7 @@ TEST_CASE("advectTemperature: an even temperature stays, another one moves with 
   const auto flow = [](const Vec3d& x) { return Vec3d(0.5 - x[1], x[0] - 0.5, 0.0); };
   Pool even(16, 0.5, [](const Vec3d&) { return 1234.5; });
   const Velocity turn = velocityField(even.h, even.phi->tree(), flow);
-  const auto kept = advectTemperature(*even.temperature, turn, even.phi->tree(), *even.phi, dt);
+  const auto kept = advectTemperature(*even.temperature, turn, even.phi->tree(), *even.phi, even.solid, dt);
   for (auto it = kept->cbeginValueOn(); it; ++it) {
     const Coord c = it.getCoord();  // in the domain: what comes from beyond the leaves is not known
     if (std::min({c[0], c[1], c[2]}) >= 0 && std::max({c[0], c[1], c[2]}) < 16) REQUIRE(*it == 1234.5f);
@@ -95,7 +95,7 @@ TEST_CASE("advectTemperature: an even temperature stays, another one moves with 
     const int steps = n / 2;
     const double whole = 1.0;
     for (int s = 0; s < steps; ++s)
-      t = advectTemperature(*t, speed, pool.phi->tree(), *pool.phi, whole / steps);
+      t = advectTemperature(*t, speed, pool.phi->tree(), *pool.phi, pool.solid, whole / steps);
     double largest = 0.0;
     for (auto it = t->cbeginValueOn(); it; ++it) {
       const Vec3d x = t->indexToWorld(it.getCoord());

@@ -47,7 +47,7 @@ double pressureAt(const sim::State& state, const sim::SolidField& solid, const s
   const double h = solid.voxelSize;
   sim::Velocity before{{state.u, state.v, state.w}},
       after{{state.u->deepCopy(), state.v->deepCopy(), state.w->deepCopy()}};
-  sim::advectVelocity(before, before, after, *state.phi, kDt);
+  sim::advectVelocity(before, before, after, *state.phi, *solid.phi, kDt, solid.visibility.get());
   for (int a = 0; a < 3; ++a) {
     const float change = static_cast<float>(options.gravity[a] * kDt);
     if (change == 0.0f) continue;
