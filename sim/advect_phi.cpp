@@ -34,26 +34,33 @@ bool isFlat(const Window& window) {
   return std::all_of(first, last, [value = *first](float v) { return v == value; });
 }
 
-// The cell that a place lies in; the place in cells from the leaf's lower corner.
-Coord cellAt(const Coord& origin, const Vec3f& x) {
-  return origin.offsetBy(static_cast<int>(std::floor(x[0])), static_cast<int>(std::floor(x[1])),
-                         static_cast<int>(std::floor(x[2])));
+// Whether a surface lies on a solid's, within this share of a cell: both distances in metres.
+bool liesOnSolid(float phi, float solid, float h) {
+  constexpr float kSame = 0.05f;
+  return phi < 0.0f && std::abs(phi + solid) < kSame * h;
 }
 
-// phi at a place whose cell does not see all around it.
-float oneSided(const Window& window, const Vec3f& x, const VisibleCells& visible, float h, bool leaves) {
+// phi at a place seen from a cell that does not see all around it, whose solid's distance is given.
+float oneSided(const Window& window, const Coord& cell, const Vec3f& x, const VisibleCells& visible,
+               float solid, float h, bool leaves) {
   Stencil values;
-  const Vec3f local = window.around(x, values);
-  goOnBehind(values, visible, leaves ? kAlongWall * h : std::numeric_limits<float>::infinity());
+  const Vec3f local = window.around(cell, x, values);
+  if (leaves && liesOnSolid(values[VisibleCells::kMiddle], solid, h))
+    riseBehind(values, visible, h);
+  else
+    goOnBehind(values, visible, leaves ? kAlongWall * h : std::numeric_limits<float>::infinity());
   constexpr const int* kStride = VisibleCells::kStride;
   const float* low = values.data() + VisibleCells::kMiddle;
   float t[3];
+  bool cubicFits = true;
   for (int a = 0; a < 3; ++a) {
-    if (local[a] < 0.0f) low -= kStride[a];
-    t[a] = local[a] < 0.0f ? local[a] + 1.0f : local[a];
+    const float whole = std::floor(local[a]);
+    low += static_cast<std::ptrdiff_t>(whole) * kStride[a];
+    t[a] = local[a] - whole;
+    cubicFits = cubicFits && (whole == 0.0f || whole == -1.0f);
   }
   const float linear = trilinear(low, kStride[0], kStride[1], t[0], t[1], t[2]);
-  if (std::abs(linear) > kFar * h) return linear;
+  if (!cubicFits || std::abs(linear) > kFar * h) return linear;
   float least = *low, most = *low;
   for (int n = 1; n < 8; ++n) {
     const float v = low[(n >> 2) * kStride[0] + (n >> 1 & 1) * kStride[1] + (n & 1)];
@@ -79,6 +86,7 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
     VelocityWindow window(reach + 1);
     Window before(reach + 2, Vec3f(0.5f));
     TraceEnd end(solidPhi, visibility);
+    const auto solids = solidPhi.getConstAccessor();
     for (std::size_t n = range.begin(); n != range.end(); ++n) {
       const Coord origin = leaves[n]->origin();
       const int near = std::min(reach, static_cast<int>(std::ceil(local.from(origin))) + 1);
@@ -90,13 +98,13 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
       end.setLeaf(origin, near);
       moved[n] = std::make_unique<LeafBuffer>();
       std::copy_n(leaves[n]->buffer().data(), kLeafSize, moved[n]->data());
-      const auto look = [&](int i, Vec3f from) {
+      const auto look = [&](int i, const Vec3f& traced) {
         float& out = (*moved[n])[i];
         const Vec3f centre(float(i >> 6) + 0.5f, float((i >> 3) & 7) + 0.5f, float(i & 7) + 0.5f);
-        from = end(i, centre, from);
-        if (const VisibleCells* visible =
-                end.nearThinWalls() ? visibility->around(cellAt(origin, from)) : nullptr) {
-          out = oneSided(before, from, *visible, h, (from - centre).length() > kMoves);
+        const auto [from, cell] = end(i, centre, traced);
+        if (const VisibleCells* visible = end.nearThinWalls() ? visibility->around(cell) : nullptr) {
+          out = oneSided(before, cell - origin, from, *visible, solids.getValue(cell), h,
+                         (from - centre).length() > kMoves);
           return;
         }
         out = before.at(from);

@@ -56,7 +56,8 @@ double cornerArea(double corner, double next, double previous) {
 
 double snapped(double fraction) {
   if (fraction < kClosed) return 0.0;
-  return fraction > 1.0 - kOnWall ? 1.0 : fraction;
+  constexpr double kRounding = 1e-6;
+  return fraction > 1.0 - kRounding ? 1.0 : fraction;
 }
 
 // Whether a solid crosses the way between two places outside it, so many metres apart, where the distance is

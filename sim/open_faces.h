@@ -7,9 +7,9 @@
 
 namespace fluidtex::sim {
 
-// Distances to solids below this share of a cell are 0, so that a wall in the plane of a face closes it in
-// spite of rounding.
-inline constexpr double kOnWall = 1e-6;
+// Distances to solids below this share of a cell are 0: a wall in the plane of a face closes it, in spite of
+// rounding, and no face leads into a cell whose centre is deeper in the wall than kDeepInSolid.
+inline constexpr double kOnWall = 0.01;
 
 // Open shares of the lower faces of a block's cells, by axis.
 using FaceShares = std::array<std::array<float, kLeafSize>, 3>;

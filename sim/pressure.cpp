@@ -4,6 +4,7 @@
 // active set method: Hintermueller, Ito, Kunisch, 2002.
 #include "sim/pressure.h"
 
+#include "sim/level_set.h"
 #include "sim/liquid_cells.h"
 #include "sim/mac_grid.h"
 #include "sim/poisson.h"
@@ -244,6 +245,26 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
   return valid;
 }
 
+// Where liquid lets go. What is open of a cell deep in a solid is a corner of the cells beside it, which let
+// go with it.
+MaskGrid::Ptr separatingCells(const LiquidCells& liquid, const SolidField& solid,
+                              const std::vector<char>& detached) {
+  const MaskGrid::Ptr separating = MaskGrid::create();
+  separating->setTransform(cellTransform(solid.voxelSize));
+  const auto distance = solid.phi->getConstAccessor();
+  const float deep = -kDeepInSolid * static_cast<float>(solid.voxelSize);
+  for (int i = 0; i < liquid.numbering.size(); ++i) {
+    if (!detached[i]) continue;
+    const Coord cell = liquid.numbering.cell(i);
+    separating->tree().setValueOn(cell);
+    if (distance.getValue(cell) >= deep) continue;
+    const LiquidSides& sides = liquid.sidesOf(i);
+    for (int side = 0; side < kSides; ++side)
+      if (sides.open[side] > 0.0f) separating->tree().setValueOn(neighborOf(cell, side));
+  }
+  return separating;
+}
+
 }  // namespace
 
 Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi, const SolidField& solid,
@@ -339,11 +360,7 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
     for (int axis = 0; axis < 3; ++axis)
       updateFaces(liquid, {}, still, growing, none, axis, *result.swelling.component[axis]);
   }
-  result.separating = MaskGrid::create();
-  result.separating->setTransform(cellTransform(solid.voxelSize));
-  for (int i = 0; i < n; ++i) {
-    if (detached[i]) result.separating->tree().setValueOn(liquid.numbering.cell(i));
-  }
+  result.separating = separatingCells(liquid, solid, detached);
   if (options.keepPressure) {
     result.pressure = openvdb::DoubleGrid::create(0.0);
     result.pressure->setTransform(cellTransform(solid.voxelSize));

@@ -40,7 +40,8 @@ struct Projection {
   // which a solid leaves less than kLeastOpen, and closed ones that touch liquid and lie square to the solid
   // (0 there, or the speed at which liquid leaves it). All others are for the caller to extrapolate.
   FaceMasks valid;
-  MaskGrid::Ptr separating;  // cells of liquid that leave a solid
+  // Cells of liquid that leave a solid; where such a cell is deep in it, those beside it too.
+  MaskGrid::Ptr separating;
   // What makes the liquid grow (PressureOptions::growth), on the valid faces: a potential flow beside the
   // velocity, 0 at solids and at faces with a given velocity. It moves the surface, and is no part of the
   // liquid's momentum. Null grids without growth.

@@ -12,19 +12,17 @@ namespace {
 
 using openvdb::Vec3f;
 
-// The cell that a place lies in; the place in cells from the cell `origin`.
-Coord cellAt(const Coord& origin, const Vec3f& x) {
-  return origin.offsetBy(static_cast<int>(std::floor(x[0])), static_cast<int>(std::floor(x[1])),
-                         static_cast<int>(std::floor(x[2])));
-}
-
-// The solids' distance at a place.
-float distanceAt(const FloatGrid::ConstAccessor& distance, const Coord& origin, const Vec3f& x) {
-  const Vec3f from = x - Vec3f(0.5f);
-  const Coord low = cellAt(origin, from);
-  const Vec3f t = from - Vec3f((low - origin).asVec3s());
+// A field at a place, in cells from the corner of the cell `origin`.
+float valueAt(const FloatGrid::ConstAccessor& field, const Coord& origin, const Vec3f& x) {
+  Coord low = origin;
+  float t[3];
+  for (int a = 0; a < 3; ++a) {
+    const float from = x[a] - 0.5f, whole = std::floor(from);
+    low[a] += static_cast<int>(whole);
+    t[a] = from - whole;
+  }
   float corners[8];
-  for (int n = 0; n < 8; ++n) corners[n] = distance.getValue(low.offsetBy(n >> 2, n >> 1 & 1, n & 1));
+  for (int n = 0; n < 8; ++n) corners[n] = field.getValue(low.offsetBy(n >> 2, n >> 1 & 1, n & 1));
   return trilinear(corners, 4, 2, t[0], t[1], t[2]);
 }
 
@@ -50,27 +48,38 @@ void TraceEnd::setLeaf(const Coord& origin, int reach) {
       m_visibility != nullptr && m_visibility->touches(grown(CoordBBox::createCube(origin, kLeafDim), reach));
 }
 
-Vec3f TraceEnd::walk(const Vec3f& start, const Vec3f& end) const {
+TraceEnd::End TraceEnd::walk(const Vec3f& start, const Vec3f& end) const {
   // Cells that follow each other lie side by side, so that each tells of the next.
   constexpr float kStep = 0.5f;
   const float deep = -kDeepInSolid * m_h;
   const Vec3f way = end - start;
   const float length = way.length();
-  Vec3f last = start;
   // A trace from a face starts in the cell that it leads into.
-  Coord cell = cellAt(m_origin, start + way * std::min(0.5f, 0.5f * kStep / std::max(length, kStep)));
-  for (float gone = kStep; last != end; gone += kStep) {
-    const Vec3f x = gone < length ? start + way * (gone / length) : end;
-    const Coord next = cellAt(m_origin, x);
+  Coord cell = cellAt(start + way * std::min(0.5f, 0.5f * kStep / std::max(length, kStep)));
+  Vec3f x = start;
+  for (float gone = kStep; x != end; gone += kStep) {
+    x = gone < length ? start + way * (gone / length) : end;
+    const Coord next = cellAt(x);
     if (next != cell) {
       const VisibleCells* visible = m_nearThinWalls ? m_visibility->around(cell) : nullptr;
-      if (visible != nullptr && !sees(*visible, next - cell)) return last;
+      if (visible != nullptr && !sees(*visible, next - cell)) {
+        const float farthest = std::min(length, gone + 1.0f);
+        return {start + way * (farthest / length), cell};
+      }
       cell = next;
     }
-    if (m_distance.getValue(next) < 0.0f && distanceAt(m_distance, m_origin, x) < deep) return x;
-    last = x;
+    if (m_distance.getValue(next) < 0.0f && valueAt(m_distance, m_origin, x) < deep) return {x, cell};
   }
-  return end;
+  return {end, cell};
+}
+
+Vec3f TraceEnd::before(int offset, const Vec3f& start, const Vec3f& end) const {
+  auto [place, cell] = (*this)(offset, start, end);
+  for (int a = 0; a < 3; ++a) {
+    const auto low = static_cast<float>(cell[a] - m_origin[a]);
+    place[a] = std::clamp(place[a], low, low + 1.0f);
+  }
+  return place;
 }
 
 }  // namespace fluidtex::sim

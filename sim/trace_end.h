@@ -5,6 +5,9 @@
 #include "sim/mac_grid.h"
 #include "sim/visibility.h"
 
+#include <array>
+#include <cmath>
+
 namespace fluidtex::sim {
 
 // For the traces that start in one leaf. Each thread has its own.
@@ -22,18 +25,31 @@ class TraceEnd {
   // The solids' distance in the leaf's cell.
   float solidAt(int offset) const { return m_solid[offset]; }
 
-  // The end of a trace from `start`, in or at a face of the leaf's cell `offset`, or else where it is deeper
-  // than kDeepInSolid in a solid, or before it enters a cell that is not seen from the one before. Places in
-  // cells from the leaf's lower corner.
-  openvdb::Vec3f operator()(int offset, const openvdb::Vec3f& start, const openvdb::Vec3f& end) const {
+  struct End {
+    openvdb::Vec3f place;
+    Coord cell;  // that its values are seen from: the one that it lies in, or the last one before a wall
+  };
+
+  // The end of a trace from `start`, in or at a face of the leaf's cell `offset`. Where it comes to lie
+  // deeper than kDeepInSolid in a solid it ends there; where it enters a cell that is not seen from the one
+  // before, at most a cell farther. Places in cells from the leaf's lower corner.
+  End operator()(int offset, const openvdb::Vec3f& start, const openvdb::Vec3f& end) const {
     // Where no solid is nearer than the trace is long there is none on it.
     const float margin = 1.0f;
-    if (!m_nearThinWalls && m_solid[offset] > ((end - start).length() + margin) * m_h) return end;
+    if (!m_nearThinWalls && m_solid[offset] > ((end - start).length() + margin) * m_h)
+      return {end, cellAt(end)};
     return walk(start, end);
   }
 
+  // The same, but a trace does not leave the cell that its values are seen from.
+  openvdb::Vec3f before(int offset, const openvdb::Vec3f& start, const openvdb::Vec3f& end) const;
+
  private:
-  openvdb::Vec3f walk(const openvdb::Vec3f& start, const openvdb::Vec3f& end) const;
+  End walk(const openvdb::Vec3f& start, const openvdb::Vec3f& end) const;
+  Coord cellAt(const openvdb::Vec3f& place) const {
+    return m_origin.offsetBy(static_cast<int>(std::floor(place[0])), static_cast<int>(std::floor(place[1])),
+                             static_cast<int>(std::floor(place[2])));
+  }
 
   FloatGrid::ConstAccessor m_distance;
   const FloatTree& m_tree;

@@ -50,15 +50,16 @@ struct Window {
     return tricubic(place.low, side * side, side, lane0(t), lane1(t), lane2(t));
   }
 
-  // The samples of the cell that x lies in and those around it, and x from that cell's middle, in cells; of
-  // samples at cell centres, at most halo - 2 cells outside the leaf.
-  Vec3f around(const Vec3f& x, Stencil& out) const {
+  // The samples of a cell and those around it, and x from that cell's middle, in cells, as far as trilinear
+  // interpolation between them goes; of samples at cell centres. cell: from the leaf's lowest one, at most
+  // halo - 2 outside the leaf.
+  Vec3f around(Coord cell, const Vec3f& x, Stencil& out) const {
     constexpr int kReach = VisibleCells::kReach;
-    int cell[3];
+    constexpr float kFarthest = static_cast<float>(kReach) - 0.5f;
     Vec3f local;
     for (int a = 0; a < 3; ++a) {
-      cell[a] = std::clamp(static_cast<int>(std::floor(x[a])), kReach - halo, kLeafDim + halo - kReach - 1);
-      local[a] = std::clamp(x[a] - static_cast<float>(cell[a]) - 0.5f, -0.5f, 0.5f);
+      cell[a] = std::clamp(cell[a], kReach - halo, kLeafDim + halo - kReach - 1);
+      local[a] = std::clamp(x[a] - static_cast<float>(cell[a]) - 0.5f, -kFarthest, kFarthest);
     }
     const float* from = values.get() + ((cell[0] + halo - kReach) * side + cell[1] + halo - kReach) * side +
                         cell[2] + halo - kReach;

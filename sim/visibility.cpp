@@ -207,7 +207,12 @@ std::unique_ptr<Visibility::Leaf> look(const Surroundings& around) {
 
 }  // namespace
 
-void goOnBehind(Stencil& values, const VisibleCells& visible, float gap) {
+namespace {
+
+// Gives the cells that are not seen a mean of next(near, further) along the axes; near: the cell one step
+// inwards; further: the one behind it, or null where that is not known.
+template <class Next>
+void fillBehind(Stencil& values, const VisibleCells& visible, const Next& next) {
   if (visible.seesAll()) return;
   constexpr int kReach = VisibleCells::kReach;
   std::array<bool, VisibleCells::kCount> known;
@@ -229,11 +234,9 @@ void goOnBehind(Stencil& values, const VisibleCells& visible, float gap) {
           for (int a = 0; a < 3; ++a) {
             if (offset[a] == 0) continue;
             const int inwards = offset[a] > 0 ? -VisibleCells::kStride[a] : VisibleCells::kStride[a];
-            const float near = values[at + inwards];
             // Two steps inwards may lead past the middle, but never out of the stencil.
-            const float further = known[at + 2 * inwards] ? 2.0f * near - values[at + 2 * inwards] : near;
-            const bool sameSide = (further < 0.0f) == (near < 0.0f);
-            sum += sameSide || further - near > gap ? further : near;
+            const bool isKnown = known[at + 2 * inwards];
+            sum += next(values[at + inwards], isKnown ? &values[at + 2 * inwards] : nullptr);
             ++count;
           }
           values[at] = sum / static_cast<float>(count);
@@ -242,6 +245,20 @@ void goOnBehind(Stencil& values, const VisibleCells& visible, float gap) {
       }
     }
   }
+}
+
+}  // namespace
+
+void goOnBehind(Stencil& values, const VisibleCells& visible, float gap) {
+  fillBehind(values, visible, [&](float near, const float* further) {
+    const float linear = further != nullptr ? 2.0f * near - *further : near;
+    const bool sameSide = (linear < 0.0f) == (near < 0.0f);
+    return sameSide || linear - near > gap ? linear : near;
+  });
+}
+
+void riseBehind(Stencil& values, const VisibleCells& visible, float step) {
+  fillBehind(values, visible, [&](float near, const float*) { return near + step; });
 }
 
 const VisibleCells* Visibility::around(const Coord& cell) const {

@@ -42,6 +42,9 @@ using Stencil = std::array<float, VisibleCells::kCount>;
 void goOnBehind(Stencil& values, const VisibleCells& visible,
                 float gap = std::numeric_limits<float>::infinity());
 
+// The same behind a surface that lies on the wall itself and leaves it: values rise by `step` a cell.
+void riseBehind(Stencil& values, const VisibleCells& visible, float step);
+
 class Visibility {
  public:
   using Leaf = std::array<VisibleCells, kLeafSize>;
