@@ -224,7 +224,32 @@ void dropOutside(const LeafTable& leaves, const CoordBBox& domain, std::vector<f
   }
 }
 
-// Nothing is owed within a cell of what is always full or always empty.
+// What sources fill up of the cells that they touch: their own part, and of those whose centre is theirs, so
+// that their faces have the source's velocity, as much as was there.
+std::vector<FilledCell> filledBy(const RunningFlows& flows, const LeafTable& leaves, const SolidField& solid,
+                                 const std::vector<float>& was) {
+  std::vector<FilledCell> cells;
+  for (const auto& running : flows.sources) {
+    const FloatGrid& shape = *running.source->phi;
+    for (std::size_t n = 0; n < leaves.size(); ++n) {
+      float scratch[kLeafSize];
+      const float* distance = leafValues(shape.constTree(), leaves.origins[n], scratch);
+      const float near = static_cast<float>(solid.voxelSize);
+      if (std::all_of(distance, distance + kLeafSize, [near](float d) { return d >= near; })) continue;
+      LeafShares held, room;
+      liquidShares(shape, solid, leaves.origins[n], held, Counts::unseen);
+      openShares(solid, leaves.origins[n], room);
+      for (int i = 0; i < kLeafSize; ++i) {
+        if (room[i] <= kCarries || held[i] <= 0.0f) continue;
+        const std::size_t cell = n * kLeafSize + i;
+        cells.push_back({cell, std::max(held[i] / room[i], distance[i] < 0.0f ? was[cell] : 0.0f)});
+      }
+    }
+  }
+  return cells;
+}
+
+// Nothing is owed within a cell of what is always empty.
 void forgive(const LeafTable& leaves, const FloatGrid& shape, float h, std::vector<float>& owed) {
   for (std::size_t n = 0; n < leaves.size(); ++n) {
     float scratch[kLeafSize];
@@ -277,10 +302,11 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
       }
     }
   }
-  const CarriedShares flown = carried(flux, std::move(shares));
+  const std::vector<FilledCell> inSources = filledBy(flows, leaves, solid, was);
+  const CarriedShares flown = carried(flux, std::move(shares), inSources);
   const float h = static_cast<float>(solid.voxelSize);
   const bool moved = between || !flux.swept.empty();
-  const std::vector<float> openAfter = moved ? openRoom(solidAfter, leaves) : flux.open;
+  std::vector<float> openAfter = moved ? openRoom(solidAfter, leaves) : flux.open;
   const std::vector<float> depth =
       moved ? sampleOn(leaves, solidAfter.phi->constTree()) : std::vector<float>();
   for (std::size_t at = 0; at < due.size(); ++at) {
@@ -292,8 +318,13 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
     if (openAfter[at] <= 0.0f) phi[at] = kFar * h - (moved ? depth[at] : 0.0f);
   }
   dropOutside(leaves, solid.domain, due);
-  for (const auto& running : flows.sources) forgive(leaves, *running.source->phi, h, due);
   for (const FloatGrid* drain : flows.drains) forgive(leaves, *drain, h, due);
+  // In sources nothing can grow: what is owed goes around them.
+  for (const FilledCell& full : inSources) {
+    if (full.share < 0.5f) continue;
+    openAfter[full.cell] = 0.0f;
+    phi[full.cell] = kFar * h;
+  }
   gatherInLiquid(leaves, phi, kFar * h, due);
   spreadInLiquid(leaves, phi, openAfter, due);
   spreadPiles(leaves, solidAfter, openAfter, due);

@@ -40,19 +40,29 @@ int levelOf(int size) {
   return size == kChunkDim ? 2 : 1;
 }
 
-// The distance at a cell's centre, where that is in a solid no less than half a cell if all corners and the
-// centres beside are, too: solids that touch know only their own surfaces, and where they meet there is none.
+// The distance at a cell's centre. Solids that touch know only their own surfaces, and what is nearest may be
+// a joint between them. A place in the open has a ball of its own distance around it that holds no solid: the
+// way to the nearest of these balls is the depth. Where none is near and all around is solid, it is half a
+// cell.
 double centreDistance(const SolidDistance& distance, const Coord& cell, double h) {
+  // Balls around a few places may miss the surface's nearest point by this share of a cell; smaller ones than
+  // that say nothing.
+  constexpr double kAside = 0.15, kSmallest = 0.1;
   const double d = distance(placeOf(cell, Vec3d(0.5), h));
   if (d > 0.0 || d <= -0.5 * h) return d;
-  for (int n = 0; n < 8; ++n)
-    if (distance(placeOf(cell, Vec3d(n & 1, n >> 1 & 1, n >> 2), h)) > kOnWall * h) return d;
-  for (int side = 0; side < 6; ++side) {
-    Vec3d beside(0.5);
-    beside[side / 2] += side % 2 == 0 ? -1.0 : 1.0;
-    if (distance(placeOf(cell, beside, h)) > 0.0) return d;
+  double depth = kForever;
+  bool allSolid = true;
+  for (const double far : {1.0, 0.5, 0.375, 0.25, 0.125}) {
+    for (int n = 0; n < 27; ++n) {
+      const Vec3d way(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
+      if (n == 13 || (far == 1.0 && way.lengthSqr() > 1.0)) continue;
+      const double there = distance(placeOf(cell, Vec3d(0.5) + far * way, h));
+      allSolid = allSolid && there <= (far == 1.0 ? 0.0 : kOnWall * h);
+      if (there > kSmallest * h) depth = std::min(depth, std::max(0.0, far * way.length() * h - there));
+      if (depth <= -d + kAside * h) return d;
+    }
   }
-  return -0.5 * h;
+  return depth < kForever || allSolid ? -std::min(depth, 0.5 * h) : d;
 }
 
 FloatGrid::Ptr cellDistances(const SolidDistance& distance, const CoordBBox& domain, const Chunks& chunks,

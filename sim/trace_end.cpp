@@ -75,9 +75,12 @@ TraceEnd::End TraceEnd::walk(const Vec3f& start, const Vec3f& end) const {
 
 Vec3f TraceEnd::before(int offset, const Vec3f& start, const Vec3f& end) const {
   auto [place, cell] = (*this)(offset, start, end);
+  const VisibleCells* visible = m_nearThinWalls ? m_visibility->around(cell) : nullptr;
+  if (visible == nullptr) return place;
   for (int a = 0; a < 3; ++a) {
-    const auto low = static_cast<float>(cell[a] - m_origin[a]);
-    place[a] = std::clamp(place[a], low, low + 1.0f);
+    const float middle = static_cast<float>(cell[a] - m_origin[a]) + 0.5f;
+    const int beside = place[a] < middle ? -VisibleCells::kStride[a] : VisibleCells::kStride[a];
+    if (!visible->sees(VisibleCells::kMiddle + beside)) place[a] = middle;
   }
   return place;
 }

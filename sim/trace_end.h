@@ -41,7 +41,7 @@ class TraceEnd {
     return walk(start, end);
   }
 
-  // The same, but a trace does not leave the cell that its values are seen from.
+  // The same for fields that are read as they are: between values of cells that the last one sees.
   openvdb::Vec3f before(int offset, const openvdb::Vec3f& start, const openvdb::Vec3f& end) const;
 
  private:

@@ -236,9 +236,14 @@ std::vector<float> openRoom(const SolidField& solid, const LeafTable& leaves) {
   return room;
 }
 
-CarriedShares carried(const VolumeFlux& flux, std::vector<float> shares) {
+CarriedShares carried(const VolumeFlux& flux, std::vector<float> shares,
+                      const std::vector<FilledCell>& sources) {
   std::vector<char> full(shares.size());
   std::vector<float> pressed(flux.swept.size(), 0.0f);
+  const auto fill = [&] {
+    for (const auto& [cell, share] : sources) shares[cell] = std::max(shares[cell], share);
+  };
+  fill();
   for (int step = 0; step < flux.steps; ++step) {
     std::transform(shares.begin(), shares.end(), full.begin(), [](float share) { return share > 0.5f; });
     // The axes take turns at being first.
@@ -247,6 +252,7 @@ CarriedShares carried(const VolumeFlux& flux, std::vector<float> shares) {
       const auto along = axis == 0 ? carriedAlong<0> : axis == 1 ? carriedAlong<1> : carriedAlong<2>;
       shares = along(flux, n == 2, full, shares, pressed);
     }
+    fill();
   }
   return {std::move(shares), std::move(pressed)};
 }

@@ -39,10 +39,16 @@ std::vector<float> wetShares(const FloatGrid& phi, const SolidField& solid, cons
 
 // At the step's end: the shares, and what solids have swept into each cell, which counts in the shares but
 // has not come from anywhere. The sum over share times room less `swept` changes by what crosses the leaves'
-// outline only.
+// outline only, and by what comes from sources.
 struct CarriedShares {
   std::vector<float> share, swept;  // `swept` is empty where all solids are at rest
 };
-CarriedShares carried(const VolumeFlux& flux, std::vector<float> shares);
+// sources: cells that are filled up again to so much at least.
+struct FilledCell {
+  std::size_t cell;
+  float share;  // of its open part
+};
+CarriedShares carried(const VolumeFlux& flux, std::vector<float> shares,
+                      const std::vector<FilledCell>& sources = {});
 
 }  // namespace fluidtex::sim

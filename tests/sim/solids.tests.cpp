@@ -262,6 +262,46 @@ TEST_CASE("solids: where two touch it is as solid as elsewhere") {
     for (int k = 4; k < 12; ++k) CHECK(field->phi->tree().getValue(Coord(8, j, k)) < -0.49f * float(h));
 }
 
+TEST_CASE("solids: where two touch their common surface is as deep as elsewhere") {
+  // The joint is at 8.5 cells, so that the centres of a row lie in it; the solids end at 12.07.
+  Options options;
+  options.resolution = 16;
+  const double h = 1.0 / 16, joint = 8.5 * h, end = 12.07 * h;
+  options.solids.resize(2);
+  options.solids[0].shape = {Box{Vec3d(0.2, 0.2, 0.2), Vec3d(joint, 0.8, end)}};
+  options.solids[1].shape = {Box{Vec3d(joint, 0.2, 0.2), Vec3d(0.8, 0.8, end)}};
+  const auto field = Solids(options).at(0.0);
+  for (int i = 5; i < 12; ++i) {
+    CAPTURE(i);
+    CHECK(field->phi->tree().getValue(Coord(i, 8, 11)) ==
+          Catch::Detail::Approx(i == 8 ? -0.5 * h : -0.57 * h));
+    CHECK(field->phi->tree().getValue(Coord(i, 8, 12)) == Catch::Detail::Approx(0.43 * h));
+  }
+}
+
+TEST_CASE("solids: a joint that a surface crosses in a cell is no surface") {
+  Options options;
+  options.resolution = 16;
+  const double h = 1.0 / 16, joint = 8.5 * h, begin = 4.07 * h;
+  options.solids.resize(2);
+  options.solids[0].shape = {Box{Vec3d(0.2, 0.2, begin), Vec3d(joint, 0.8, 0.8)}};
+  options.solids[1].shape = {Box{Vec3d(joint, 0.2, begin), Vec3d(0.8, 0.8, 0.8)}};
+  const auto field = Solids(options).at(0.0);
+  for (int i = 5; i < 12; ++i)
+    CHECK(field->phi->tree().getValue(Coord(i, 8, 4)) == Catch::Detail::Approx(-0.43 * h).epsilon(0.01));
+}
+
+TEST_CASE("solids: no face leads into what a wall leaves of a cell beyond it") {
+  for (const double more : {-0.009, 1e-5, 0.009}) {
+    const auto field =
+        Solids(tank(16, {solidOf(Shape{Box{Vec3d(-1.0, -1.0, (8.0 + more) / 16), Vec3d(2.0)}})})).at(0.0);
+    CAPTURE(more);
+    CHECK(field->openW->tree().getValue(Coord(8, 8, 8)) == 0.0f);
+    CHECK(field->openU->tree().getValue(Coord(8, 8, 8)) == 0.0f);
+    CHECK(field->openU->tree().getValue(Coord(8, 8, 7)) == 1.0f);
+  }
+}
+
 TEST_CASE("solids: a gap in which no corner of the grid lies is closed") {
   for (const double gap : {0.3, 0.6, 0.9, 1.0, 1.1}) {  // cells between the floor and a block
     Options options;

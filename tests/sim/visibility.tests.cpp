@@ -89,6 +89,18 @@ TEST_CASE("visibility: a level set goes on linearly behind a wall, and does not 
   CHECK(values[VisibleCells::kMiddle + kUp] == Approx(0.9f));
 }
 
+TEST_CASE("visibility: behind a surface that lies on the wall and leaves it there is air") {
+  VisibleCells visible;
+  for (int j = 0; j < 25; ++j)
+    for (const int i : {3, 4}) visible.hide(i * kUp + j);
+  Stencil values;
+  for (int at = 0; at < VisibleCells::kCount; ++at) values[at] = 0.7f - 0.4f * float(at / kUp);
+  riseBehind(values, visible, 1.0f);
+  CHECK(values[VisibleCells::kMiddle] == Approx(-0.1f));
+  CHECK(values[VisibleCells::kMiddle + kUp] == Approx(0.9f));
+  CHECK(values[VisibleCells::kMiddle + 2 * kUp] == Approx(1.9f));
+}
+
 TEST_CASE("visibility: closed cups with walls of 0.6 cells and more hold what is in them") {
   // 2.1, 1.05, 0.63 and 0.6 cells.
   const auto [wall, resolution] =

@@ -94,6 +94,13 @@ TEST_CASE("surroundings: volumes are those of the shapes outside of solids", "[s
   CHECK(Surroundings(options, {}).pouredVolume() == Approx(expected).epsilon(0.003));
 }
 
+TEST_CASE("surroundings: beyond an unbounded side there is liquid, too", "[stress]") {
+  sim::Options options = tank(box(Vec3d(-0.3, 0.2, 0.1), Vec3d(0.4, 0.7, 0.6)));
+  CHECK(Surroundings(options, {}).pouredVolume() == Approx(0.4 * 0.5 * 0.5).epsilon(0.01));
+  options.sides[0] = sim::Side::unbounded;
+  CHECK(Surroundings(options, {}).pouredVolume() == Approx(0.7 * 0.5 * 0.5).epsilon(0.01));
+}
+
 TEST_CASE("surroundings: what is poured into a narrow gap or beside a thin wall is told apart", "[stress]") {
   sim::Options gap = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.3)));
   CHECK(Surroundings(gap, {}).inNarrowGaps() == 0.0);

@@ -30,13 +30,38 @@ bool disturbs(const sim::Options& options) {
   return !options.sources.empty() || !options.drains.empty() || options.surfaceTension > 0.0;
 }
 
+// The cells of [0, size], and beyond sides that are unbounded those that liquid is put in, at most as far
+// again.
+openvdb::CoordBBox sampledCells(const sim::Options& options) {
+  const double h = options.voxelSize();
+  const openvdb::CoordBBox inside = sim::firstCells(sim::cellCount(options.size, h));
+  const openvdb::BBoxd domain = sim::domainBox(options);
+  openvdb::CoordBBox cells = inside, most = inside;
+  for (int side = 0; side < 6; ++side) {
+    if (options.sides[side] != sim::Side::unbounded) continue;
+    const int axis = side / 2, far = inside.dim()[axis];
+    side % 2 == 0 ? most.min()[axis] -= far : most.max()[axis] += far;
+  }
+  const auto add = [&](const sim::Shape& shape) {
+    const openvdb::BBoxd bounds = sim::ShapeDistance(shape, h, domain).boundsIn(domain);
+    if (bounds) cells.expand(sim::cellsIn(bounds, h));
+  };
+  for (const sim::LiquidBody& body : options.liquid) add(body.shape);
+  for (const sim::Source& source : options.sources) add(source.shape);
+  cells.intersect(most);
+  return cells;
+}
+
 }  // namespace
 
 Surroundings::Surroundings(const sim::Options& options, const std::vector<std::size_t>& leaking)
     : m_options(options), m_step(options.voxelSize() / kSamplesPerCell) {
-  const Coord cells = sim::cellCount(options.size, options.voxelSize());
-  m_count = Coord(cells[0] * kSamplesPerCell, cells[1] * kSamplesPerCell, cells[2] * kSamplesPerCell);
   const openvdb::BBoxd domain = sim::domainBox(options);
+  const openvdb::CoordBBox cells = sampledCells(options);
+  for (int a = 0; a < 3; ++a) {
+    m_first[a] = cells.min()[a] * kSamplesPerCell;
+    m_count[a] = cells.dim()[a] * kSamplesPerCell;
+  }
 
   sim::Options tight = options;
   tight.solids.clear();
@@ -94,7 +119,8 @@ Surroundings::Surroundings(const sim::Options& options, const std::vector<std::s
 
 Vec3d Surroundings::place(std::size_t sample) const {
   const int n = static_cast<int>(sample);
-  return (Vec3d(n / (m_count[1] * m_count[2]), n / m_count[2] % m_count[1], n % m_count[2]) + Vec3d(0.5)) *
+  return (Vec3d(n / (m_count[1] * m_count[2]), n / m_count[2] % m_count[1], n % m_count[2]) +
+          m_first.asVec3d() + Vec3d(0.5)) *
          m_step;
 }
 
@@ -199,7 +225,8 @@ void Surroundings::flood(const std::vector<float>& open, const std::vector<float
 }
 
 bool Surroundings::reached(const Coord& cell) const {
-  const Coord first(cell[0] * kSamplesPerCell, cell[1] * kSamplesPerCell, cell[2] * kSamplesPerCell);
+  const Coord first =
+      Coord(cell[0] * kSamplesPerCell, cell[1] * kSamplesPerCell, cell[2] * kSamplesPerCell) - m_first;
   for (int a = 0; a < 3; ++a)
     if (first[a] < 0 || first[a] >= m_count[a]) return m_unbounded;
   for (int i = 0; i < kSamplesPerCell; ++i) {

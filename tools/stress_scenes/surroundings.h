@@ -60,8 +60,8 @@ class Surroundings {
   void flood(const std::vector<float>& open, const std::vector<float>& liquid, double highest);
 
   const sim::Options& m_options;
-  double m_step;  // from sample to sample, metres
-  Coord m_count;  // of samples
+  double m_step;           // from sample to sample, metres
+  Coord m_first, m_count;  // of samples
   std::vector<std::uint8_t> m_reached;
   bool m_unbounded = false;  // liquid can get out of [0, size] through an unbounded side
   bool m_atRest = false;
