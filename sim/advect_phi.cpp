@@ -34,18 +34,19 @@ bool isFlat(const Window& window) {
   return std::all_of(first, last, [value = *first](float v) { return v == value; });
 }
 
-// Whether a surface lies on a solid's, within this share of a cell: both distances in metres.
+// Whether a surface lies on a solid's; both distances in metres.
 bool liesOnSolid(float phi, float solid, float h) {
-  constexpr float kSame = 0.05f;
+  constexpr float kSame = 0.05f;  // of a cell
   return phi < 0.0f && std::abs(phi + solid) < kSame * h;
 }
 
-// phi at a place seen from a cell that does not see all around it, whose solid's distance is given.
+// phi at a place seen from a cell that does not see all around it. solid: the solids' distance in that cell.
 float oneSided(const Window& window, const Coord& cell, const Vec3f& x, const VisibleCells& visible,
                float solid, float h, bool leaves) {
   Stencil values;
   const Vec3f local = window.around(cell, x, values);
-  if (leaves && liesOnSolid(values[VisibleCells::kMiddle], solid, h))
+  const bool behind = std::max({std::abs(local[0]), std::abs(local[1]), std::abs(local[2])}) > 0.5f;
+  if (leaves && behind && liesOnSolid(values[VisibleCells::kMiddle], solid, h))
     riseBehind(values, visible, h);
   else
     goOnBehind(values, visible, leaves ? kAlongWall * h : std::numeric_limits<float>::infinity());

@@ -44,7 +44,9 @@ FloatGrid::Ptr advectTemperature(const FloatGrid& from, const Velocity& velocity
     Window before, predicted;
     TraceEnd end;
     // From a cell's centre.
-    Vec3f trace(int offset, const Vec3f& x, float step) const { return end.before(offset, x, flow.trace(x, step)); }
+    Vec3f trace(int offset, const Vec3f& x, float step) const {
+      return end.onOwnSide(offset, x, flow.trace(x, step));
+    }
   };
   const auto load = [&](const Coord& origin) {
     Windows windows{VelocityWindow(halo), Window(halo, centre), Window(halo, centre),

@@ -59,7 +59,7 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
         const Window& own = content.component(axis);
         float* const out = leaves[axis][n]->buffer().data();
         const auto take = [&](int i, Vec3f place) {
-          place = end.before(i, faceCentre(i, axis), place);
+          place = end.onOwnSide(i, faceCentre(i, axis), place, axis);
           const auto [low, high] = own.range(place);
           out[i] = std::clamp(own.cubic(place), low, high);
         };

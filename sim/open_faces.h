@@ -7,8 +7,9 @@
 
 namespace fluidtex::sim {
 
-// Distances to solids below this share of a cell are 0: a wall in the plane of a face closes it, in spite of
-// rounding, and no face leads into a cell whose centre is deeper in the wall than kDeepInSolid.
+// Distances to solids below this share of a cell are 0: a wall in the plane of faces closes them, in spite of
+// rounding. It is as much as a cell's centre may lie less than half a cell deep and yet count as deep
+// (kDeepInSolid), so that no face leads into a cell of which such a wall leaves a sliver.
 inline constexpr double kOnWall = 0.01;
 
 // Open shares of the lower faces of a block's cells, by axis.

@@ -224,29 +224,45 @@ void dropOutside(const LeafTable& leaves, const CoordBBox& domain, std::vector<f
   }
 }
 
-// What sources fill up of the cells that they touch: their own part, and of those whose centre is theirs, so
-// that their faces have the source's velocity, as much as was there.
-std::vector<FilledCell> filledBy(const RunningFlows& flows, const LeafTable& leaves, const SolidField& solid,
-                                 const std::vector<float>& was) {
-  std::vector<FilledCell> cells;
+// Cells that sources fill up, and those of them whose faces have a source's velocity.
+struct SourceCells {
+  std::vector<FilledCell> filled;
+  std::vector<std::size_t> given;
+};
+
+// was: the liquid shares before.
+SourceCells cellsOf(const RunningFlows& flows, const LeafTable& leaves, const SolidField& solid,
+                    const std::vector<float>& was) {
+  const float near = static_cast<float>(solid.voxelSize);
+  std::vector<SourceCells> found(leaves.size());
   for (const auto& running : flows.sources) {
     const FloatGrid& shape = *running.source->phi;
-    for (std::size_t n = 0; n < leaves.size(); ++n) {
+    const bool flowing = running.source->velocity[0] != nullptr;
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      const Coord& origin = leaves.origins[n];
+      if (shape.constTree().probeConstLeaf(origin) == nullptr && shape.constTree().getValue(origin) >= near)
+        return;
       float scratch[kLeafSize];
-      const float* distance = leafValues(shape.constTree(), leaves.origins[n], scratch);
-      const float near = static_cast<float>(solid.voxelSize);
-      if (std::all_of(distance, distance + kLeafSize, [near](float d) { return d >= near; })) continue;
+      const float* distance = leafValues(shape.constTree(), origin, scratch);
       LeafShares held, room;
-      liquidShares(shape, solid, leaves.origins[n], held, Counts::unseen);
-      openShares(solid, leaves.origins[n], room);
+      liquidShares(shape, solid, origin, held);
+      openShares(solid, origin, room);
       for (int i = 0; i < kLeafSize; ++i) {
         if (room[i] <= kCarries || held[i] <= 0.0f) continue;
+        // Its own part, or, as full as it was where only the source's velocity leads out of it.
         const std::size_t cell = n * kLeafSize + i;
-        cells.push_back({cell, std::max(held[i] / room[i], distance[i] < 0.0f ? was[cell] : 0.0f)});
+        const bool given = flowing && distance[i] < 0.0f;
+        found[n].filled.push_back({cell, std::max(held[i] / room[i], given ? was[cell] : 0.0f)});
+        if (given) found[n].given.push_back(cell);
       }
-    }
+    });
   }
-  return cells;
+  SourceCells all;
+  for (const SourceCells& some : found) {
+    all.filled.insert(all.filled.end(), some.filled.begin(), some.filled.end());
+    all.given.insert(all.given.end(), some.given.begin(), some.given.end());
+  }
+  return all;
 }
 
 // Nothing is owed within a cell of what is always empty.
@@ -302,8 +318,8 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
       }
     }
   }
-  const std::vector<FilledCell> inSources = filledBy(flows, leaves, solid, was);
-  const CarriedShares flown = carried(flux, std::move(shares), inSources);
+  const SourceCells inSources = cellsOf(flows, leaves, solid, was);
+  const CarriedShares flown = carried(flux, std::move(shares), inSources.filled);
   const float h = static_cast<float>(solid.voxelSize);
   const bool moved = between || !flux.swept.empty();
   std::vector<float> openAfter = moved ? openRoom(solidAfter, leaves) : flux.open;
@@ -319,11 +335,10 @@ FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const
   }
   dropOutside(leaves, solid.domain, due);
   for (const FloatGrid* drain : flows.drains) forgive(leaves, *drain, h, due);
-  // In sources nothing can grow: what is owed goes around them.
-  for (const FilledCell& full : inSources) {
-    if (full.share < 0.5f) continue;
-    openAfter[full.cell] = 0.0f;
-    phi[full.cell] = kFar * h;
+  // Where a source's velocity holds nothing can grow: what is owed goes around it.
+  for (const std::size_t cell : inSources.given) {
+    openAfter[cell] = 0.0f;
+    phi[cell] = kFar * h;
   }
   gatherInLiquid(leaves, phi, kFar * h, due);
   spreadInLiquid(leaves, phi, openAfter, due);

@@ -19,7 +19,8 @@ namespace fluidtex::sim {
 // What is owed after a step of dt seconds in which `velocity` moved the surface from `before` to `after`:
 // cubic metres over h^3 at cell centres, negative where there is too much liquid. owed: what was before, null
 // for nothing; solid: while `velocity` held. Volumes are carried by fluxes through the solids' open faces
-// (sim/volume_flux.h). What leaves through sides of the domain is gone; sources and drains owe nothing. What
+// (sim/volume_flux.h). What leaves through sides of the domain is gone; drains owe
+// nothing. Sources fill their cells up again for nothing, but what meets them from outside is owed. What
 // solids push aside, or come over between two steps (dt 0), is owed beside them. The sum of what the surface
 // encloses (liquidVolume) and of what is owed is exact. The same bytes on any number of threads.
 FloatGrid::Ptr owedVolume(const FloatGrid& before, const FloatGrid& after, const FloatGrid* owed,

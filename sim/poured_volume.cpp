@@ -60,14 +60,14 @@ FloatGrid::Ptr withPoured(const FloatGrid* owed, const PouredLiquid& poured, con
       const float share = shareOf(poured.distance, far, settled.indexToWorld(cell), h);
       more[n][i] = inOpen ? share - after[i] : std::min(whole[i], share);
     }
-    const auto none = [&](const FloatGrid& shape) {
+    const auto none = [&](const FloatGrid& shape, float near) {
       float values[kLeafSize];
       const float* distance = leafValues(shape.constTree(), origin, values);
       for (int i = 0; i < kLeafSize; ++i)
-        if (distance[i] < h) more[n][i] = 0.0f;
+        if (distance[i] < near) more[n][i] = 0.0f;
     };
-    for (const auto& running : flows.sources) none(*running.source->phi);
-    for (const FloatGrid* drain : flows.drains) none(*drain);
+    for (const auto& running : flows.sources) none(*running.source->phi, 0.0f);
+    for (const FloatGrid* drain : flows.drains) none(*drain, h);
   });
   for (std::size_t n = 0; n < leaves.size(); ++n) {
     if (std::all_of(more[n].begin(), more[n].end(), [](float v) { return std::abs(v) < kRounding; }))

@@ -245,7 +245,7 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
   return valid;
 }
 
-// Where liquid lets go. What is open of a cell deep in a solid is a corner of the cells beside it, which let
+// Cells of liquid that let go. Of a cell deep in a solid next to nothing is open: the liquid beside it lets
 // go with it.
 MaskGrid::Ptr separatingCells(const LiquidCells& liquid, const SolidField& solid,
                               const std::vector<char>& detached) {
@@ -260,7 +260,8 @@ MaskGrid::Ptr separatingCells(const LiquidCells& liquid, const SolidField& solid
     if (distance.getValue(cell) >= deep) continue;
     const LiquidSides& sides = liquid.sidesOf(i);
     for (int side = 0; side < kSides; ++side)
-      if (sides.open[side] > 0.0f) separating->tree().setValueOn(neighborOf(cell, side));
+      if (sides.open[side] > 0.0f && liquid.numbering.at(neighborOf(cell, side)) >= 0)
+        separating->tree().setValueOn(neighborOf(cell, side));
   }
   return separating;
 }

@@ -45,23 +45,35 @@ int levelOf(int size) {
 // way to the nearest of these balls is the depth. Where none is near and all around is solid, it is half a
 // cell.
 double centreDistance(const SolidDistance& distance, const Coord& cell, double h) {
-  // Balls around a few places may miss the surface's nearest point by this share of a cell; smaller ones than
-  // that say nothing.
-  constexpr double kAside = 0.15, kSmallest = 0.1;
+  // The balls may miss the surface's nearest point by this share of a cell.
+  constexpr double kAside = 0.15;
+  // What is left between two solids may be a gap that is closed: balls below this radius, in cells, say
+  // nothing.
+  constexpr double kSmallest = 0.1;
   const double d = distance(placeOf(cell, Vec3d(0.5), h));
   if (d > 0.0 || d <= -0.5 * h) return d;
   double depth = kForever;
   bool allSolid = true;
-  for (const double far : {1.0, 0.5, 0.375, 0.25, 0.125}) {
-    for (int n = 0; n < 27; ++n) {
-      const Vec3d way(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
-      if (n == 13 || (far == 1.0 && way.lengthSqr() > 1.0)) continue;
-      const double there = distance(placeOf(cell, Vec3d(0.5) + far * way, h));
-      allSolid = allSolid && there <= (far == 1.0 ? 0.0 : kOnWall * h);
-      if (there > kSmallest * h) depth = std::min(depth, std::max(0.0, far * way.length() * h - there));
-      if (depth <= -d + kAside * h) return d;
-    }
+  const auto look = [&](const Vec3d& way, double closed) {
+    const double there = distance(placeOf(cell, Vec3d(0.5) + way, h));
+    allSolid = allSolid && there <= closed;
+    if (there > kSmallest * h) depth = std::min(depth, std::max(0.0, way.length() * h - there));
+    return there;
+  };
+  const auto isTrue = [&] { return depth <= -d + kAside * h; };
+  // Most often the surface lies straight ahead.
+  Vec3d ahead;
+  for (int a = 0; a < 3; ++a) {
+    Vec3d way(0.0);
+    way[a] = 1.0;
+    ahead[a] = look(way, 0.0) - look(-way, 0.0);
   }
+  if (ahead.normalize()) look((0.25 - d / h) * ahead, kOnWall * h);
+  for (const double far : {0.5, 0.375, 0.25, 0.125}) {
+    for (int n = 0; n < 27 && !isTrue(); ++n)
+      if (n != 13) look(far * Vec3d(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1), kOnWall * h);
+  }
+  if (isTrue()) return d;
   return depth < kForever || allSolid ? -std::min(depth, 0.5 * h) : d;
 }
 

@@ -5,7 +5,6 @@
 #include "sim/trilinear.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fluidtex::sim {
 namespace {
@@ -13,7 +12,7 @@ namespace {
 using openvdb::Vec3f;
 
 // A field at a place, in cells from the corner of the cell `origin`.
-float valueAt(const FloatGrid::ConstAccessor& field, const Coord& origin, const Vec3f& x) {
+float valueAt(const FloatGrid::ConstUnsafeAccessor& field, const Coord& origin, const Vec3f& x) {
   Coord low = origin;
   float t[3];
   for (int a = 0; a < 3; ++a) {
@@ -35,7 +34,7 @@ bool sees(const VisibleCells& visible, const Coord& offset) {
 }  // namespace
 
 TraceEnd::TraceEnd(const FloatGrid& solidPhi, const Visibility* visibility)
-    : m_distance(solidPhi.getConstAccessor()),
+    : m_distance(solidPhi.getConstUnsafeAccessor()),
       m_tree(solidPhi.constTree()),
       m_visibility(visibility),
       m_h(static_cast<float>(solidPhi.voxelSize()[0])) {}
@@ -44,21 +43,26 @@ void TraceEnd::setLeaf(const Coord& origin, int reach) {
   m_origin = origin;
   float scratch[kLeafSize];
   std::copy_n(leafValues(m_tree, origin, scratch), kLeafSize, m_solid.begin());
-  m_nearThinWalls =
-      m_visibility != nullptr && m_visibility->touches(grown(CoordBBox::createCube(origin, kLeafDim), reach));
+  m_nearSolids = false;
+  for (int n = 0; n < 27 && !m_nearSolids; ++n) {
+    const Coord beside =
+        origin.offsetBy(kLeafDim * (n / 9 - 1), kLeafDim * (n / 3 % 3 - 1), kLeafDim * (n % 3 - 1));
+    m_nearSolids = m_tree.probeConstLeaf(beside) != nullptr || m_tree.getValue(beside) < 0.0f;
+  }
+  m_nearThinWalls = m_nearSolids && m_visibility != nullptr &&
+                    m_visibility->touches(grown(CoordBBox::createCube(origin, kLeafDim), reach));
 }
 
-TraceEnd::End TraceEnd::walk(const Vec3f& start, const Vec3f& end) const {
+TraceEnd::End TraceEnd::walk(const Vec3f& start, const Vec3f& aim) const {
   // Cells that follow each other lie side by side, so that each tells of the next.
   constexpr float kStep = 0.5f;
   const float deep = -kDeepInSolid * m_h;
-  const Vec3f way = end - start;
+  const Vec3f way = aim - start;
   const float length = way.length();
   // A trace from a face starts in the cell that it leads into.
   Coord cell = cellAt(start + way * std::min(0.5f, 0.5f * kStep / std::max(length, kStep)));
-  Vec3f x = start;
-  for (float gone = kStep; x != end; gone += kStep) {
-    x = gone < length ? start + way * (gone / length) : end;
+  for (float gone = kStep; gone < length + kStep; gone += kStep) {
+    const Vec3f x = gone < length ? start + way * (gone / length) : aim;
     const Coord next = cellAt(x);
     if (next != cell) {
       const VisibleCells* visible = m_nearThinWalls ? m_visibility->around(cell) : nullptr;
@@ -70,17 +74,33 @@ TraceEnd::End TraceEnd::walk(const Vec3f& start, const Vec3f& end) const {
     }
     if (m_distance.getValue(next) < 0.0f && valueAt(m_distance, m_origin, x) < deep) return {x, cell};
   }
-  return {end, cell};
+  return {aim, cell};
 }
 
-Vec3f TraceEnd::before(int offset, const Vec3f& start, const Vec3f& end) const {
-  auto [place, cell] = (*this)(offset, start, end);
+Vec3f TraceEnd::onOwnSide(int offset, const Vec3f& start, const Vec3f& aim, int axis) const {
+  if (isClear(offset, start, aim)) return aim;
+  auto [place, cell] = walk(start, aim);
   const VisibleCells* visible = m_nearThinWalls ? m_visibility->around(cell) : nullptr;
   if (visible == nullptr) return place;
-  for (int a = 0; a < 3; ++a) {
-    const float middle = static_cast<float>(cell[a] - m_origin[a]) + 0.5f;
-    const int beside = place[a] < middle ? -VisibleCells::kStride[a] : VisibleCells::kStride[a];
-    if (!visible->sees(VisibleCells::kMiddle + beside)) place[a] = middle;
+  Vec3f middle;
+  for (int a = 0; a < 3; ++a) middle[a] = static_cast<float>(cell[a] - m_origin[a]) + 0.5f;
+  if (axis >= 0) place[axis] = std::clamp(place[axis], middle[axis] - 0.5f, middle[axis] + 0.5f);
+  // The cells beside are those on the place's side of the middle, along one axis or several.
+  for (int n = 1; n < 8;) {
+    Coord beside(0);
+    int farthest = -1;
+    for (int a = 0; a < 3; ++a) {
+      const float away = place[a] - middle[a];
+      if ((n >> a & 1) == 0 || a == axis || away == 0.0f) continue;
+      beside[a] = away < 0.0f ? -1 : 1;
+      if (farthest < 0 || std::abs(away) > std::abs(place[farthest] - middle[farthest])) farthest = a;
+    }
+    if (sees(*visible, beside)) {
+      ++n;
+      continue;
+    }
+    place[farthest] = middle[farthest];
+    n = 1;
   }
   return place;
 }

@@ -10,14 +10,15 @@
 
 namespace fluidtex::sim {
 
-// For the traces that start in one leaf. Each thread has its own.
+// For the traces that start in one leaf. Each thread has its own. Places are in cells from the leaf's lower
+// corner.
 class TraceEnd {
  public:
   // solidPhi: the solids' signed distance in metres. visibility: as in SolidField, null where all see all.
   // Both must outlive this.
   TraceEnd(const FloatGrid& solidPhi, const Visibility* visibility);
 
-  // Of a leaf of cells whose traces lead at most `reach` cells out of it.
+  // Of a leaf of cells whose traces lead at most `reach` cells out of it, no more than kLeafDim.
   void setLeaf(const Coord& origin, int reach);
 
   // Whether some cell within reach does not see all around it.
@@ -30,33 +31,38 @@ class TraceEnd {
     Coord cell;  // that its values are seen from: the one that it lies in, or the last one before a wall
   };
 
-  // The end of a trace from `start`, in or at a face of the leaf's cell `offset`. Where it comes to lie
-  // deeper than kDeepInSolid in a solid it ends there; where it enters a cell that is not seen from the one
-  // before, at most a cell farther. Places in cells from the leaf's lower corner.
-  End operator()(int offset, const openvdb::Vec3f& start, const openvdb::Vec3f& end) const {
-    // Where no solid is nearer than the trace is long there is none on it.
-    const float margin = 1.0f;
-    if (!m_nearThinWalls && m_solid[offset] > ((end - start).length() + margin) * m_h)
-      return {end, cellAt(end)};
-    return walk(start, end);
+  // The end of a trace from `start`, in or at a face of the leaf's cell `offset`, to `aim`. It ends where it
+  // is half a cell deep in a solid. Where it enters a cell that the last one does not see, it goes on for a
+  // cell at most.
+  End operator()(int offset, const openvdb::Vec3f& start, const openvdb::Vec3f& aim) const {
+    if (isClear(offset, start, aim)) return {aim, cellAt(aim)};
+    return walk(start, aim);
   }
 
-  // The same for fields that are read as they are: between values of cells that the last one sees.
-  openvdb::Vec3f before(int offset, const openvdb::Vec3f& start, const openvdb::Vec3f& end) const;
+  // The same for fields that are interpolated as they are: of the eight cells around the place that it gives,
+  // the last one before the wall sees all. axis: of the samples at faces normal to it, which lie on the
+  // cell's own faces; -1 for samples at cell centres.
+  openvdb::Vec3f onOwnSide(int offset, const openvdb::Vec3f& start, const openvdb::Vec3f& aim,
+                           int axis = -1) const;
 
  private:
-  End walk(const openvdb::Vec3f& start, const openvdb::Vec3f& end) const;
+  // Whether no solid is as near to the start as the end is. The start lies within a cell of the centre, whose
+  // distance is known.
+  bool isClear(int offset, const openvdb::Vec3f& start, const openvdb::Vec3f& aim) const {
+    return !m_nearSolids || m_solid[offset] > ((aim - start).length() + 1.0f) * m_h;
+  }
+  End walk(const openvdb::Vec3f& start, const openvdb::Vec3f& aim) const;
   Coord cellAt(const openvdb::Vec3f& place) const {
     return m_origin.offsetBy(static_cast<int>(std::floor(place[0])), static_cast<int>(std::floor(place[1])),
                              static_cast<int>(std::floor(place[2])));
   }
 
-  FloatGrid::ConstAccessor m_distance;
+  FloatGrid::ConstUnsafeAccessor m_distance;
   const FloatTree& m_tree;
   const Visibility* m_visibility;
   float m_h;
   Coord m_origin;
-  bool m_nearThinWalls = false;
+  bool m_nearSolids = false, m_nearThinWalls = false;
   std::array<float, kLeafSize> m_solid;
 };
 

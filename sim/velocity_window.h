@@ -50,9 +50,9 @@ struct Window {
     return tricubic(place.low, side * side, side, lane0(t), lane1(t), lane2(t));
   }
 
-  // The samples of a cell and those around it, and x from that cell's middle, in cells, as far as trilinear
-  // interpolation between them goes; of samples at cell centres. cell: from the leaf's lowest one, at most
-  // halo - 2 outside the leaf.
+  // The samples of a cell and those around it, and x from that cell's middle, in cells; of samples at cell
+  // centres. x is taken at most a cell outside of the cell. cell: from the leaf's lowest one, at most halo -
+  // 2 outside the leaf.
   Vec3f around(Coord cell, const Vec3f& x, Stencil& out) const {
     constexpr int kReach = VisibleCells::kReach;
     constexpr float kFarthest = static_cast<float>(kReach) - 0.5f;

@@ -207,12 +207,7 @@ std::unique_ptr<Visibility::Leaf> look(const Surroundings& around) {
 
 }  // namespace
 
-namespace {
-
-// Gives the cells that are not seen a mean of next(near, further) along the axes; near: the cell one step
-// inwards; further: the one behind it, or null where that is not known.
-template <class Next>
-void fillBehind(Stencil& values, const VisibleCells& visible, const Next& next) {
+void goOnBehind(Stencil& values, const VisibleCells& visible, float gap) {
   if (visible.seesAll()) return;
   constexpr int kReach = VisibleCells::kReach;
   std::array<bool, VisibleCells::kCount> known;
@@ -234,9 +229,11 @@ void fillBehind(Stencil& values, const VisibleCells& visible, const Next& next) 
           for (int a = 0; a < 3; ++a) {
             if (offset[a] == 0) continue;
             const int inwards = offset[a] > 0 ? -VisibleCells::kStride[a] : VisibleCells::kStride[a];
+            const float near = values[at + inwards];
             // Two steps inwards may lead past the middle, but never out of the stencil.
-            const bool isKnown = known[at + 2 * inwards];
-            sum += next(values[at + inwards], isKnown ? &values[at + 2 * inwards] : nullptr);
+            const float further = known[at + 2 * inwards] ? 2.0f * near - values[at + 2 * inwards] : near;
+            const bool sameSide = (further < 0.0f) == (near < 0.0f);
+            sum += sameSide || further - near > gap ? further : near;
             ++count;
           }
           values[at] = sum / static_cast<float>(count);
@@ -247,18 +244,24 @@ void fillBehind(Stencil& values, const VisibleCells& visible, const Next& next) 
   }
 }
 
-}  // namespace
-
-void goOnBehind(Stencil& values, const VisibleCells& visible, float gap) {
-  fillBehind(values, visible, [&](float near, const float* further) {
-    const float linear = further != nullptr ? 2.0f * near - *further : near;
-    const bool sameSide = (linear < 0.0f) == (near < 0.0f);
-    return sameSide || linear - near > gap ? linear : near;
-  });
-}
-
 void riseBehind(Stencil& values, const VisibleCells& visible, float step) {
-  fillBehind(values, visible, [&](float near, const float*) { return near + step; });
+  constexpr int kReach = VisibleCells::kReach;
+  const Stencil before = values;
+  const float middle = before[VisibleCells::kMiddle];
+  for (int at = 0; at < VisibleCells::kCount; ++at) {
+    if (visible.sees(at)) continue;
+    // Back to before the wall, along the axes that it bars.
+    int rest = at, foot = at, steps = 0;
+    for (int a = 0; a < 3; ++a) {
+      const int stride = VisibleCells::kStride[a], away = rest / stride - kReach;
+      rest %= stride;
+      if (away == 0 || visible.sees(VisibleCells::kMiddle + (away < 0 ? -stride : stride))) continue;
+      foot -= away * stride;
+      steps += std::abs(away);
+    }
+    const float near = steps > 0 && visible.sees(foot) ? before[foot] : middle;
+    values[at] = near + step * static_cast<float>(std::max(steps, 1));
+  }
 }
 
 const VisibleCells* Visibility::around(const Coord& cell) const {

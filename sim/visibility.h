@@ -42,7 +42,8 @@ using Stencil = std::array<float, VisibleCells::kCount>;
 void goOnBehind(Stencil& values, const VisibleCells& visible,
                 float gap = std::numeric_limits<float>::infinity());
 
-// The same behind a surface that lies on the wall itself and leaves it: values rise by `step` a cell.
+// The same behind a surface that lies on the wall itself and leaves it: values rise by `step` with each cell
+// along the axes that the wall bars.
 void riseBehind(Stencil& values, const VisibleCells& visible, float step);
 
 class Visibility {

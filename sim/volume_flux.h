@@ -37,17 +37,20 @@ std::vector<float> openRoom(const SolidField& solid, const LeafTable& leaves);
 // The share of each cell's open part that phi makes liquid.
 std::vector<float> wetShares(const FloatGrid& phi, const SolidField& solid, const LeafTable& leaves);
 
-// At the step's end: the shares, and what solids have swept into each cell, which counts in the shares but
-// has not come from anywhere. The sum over share times room less `swept` changes by what crosses the leaves'
-// outline only, and by what comes from sources.
+// What a source fills a cell up to at least: the share of the cell's open part.
+struct FilledCell {
+  std::size_t cell;
+  float share;
+};
+
+// The shares at the step's end, and what solids have swept into each cell, which counts in the shares but has
+// not come from anywhere.
 struct CarriedShares {
   std::vector<float> share, swept;  // `swept` is empty where all solids are at rest
 };
-// sources: cells that are filled up again to so much at least.
-struct FilledCell {
-  std::size_t cell;
-  float share;  // of its open part
-};
+
+// The sum over share times room less `swept` changes by what crosses the leaves' outline, and by what sources
+// put in, only.
 CarriedShares carried(const VolumeFlux& flux, std::vector<float> shares,
                       const std::vector<FilledCell>& sources = {});
 

@@ -96,9 +96,24 @@ TEST_CASE("visibility: behind a surface that lies on the wall and leaves it ther
   Stencil values;
   for (int at = 0; at < VisibleCells::kCount; ++at) values[at] = 0.7f - 0.4f * float(at / kUp);
   riseBehind(values, visible, 1.0f);
-  CHECK(values[VisibleCells::kMiddle] == Approx(-0.1f));
-  CHECK(values[VisibleCells::kMiddle + kUp] == Approx(0.9f));
-  CHECK(values[VisibleCells::kMiddle + 2 * kUp] == Approx(1.9f));
+  // By as much everywhere along the wall.
+  for (int j = 0; j < 25; ++j) {
+    CHECK(values[2 * kUp + j] == Approx(-0.1f));
+    CHECK(values[3 * kUp + j] == Approx(0.9f));
+    CHECK(values[4 * kUp + j] == Approx(1.9f));
+  }
+}
+
+TEST_CASE("visibility: in a corner of walls the air rises along both") {
+  VisibleCells visible;
+  for (int at = 0; at < VisibleCells::kCount; ++at)
+    if (at / kUp >= 3 || at % 5 >= 3) visible.hide(at);
+  Stencil values;
+  values.fill(-0.2f);
+  riseBehind(values, visible, 1.0f);
+  CHECK(values[VisibleCells::kMiddle + kUp] == Approx(0.8f));
+  CHECK(values[VisibleCells::kMiddle + 1] == Approx(0.8f));
+  CHECK(values[VisibleCells::kMiddle + kUp + 1] == Approx(1.8f));
 }
 
 TEST_CASE("visibility: closed cups with walls of 0.6 cells and more hold what is in them") {

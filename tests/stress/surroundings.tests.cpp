@@ -113,6 +113,13 @@ TEST_CASE("surroundings: what is poured into a narrow gap or beside a thin wall 
   CHECK(thin < 0.7 * (4 * 40 + 100));
 }
 
+TEST_CASE("surroundings: gaps are found as well where samples begin below 0", "[stress]") {
+  sim::Options gap = tank(box(Vec3d(-0.3, 0.0, 0.0), Vec3d(1.0, 1.0, 0.3)));
+  gap.sides[0] = sim::Side::unbounded;
+  addSolid(gap, box(Vec3d(0.2, 0.2, 0.03), Vec3d(0.8, 0.8, 0.5)));
+  CHECK(Surroundings(gap, {}).inNarrowGaps() == Approx(0.6 * 0.6 * 0.03).epsilon(0.2));
+}
+
 TEST_CASE("volume budget: what comes and goes is allowed, and no more", "[stress]") {
   sim::Options options = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.4)));
   options.liquid.push_back({box(Vec3d(0.3, 0.3, 0.6), Vec3d(0.7, 0.7, 0.8)), Vec3d(0.0), 0.5});

@@ -51,10 +51,10 @@ double frontRate(const sim::Source& source, const sim::Options& options, double 
     return false;
   };
   double rate = 0.0;
-  const Coord count = sim::cellCount(options.size, h);
-  for (int i = 0; i < count[0]; ++i) {
-    for (int j = 0; j < count[1]; ++j) {
-      for (int k = 0; k < count[2]; ++k) {
+  const openvdb::CoordBBox cells = sampledCells(options);
+  for (int i = cells.min()[0]; i <= cells.max()[0]; ++i) {
+    for (int j = cells.min()[1]; j <= cells.max()[1]; ++j) {
+      for (int k = cells.min()[2]; k <= cells.max()[2]; ++k) {
         const Coord cell(i, j, k);
         if (!inside(cell)) continue;
         for (int a = 0; a < 3; ++a) {

@@ -1,5 +1,7 @@
 #include "tools/stress_scenes/surroundings.h"
 
+#include "sim/open_faces.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -32,6 +34,8 @@ bool disturbs(const sim::Options& options) {
 
 // The cells of [0, size], and beyond sides that are unbounded those that liquid is put in, at most as far
 // again.
+}  // namespace
+
 openvdb::CoordBBox sampledCells(const sim::Options& options) {
   const double h = options.voxelSize();
   const openvdb::CoordBBox inside = sim::firstCells(sim::cellCount(options.size, h));
@@ -51,8 +55,6 @@ openvdb::CoordBBox sampledCells(const sim::Options& options) {
   cells.intersect(most);
   return cells;
 }
-
-}  // namespace
 
 Surroundings::Surroundings(const sim::Options& options, const std::vector<std::size_t>& leaking)
     : m_options(options), m_step(options.voxelSize() / kSamplesPerCell) {
@@ -139,7 +141,7 @@ void Surroundings::findUnresolved(const sim::Solids& solids, const std::vector<f
                                  static_cast<std::size_t>(m_count[2]), 1};
   const auto hasOpenCorner = [&](const Coord& cell) {
     for (int n = 0; n < 8; ++n)
-      if (solids.distance((cell.asVec3d() + Vec3d(n & 1, n >> 1 & 1, n >> 2)) * h, 0.0) > 1e-6 * h)
+      if (solids.distance((cell.asVec3d() + Vec3d(n & 1, n >> 1 & 1, n >> 2)) * h, 0.0) > sim::kOnWall * h)
         return true;
     return false;
   };
@@ -166,6 +168,8 @@ void Surroundings::findUnresolved(const sim::Solids& solids, const std::vector<f
     const Coord cells(m_count[0] / kSamplesPerCell, m_count[1] / kSamplesPerCell,
                       m_count[2] / kSamplesPerCell);
     const Coord at(cell / (cells[1] * cells[2]), cell / cells[2] % cells[1], cell % cells[2]);
+    const Coord first(m_first[0] / kSamplesPerCell, m_first[1] / kSamplesPerCell,
+                      m_first[2] / kSamplesPerCell);
     double wet = 0.0;
     bool cut = false, thin = false;
     for (int n = 0; n < kCellSamples; ++n) {
@@ -177,7 +181,7 @@ void Surroundings::findUnresolved(const sim::Solids& solids, const std::vector<f
       cut = cut || open[index] <= static_cast<float>(h);
       thin = thin || (open[index] <= 0.0f && isThinWall(sample, index));
     }
-    if (wet > 0.0 && cut && !hasOpenCorner(at)) {
+    if (wet > 0.0 && cut && !hasOpenCorner(first + at)) {
       m_inNarrowGaps += wet * cube;
     } else if (thin) {
       m_besideThinWalls += 0.5 * h * h * h;

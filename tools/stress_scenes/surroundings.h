@@ -17,7 +17,11 @@ using sim::Vec3d;
 
 inline constexpr int kSamplesPerCell = 3;
 
-// Cells of [0, size] and what was found at their samples.
+// The cells of [0, size], and beyond sides that are unbounded those that liquid is put in, at most as far
+// again.
+openvdb::CoordBBox sampledCells(const sim::Options& options);
+
+// What was found at the samples of these cells.
 class Surroundings {
  public:
   // leaking: solids (by index) of which it is known that they do not hold liquid. They do not count, nor do
@@ -63,7 +67,7 @@ class Surroundings {
   double m_step;           // from sample to sample, metres
   Coord m_first, m_count;  // of samples
   std::vector<std::uint8_t> m_reached;
-  bool m_unbounded = false;  // liquid can get out of [0, size] through an unbounded side
+  bool m_unbounded = false;  // liquid can get out through an unbounded side
   bool m_atRest = false;
   double m_poured = 0.0, m_pouredSurface = 0.0, m_inNarrowGaps = 0.0, m_besideThinWalls = 0.0;
   struct Body {
