@@ -252,7 +252,7 @@ SourceCells cellsOf(const RunningFlows& flows, const LeafTable& leaves, const So
         // Its own part, or, as full as it was where only the source's velocity leads out of it.
         const std::size_t cell = n * kLeafSize + i;
         const bool given = flowing && distance[i] < 0.0f;
-        found[n].filled.push_back({cell, std::max(held[i] / room[i], given ? was[cell] : 0.0f)});
+        found[n].filled.push_back({cell, std::max(held[i] / room[i], given ? was[cell] : 0.0f), !given});
         if (given) found[n].given.push_back(cell);
       }
     });

@@ -184,6 +184,7 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
   const FloatGrid* const solidSpeed =
       std::array{solid.speedU.get(), solid.speedV.get(), solid.speedW.get()}[axis];
   const FloatGrid* const given = std::array{solid.givenU.get(), solid.givenV.get(), solid.givenW.get()}[axis];
+  const FloatGrid& open = *std::array{solid.openU.get(), solid.openV.get(), solid.openW.get()}[axis];
   auto valid = MaskGrid::create();
   valid->setTransform(faceTransform(solid.voxelSize, axis));
   const std::vector<FloatLeaf*> leaves = faceLeaves(liquid, grid);
@@ -192,6 +193,7 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
 
   tbb::parallel_for(Range(0, static_cast<int>(leaves.size())), [&](const Range& range) {
     const openvdb::tree::ValueAccessor<const FloatTree> distance(solid.phi->constTree());
+    const auto isOpen = [&](const Coord& face) { return open.constTree().getValue(face) > 0.0f; };
     for (int n = range.begin(); n < range.end(); ++n) {
       FloatLeaf& leaf = *leaves[n];
       const BlockNumbers numbers(liquid.numbering, leaf.origin());
@@ -201,12 +203,12 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
 
         const LiquidSides& cell = liquid.sidesOf(upper >= 0 ? upper : lower);
         const int side = 2 * axis + (upper >= 0 ? 0 : 1);
+        const Coord wetCell = liquid.numbering.cell(upper >= 0 ? upper : lower);
+        const bool edge = endsAt(Side::open, solid, wetCell, side);
         if (cell.open[side] > 0.0f) {
           // A nozzle: all that enters a cell whose surface is there would leave by it, as fast as it has to.
           // The liquid beside it knows better how fast it flows; over an edge, only the pressure does.
-          if (cell.theta[side] > 0.0f && cell.open[side] < kLeastOpen &&
-              !endsAt(Side::open, solid, liquid.numbering.cell(upper >= 0 ? upper : lower), side))
-            continue;
+          if (cell.theta[side] > 0.0f && cell.open[side] < kLeastOpen && !edge) continue;
           const double step = (upper < 0 ? surface.at(lower, side) : q[upper]) -
                               (lower < 0 ? surface.at(upper, side) : q[lower]);
           const double change = cell.theta[side] > 0.0f ? step / cell.theta[side] : step;
@@ -215,6 +217,12 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
           continue;
         }
         const Coord place = leaf.offsetToGlobalCoord(c);
+        if (edge && isOpen(place)) {
+          // It is shut, and no wall that liquid could come off.
+          leaf.setValueOn(c, 0.0f);
+          masks[n]->setValueOn(c);
+          continue;
+        }
         const float slope = distance.getValue(place) - distance.getValue(neighborOf(place, 2 * axis));
         const bool solidBelow = slope > 0.0f;
         const int wet = solidBelow ? upper : lower;
@@ -362,6 +370,12 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
       updateFaces(liquid, {}, still, growing, none, axis, *result.swelling.component[axis]);
   }
   result.separating = separatingCells(liquid, solid, detached);
+  for (const Edge& edge : liquid.edges) {
+    if (!edge.shut) continue;
+    Coord face = liquid.numbering.cell(edge.cell);
+    face[edge.side / 2] += edge.side % 2;
+    result.shut.push_back({edge.side / 2, face});
+  }
   if (options.keepPressure) {
     result.pressure = openvdb::DoubleGrid::create(0.0);
     result.pressure->setTransform(cellTransform(solid.voxelSize));

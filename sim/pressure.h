@@ -34,12 +34,19 @@ struct PressureReport {
   int separationPasses = 0;
 };
 
+struct Face {
+  int axis;
+  Coord at;
+};
+
 struct Projection {
   PressureReport report;
   // Faces whose velocity is now right: open faces that touch liquid, but not those between it and the air of
   // which a solid leaves less than kLeastOpen, and closed ones that touch liquid and lie square to the solid
   // (0 there, or the speed at which liquid leaves it). All others are for the caller to extrapolate.
   FaceMasks valid;
+  // Faces in open sides of the domain that are shut, 0 and valid: they would draw in what is not there.
+  std::vector<Face> shut;
   // Cells of liquid that leave a solid; where such a cell is deep in it, those beside it too.
   MaskGrid::Ptr separating;
   // What makes the liquid grow (PressureOptions::growth), on the valid faces: a potential flow beside the

@@ -131,16 +131,21 @@ bool moveHeat(const Liquid& liquid, Liquid& next, const SolidField& solid, const
 }
 
 // Open faces whose velocity is not given. At closed ones a wall holds the liquid or lets go of it, which is
-// no force that goes on: what it did in one step, given back in the next, made jets off an edge run away.
-FaceMasks drivenFaces(const FaceMasks& valid, const SolidField& solid) {
+// no force that goes on: what it did in one step, given back in the next, made jets off an edge run away. As
+// little is what shuts an open side.
+FaceMasks drivenFaces(const Projection& projection, const SolidField& solid) {
+  const FaceMasks& valid = projection.valid;
   const auto driven = [](const MaskGrid::Ptr& mask, const FloatGrid::Ptr& open, const FloatGrid::Ptr& given) {
     const MaskGrid::Ptr free = mask->deepCopy();
     free->tree().topologyIntersection(open->constTree());
     if (given) free->tree().topologyDifference(given->constTree());
     return free;
   };
-  return {driven(valid.u, solid.openU, solid.givenU), driven(valid.v, solid.openV, solid.givenV),
-          driven(valid.w, solid.openW, solid.givenW)};
+  FaceMasks faces{driven(valid.u, solid.openU, solid.givenU), driven(valid.v, solid.openV, solid.givenV),
+                  driven(valid.w, solid.openW, solid.givenW)};
+  for (const auto& [axis, at] : projection.shut)
+    std::array{faces.u, faces.v, faces.w}[axis]->tree().setValueOff(at);
+  return faces;
 }
 
 // Brings a velocity's components within -limit to limit.
@@ -171,7 +176,7 @@ void boundInactive(const Velocity& velocity, float fastest) {
 void extrapolateAll(Liquid& liquid, Projection& projection, const SolidField& solid, double dt, bool driven,
                     Velocity arrived) {
   const FaceMasks& valid = projection.valid;
-  const FaceMasks free = driven ? drivenFaces(valid, solid) : FaceMasks{};
+  const FaceMasks free = driven ? drivenFaces(projection, solid) : FaceMasks{};
   const bool swells = projection.swelling.component[0] != nullptr;
   liquid.acceleration = liquid.swelling = {};
   if (driven) liquid.acceleration = accelerationBy(std::move(arrived), liquid.velocity, free, dt);

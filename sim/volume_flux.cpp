@@ -241,7 +241,8 @@ CarriedShares carried(const VolumeFlux& flux, std::vector<float> shares,
   std::vector<char> full(shares.size());
   std::vector<float> pressed(flux.swept.size(), 0.0f);
   const auto fill = [&] {
-    for (const auto& [cell, share] : sources) shares[cell] = std::max(shares[cell], share);
+    for (const auto& [cell, share, atLeast] : sources)
+      shares[cell] = atLeast ? std::max(shares[cell], share) : share;
   };
   fill();
   for (int step = 0; step < flux.steps; ++step) {

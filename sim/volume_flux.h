@@ -37,10 +37,11 @@ std::vector<float> openRoom(const SolidField& solid, const LeafTable& leaves);
 // The share of each cell's open part that phi makes liquid.
 std::vector<float> wetShares(const FloatGrid& phi, const SolidField& solid, const LeafTable& leaves);
 
-// What a source fills a cell up to at least: the share of the cell's open part.
+// What a source keeps a cell filled to: the share of the cell's open part.
 struct FilledCell {
   std::size_t cell;
   float share;
+  bool atLeast;  // what flows in from elsewhere may fill it further
 };
 
 // The shares at the step's end, and what solids have swept into each cell, which counts in the shares but has
