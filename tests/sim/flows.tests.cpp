@@ -173,6 +173,37 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("flows: an open side that is shut pushes nothing, and no liquid comes off it") {
+  // Water runs off through open sides and round solids, on walls with friction.
+  Options options;
+  options.size = Vec3d(0.84375, 1.0, 0.6875);
+  options.resolution = 32;
+  options.density = 14.8944;
+  options.cfl = 2.50431;
+  options.sides[0] = options.sides[4] = Side::open;
+  options.sides[1] = options.sides[3] = Side::stream;
+  DomainWall wall;
+  wall.wall.kind = WallKind::friction;
+  wall.wall.slipLength = 0.0150547;
+  options.walls = {wall};
+  options.solids.resize(2);
+  options.solids[0].shape = {
+      Difference{{{Box{Vec3d(0.340394, 0.117552, 0.200979), Vec3d(0.759165, 0.84924, 0.596341)}},
+                  {Box{Vec3d(0.394882, 0.17204, 0.288723), Vec3d(0.704676, 0.794752, 0.627591)}}}}};
+  options.solids[1].shape = {
+      Cylinder{Vec3d(0.340375, 0.606474, 0.272732), Vec3d(0.346608, 0.431196, 0.328733), 0.0834334}};
+  options.solids[1].wall.kind = WallKind::noSlip;
+  options.liquid = {box(Vec3d(0.367638, 0.144796, 0.261479), Vec3d(0.73192, 0.821996, 0.523572)),
+                    box(Vec3d(0.0), Vec3d(0.84375, 1.0, 0.299272), Vec3d(-0.0267398, 0.138204, 0.155493)),
+                    box(Vec3d(0.510956, 0.118648, 0.149229), Vec3d(0.691917, 0.313175, 0.432411),
+                        Vec3d(-0.661892, -0.121052, 0.115034))};
+  Solver solver(options);
+  for (int n = 0; n < 5; ++n) {
+    solver.next();
+    CHECK(largestDifference(solver.state(), 0.0) < 10.0);
+  }
+}
+
 TEST_CASE("flows: liquid that leaves on all sides leaves nothing behind") {
   Options options;
   options.resolution = 16;
