@@ -200,7 +200,12 @@ TEST_CASE("flows: an open side that is shut pushes nothing, and no liquid comes 
   Solver solver(options);
   for (int n = 0; n < 5; ++n) {
     solver.next();
-    CHECK(largestDifference(solver.state(), 0.0) < 10.0);
+    const State& state = solver.state();
+    double fastest = 0.0;
+    for (auto it = state.u->cbeginValueOn(); it; ++it)
+      if (state.phi->tree().getValue(it.getCoord()) < 0.0f)
+        fastest = std::max(fastest, std::abs(double(*it)));
+    CHECK(fastest < 10.0);
   }
 }
 
