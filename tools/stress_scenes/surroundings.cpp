@@ -32,8 +32,6 @@ bool disturbs(const sim::Options& options) {
   return !options.sources.empty() || !options.drains.empty() || options.surfaceTension > 0.0;
 }
 
-// The cells of [0, size], and beyond sides that are unbounded those that liquid is put in, at most as far
-// again.
 }  // namespace
 
 openvdb::CoordBBox sampledCells(const sim::Options& options) {
