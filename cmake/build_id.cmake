@@ -1,16 +1,15 @@
 # Writes OUTPUT, the definition of texture::buildId(), from the contents of SOURCES (a folder) and from SETTINGS; leaves
 # it alone where it would stay the same. Run when the room is built: cmake -D... -P build_id.cmake
-file(GLOB files "${SOURCES}/*.h" "${SOURCES}/*.cpp")
+file(GLOB_RECURSE files RELATIVE "${SOURCES}" "${SOURCES}/*.h" "${SOURCES}/*.cpp")
 list(SORT files)
 set(text "${SETTINGS}")
 foreach(file ${files})
-  get_filename_component(name "${file}" NAME)
-  file(SHA256 "${file}" hash)
-  string(APPEND text " ${name} ${hash}")
+  file(SHA256 "${SOURCES}/${file}" hash)
+  string(APPEND text " ${file} ${hash}")
 endforeach()
 string(SHA256 id "${text}")
 set(code "// Made by cmake/build_id.cmake.
-#include \"texture/build_id.h\"
+#include \"texture/exemplar/build_id.h\"
 
 std::string_view fluidtex::texture::buildId() {
   return \"${id}\";

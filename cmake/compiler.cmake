@@ -45,11 +45,3 @@ if(FLUIDTEX_FUZZ)
   target_compile_definitions(fluidtex_flags INTERFACE _GLIBCXX_ASSERTIONS)
   target_link_options(fluidtex_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
-
-# fluidtex_room(NAME SOURCES... ): one static library per top-level folder.
-function(fluidtex_room name)
-  add_library(${name} STATIC ${ARGN})
-  add_library(fluidtex::${name} ALIAS ${name})
-  target_link_libraries(${name} PUBLIC fluidtex_flags)
-  fluidtex_precompiled(${name})
-endfunction()

@@ -1,5 +1,5 @@
 #include "render/render.h"
-#include "texture/srgb.h"
+#include "texture/exemplar/srgb.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>

@@ -5,7 +5,7 @@ namespace fluidtex::sim {
 
 enum class MotionKind { solver, rest, rotation, vortex, deformation, stretch, sourceSink };
 
-// A flow known in closed form (sim/known_flow.h) is drawn out over the domain.
+// A flow known in closed form (sim/motion/known_flow.h) is drawn out over the domain.
 struct MotionOptions {
   MotionKind flow = MotionKind::solver;
   double period = 6.0;  // s, vortex and deformation: they turn back after half of it

@@ -3,7 +3,7 @@
 // beyond it on sides that are unbounded.
 #pragma once
 
-#include <openvdb/math/Vec3.h>
+#include "sim/vec3.h"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +15,6 @@
 #include <vector>
 
 namespace fluidtex::sim {
-
-using Vec3d = openvdb::math::Vec3<double>;
 
 struct Box {
   Vec3d min{0.0}, max{1.0};

@@ -137,7 +137,7 @@ struct SynthesisOptions {
   std::uint64_t seed = 1;
 };
 
-// Numbers; or vectors in the axes of the picture, which turn with the texture (texture/vector_maps.h).
+// Numbers; or vectors in the axes of the picture, which turn with the texture (texture/shown/vector_maps.h).
 enum class MapHolds { values, normals, directions };
 
 // A further map that lies over the exemplar, in any resolution: looked up wherever a colour is.

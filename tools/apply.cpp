@@ -1,9 +1,9 @@
 // fluidtex apply OUT NAME=FILE...: further maps on the surfaces of a finished run.
 #include "tools/apply.h"
 
-#include "texture/maps.h"
-#include "texture/read_image.h"
-#include "texture/vector_maps.h"
+#include "texture/exemplar/read_image.h"
+#include "texture/shown/maps.h"
+#include "texture/shown/vector_maps.h"
 #include "tools/atomic_file.h"
 #include "tools/commands.h"
 #include "tools/console.h"

@@ -1,7 +1,8 @@
 // fluidtex check SCENE: validate only, and print what a run would do.
-#include "sim/mac_grid.h"
-#include "sim/motion.h"
-#include "texture/exemplar.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/motion/motion.h"
+#include "sim/solids/domain.h"
+#include "texture/exemplar/exemplar.h"
 #include "tools/check_relief.h"
 #include "tools/color_between.h"
 #include "tools/common_options.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/options.h"
-#include "texture/exemplar.h"
+#include "texture/exemplar/exemplar.h"
 
 namespace fluidtex::tools {
 

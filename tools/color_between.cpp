@@ -1,6 +1,6 @@
 #include "tools/color_between.h"
 
-#include "texture/read_image.h"
+#include "texture/exemplar/read_image.h"
 
 #include <fmt/core.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/render.h"
-#include "texture/color_between.h"
+#include "texture/shown/color_between.h"
 
 #include <optional>
 

@@ -1,9 +1,11 @@
 #include "tools/common_options.h"
 
-#include "sim/mac_grid.h"
-#include "sim/moving_mesh.h"
-#include "sim/pose.h"
-#include "sim/shapes.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/meshes/read_mesh.h"
+#include "sim/shapes/moving_mesh.h"
+#include "sim/shapes/pose.h"
+#include "sim/shapes/shapes.h"
+#include "sim/solids/domain.h"
 #include "tools/errors.h"
 
 #include <fmt/core.h>

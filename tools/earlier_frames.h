@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenes/scene.h"
-#include "sim/solver.h"
+#include "sim/step/solver.h"
 #include "texture/surface.h"
 #include "tools/frame_loop.h"
 #include "tools/report.h"

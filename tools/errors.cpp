@@ -2,9 +2,9 @@
 
 #include "scenes/faults.h"
 #include "scenes/scene.h"
-#include "sim/read_heights.h"
-#include "sim/read_mesh.h"
-#include "texture/exemplar.h"
+#include "sim/meshes/read_mesh.h"
+#include "sim/shapes/read_heights.h"
+#include "texture/exemplar/exemplar.h"
 #include "tools/console.h"
 #include "tools/work.h"
 

@@ -1,7 +1,7 @@
 #include "tools/finished_run.h"
 
 #include "render/frame_name.h"
-#include "texture/read_image.h"
+#include "texture/exemplar/read_image.h"
 #include "tools/errors.h"
 #include "tools/journal.h"
 #include "tools/work.h"

@@ -1,7 +1,7 @@
 // What fluidtex run has left in a folder, for commands that work on it afterwards.
 #pragma once
 
-#include "texture/exemplar.h"
+#include "texture/exemplar/exemplar.h"
 #include "tools/report.h"
 
 #include <filesystem>

@@ -1,7 +1,8 @@
 #include "tools/foreseen_surface.h"
 
-#include "sim/mac_grid.h"
-#include "sim/shapes.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/shapes/shapes.h"
+#include "sim/solids/domain.h"
 #include "tools/liquid_plan.h"
 
 #include <tbb/blocked_range.h>

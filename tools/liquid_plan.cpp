@@ -2,8 +2,9 @@
 // liquid or all empty; any other is cut into eight.
 #include "tools/liquid_plan.h"
 
-#include "sim/mac_grid.h"
-#include "sim/shapes.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/shapes/shapes.h"
+#include "sim/solids/domain.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>

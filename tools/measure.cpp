@@ -1,7 +1,7 @@
 // fluidtex measure OUT: how good the texture of a finished run is, in figures.
 #include "tools/measure.h"
 
-#include "texture/measure.h"
+#include "texture/measure/measure.h"
 #include "tools/atomic_file.h"
 #include "tools/commands.h"
 #include "tools/console.h"

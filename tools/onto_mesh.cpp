@@ -1,6 +1,6 @@
 #include "tools/onto_mesh.h"
 
-#include "sim/read_mesh.h"
+#include "sim/meshes/read_mesh.h"
 #include "transport/onto.h"
 
 namespace fluidtex::tools {

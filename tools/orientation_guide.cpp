@@ -1,9 +1,10 @@
 #include "tools/orientation_guide.h"
 
-#include "sim/mac_grid.h"
-#include "texture/directions.h"
-#include "texture/parallel.h"
-#include "texture/read_grid.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/solids/domain.h"
+#include "texture/loops/parallel.h"
+#include "texture/orientation/directions.h"
+#include "tools/read_grid.h"
 #include "transport/carry.h"
 
 #include <algorithm>
@@ -59,8 +60,7 @@ std::vector<float> stiffness(const OrientationGuide& guide, const texture::Surfa
 
 OrientationGuide orientationGuide(const scenes::Scene& scene) {
   OrientationGuide guide{scene.texture.orientation, scene.sim.gravity, scene.sim.frameRate, nullptr, {}};
-  if (guide.options.align == Align::field)
-    guide.field = texture::readGrid<openvdb::Vec3SGrid>(guide.options.field);
+  if (guide.options.align == Align::field) guide.field = readGrid<openvdb::Vec3SGrid>(guide.options.field);
   for (const sim::Shape& shape : scene.keepClear)
     guide.keepClear.emplace_back(shape, scene.sim.voxelSize(), sim::domainBox(scene.sim));
   return guide;

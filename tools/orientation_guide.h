@@ -2,9 +2,9 @@
 #pragma once
 
 #include "scenes/scene.h"
-#include "sim/frame.h"
-#include "sim/shapes.h"
-#include "texture/orient.h"
+#include "sim/frame/frame.h"
+#include "sim/shapes/shapes.h"
+#include "texture/orientation/orient.h"
 
 #include <openvdb/openvdb.h>
 

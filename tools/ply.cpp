@@ -1,7 +1,7 @@
 #include "tools/ply.h"
 
-#include "texture/srgb.h"
-#include "texture/vector_maps.h"
+#include "texture/exemplar/srgb.h"
+#include "texture/shown/vector_maps.h"
 #include "tools/atomic_file.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
+#include "texture/exemplar/srgb.h"
 #include "texture/map_names.h"
-#include "texture/srgb.h"
 #include "tools/errors.h"
 #include "tools/ply.h"
 

@@ -1,6 +1,6 @@
 #include "tools/report.h"
 
-#include "texture/mesh_stats.h"
+#include "texture/mesh/mesh_stats.h"
 #include "tools/atomic_file.h"
 
 #include <sys/resource.h>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "scenes/scene.h"
-#include "sim/frame.h"
-#include "texture/orient.h"
+#include "sim/frame/frame.h"
+#include "texture/orientation/orient.h"
 
 #include <nlohmann/json.hpp>
 

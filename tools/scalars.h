@@ -1,8 +1,8 @@
 // Numbers of a frame at places on its surface: what the texture's scale and its guidance follow.
 #pragma once
 
+#include "texture/loops/parallel.h"
 #include "texture/options.h"
-#include "texture/parallel.h"
 #include "texture/surface.h"
 
 #include <openvdb/tools/Interpolation.h>

@@ -3,7 +3,7 @@
 // and the hash of each, by which a damaged file is noticed. Beside them the journal of the frames before.
 #pragma once
 
-#include "sim/solver.h"
+#include "sim/step/solver.h"
 #include "texture/surface.h"
 
 #include <filesystem>

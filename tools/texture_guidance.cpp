@@ -1,8 +1,8 @@
 #include "tools/texture_guidance.h"
 
-#include "texture/curvature.h"
-#include "texture/read_grid.h"
-#include "texture/renewal.h"
+#include "texture/frames/renewal.h"
+#include "texture/orientation/curvature.h"
+#include "tools/read_grid.h"
 #include "tools/scalars.h"
 #include "transport/carry.h"
 #include "transport/foam.h"
@@ -76,7 +76,7 @@ std::vector<float> levelsOn(const TextureGuidance& guidance, const sim::Frame& f
 TextureGuidance textureGuidance(const scenes::Scene& scene) {
   TextureGuidance guidance{scene.texture.guidance, nullptr};
   if (guidance.options.by == GuidanceBy::field)
-    guidance.field = texture::readGrid<openvdb::FloatGrid>(guidance.options.field);
+    guidance.field = readGrid<openvdb::FloatGrid>(guidance.options.field);
   return guidance;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenes/scene.h"
-#include "sim/frame.h"
+#include "sim/frame/frame.h"
 #include "texture/surface.h"
 
 #include <openvdb/openvdb.h>

@@ -1,7 +1,8 @@
 #include "tools/texture_scale.h"
 
-#include "sim/mac_grid.h"
-#include "texture/read_grid.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/solids/domain.h"
+#include "tools/read_grid.h"
 #include "tools/scalars.h"
 
 #include <algorithm>
@@ -23,8 +24,7 @@ texture::PointScale mapped(const std::vector<texture::CurvePoint>& points, const
 
 TextureScale textureScale(const scenes::Scene& scene) {
   TextureScale scale{scene.texture.scale, nullptr, {}};
-  if (scale.options.by == ScaleBy::field)
-    scale.field = texture::readGrid<openvdb::FloatGrid>(scale.options.field);
+  if (scale.options.by == ScaleBy::field) scale.field = readGrid<openvdb::FloatGrid>(scale.options.field);
   if (scale.options.by == ScaleBy::distance) {
     for (const sim::Shape& shape : scene.scaleFrom)
       scale.from.emplace_back(shape, scene.sim.voxelSize(), sim::domainBox(scene.sim));

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "scenes/scene.h"
-#include "sim/frame.h"
-#include "sim/shapes.h"
-#include "texture/point_scale.h"
+#include "sim/frame/frame.h"
+#include "sim/shapes/shapes.h"
+#include "texture/levelset/point_scale.h"
 
 #include <openvdb/openvdb.h>
 

@@ -1,7 +1,7 @@
 #include "tools/textured.h"
 
-#include "texture/plain.h"
-#include "texture/renewal.h"
+#include "texture/frames/renewal.h"
+#include "texture/shown/plain.h"
 
 namespace fluidtex::tools {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenes/scene.h"
-#include "texture/synthesize.h"
+#include "texture/frames/synthesize.h"
 
 namespace fluidtex::tools {
 

@@ -1,7 +1,8 @@
 #include "tools/visible_solids.h"
 
-#include "sim/mac_grid.h"
-#include "sim/shapes.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/shapes/shapes.h"
+#include "sim/solids/domain.h"
 
 #include <algorithm>
 #include <cmath>

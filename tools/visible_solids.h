@@ -3,7 +3,7 @@
 
 #include "render/render.h"
 #include "sim/options.h"
-#include "sim/pose.h"
+#include "sim/shapes/pose.h"
 
 #include <utility>
 #include <vector>

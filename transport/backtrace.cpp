@@ -1,8 +1,8 @@
 // Third-order Runge-Kutta after Ralston: Runge-Kutta Methods with Minimum Error Bounds (1962).
 #include "transport/backtrace.h"
 
-#include "texture/morton.h"
-#include "texture/parallel.h"
+#include "texture/loops/morton.h"
+#include "texture/loops/parallel.h"
 #include "transport/velocity_sampler.h"
 
 #include <tbb/blocked_range.h>

@@ -1,7 +1,7 @@
 // Paths through the substeps of a frame: where a point was, and how the flow deformed what lies around it.
 #pragma once
 
-#include "sim/frame.h"
+#include "sim/frame/frame.h"
 
 #include <vector>
 

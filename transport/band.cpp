@@ -1,6 +1,6 @@
 #include "transport/band.h"
 
-#include "texture/parallel.h"
+#include "texture/loops/parallel.h"
 #include "transport/velocity_sampler.h"
 #include "transport/within_reach.h"
 

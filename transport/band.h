@@ -2,7 +2,7 @@
 // paper carries coordinates and directions with [Kwatra07 sec. VI].
 #pragma once
 
-#include "sim/frame.h"
+#include "sim/frame/frame.h"
 
 #include <array>
 #include <cstdint>

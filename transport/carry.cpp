@@ -1,7 +1,7 @@
 #include "transport/carry.h"
 
-#include "texture/parallel.h"
-#include "texture/tangent.h"
+#include "texture/loops/parallel.h"
+#include "texture/orientation/tangent.h"
 #include "transport/backtrace.h"
 #include "transport/closest_point.h"
 #include "transport/coordinate_fields.h"

@@ -1,7 +1,7 @@
 // Transport [Kwatra07 sec. VI]: brings the texture of the last frame's surface onto a new one.
 #pragma once
 
-#include "sim/frame.h"
+#include "sim/frame/frame.h"
 #include "texture/surface.h"
 #include "transport/options.h"
 

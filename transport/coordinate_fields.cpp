@@ -1,6 +1,6 @@
 #include "transport/coordinate_fields.h"
 
-#include "texture/parallel.h"
+#include "texture/loops/parallel.h"
 #include "transport/within_reach.h"
 
 #include <openvdb/tools/Morphology.h>

@@ -1,7 +1,7 @@
 #include "transport/foam.h"
 
-#include "texture/parallel.h"
-#include "texture/renewal.h"
+#include "texture/frames/renewal.h"
+#include "texture/loops/parallel.h"
 #include "transport/carry.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "transport/onto.h"
 
-#include "texture/parallel.h"
-#include "texture/tangent.h"
+#include "texture/loops/parallel.h"
+#include "texture/orientation/tangent.h"
 #include "transport/smooth_directions.h"
 #include "transport/trust.h"
 

@@ -1,6 +1,6 @@
 #include "transport/pick_up.h"
 
-#include "texture/tangent.h"
+#include "texture/orientation/tangent.h"
 
 #include <limits>
 

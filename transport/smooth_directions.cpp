@@ -2,8 +2,8 @@
 // precision.
 #include "transport/smooth_directions.h"
 
-#include "texture/parallel.h"
-#include "texture/tangent.h"
+#include "texture/loops/parallel.h"
+#include "texture/orientation/tangent.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "transport/trust.h"
 
-#include "texture/parallel.h"
+#include "texture/loops/parallel.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,6 +1,6 @@
 #include "transport/velocity_sampler.h"
 
-#include "texture/lanes.h"
+#include "texture/loops/lanes.h"
 #include "transport/within_reach.h"
 
 #include <algorithm>

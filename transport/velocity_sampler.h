@@ -1,7 +1,7 @@
 // Trilinear velocity and velocity gradient from the staggered grids of one substep.
 #pragma once
 
-#include "sim/frame.h"
+#include "sim/frame/frame.h"
 
 #include <array>
 #include <optional>

@@ -1,5 +1,5 @@
 // Heights from a picture.
-#include "sim/read_heights.h"
+#include "sim/shapes/read_heights.h"
 #include "tests/fuzz/reader.h"
 
 using namespace fluidtex;

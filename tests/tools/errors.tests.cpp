@@ -1,8 +1,8 @@
 #include "tools/errors.h"
 
-#include "sim/read_mesh.h"
-#include "sim/solver.h"
-#include "texture/exemplar.h"
+#include "sim/meshes/read_mesh.h"
+#include "sim/step/solver.h"
+#include "texture/exemplar/exemplar.h"
 
 #include <catch2/catch.hpp>
 

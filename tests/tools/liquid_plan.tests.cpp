@@ -1,7 +1,7 @@
 #include "tools/liquid_plan.h"
 
-#include "sim/mac_grid.h"
-#include "sim/shapes.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/shapes/shapes.h"
 
 #include <catch2/catch.hpp>
 

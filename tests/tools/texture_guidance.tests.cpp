@@ -1,7 +1,7 @@
 #include "tools/texture_guidance.h"
 
 #include "tests/scratch.h"
-#include "tests/texture/closed_meshes.h"
+#include "tests/texture/mesh/closed_meshes.h"
 
 #include <catch2/catch.hpp>
 

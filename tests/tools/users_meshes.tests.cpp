@@ -1,6 +1,6 @@
 // Meshes of users from the scene to the figures: what a solid of one holds, and what is said of one that does
 // not fit.
-#include "tests/sim/mesh_files.h"
+#include "tests/sim/meshes/mesh_files.h"
 #include "tests/tools/program.h"
 
 #include <catch2/catch.hpp>

@@ -2,7 +2,7 @@
 
 #include "tests/threads.h"
 #include "tests/transport/textured_meshes.h"
-#include "texture/vector_maps.h"
+#include "texture/shown/vector_maps.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,7 +1,7 @@
 #include "transport/carry.h"
 
 #include "tests/transport/orientation_flows.h"
-#include "texture/orient.h"
+#include "texture/orientation/orient.h"
 #include "transport/backtrace.h"
 
 #include <algorithm>

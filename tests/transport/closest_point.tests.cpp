@@ -1,6 +1,6 @@
 #include "transport/closest_point.h"
 
-#include "tests/texture/closed_meshes.h"
+#include "tests/texture/mesh/closed_meshes.h"
 
 #include <catch2/catch.hpp>
 

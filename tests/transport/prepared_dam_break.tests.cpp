@@ -1,8 +1,8 @@
 // A dam break's surface, frame after frame from the last frame's points and mesh.
-#include "sim/solver.h"
-#include "tests/texture/mesh_quality.h"
-#include "texture/mesh_stats.h"
-#include "texture/prepare.h"
+#include "sim/step/solver.h"
+#include "tests/texture/mesh/mesh_quality.h"
+#include "texture/mesh/mesh_stats.h"
+#include "texture/mesh/prepare.h"
 #include "transport/carry.h"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // Textured surfaces to be carried, and what every carried state must be.
 #pragma once
 
-#include "tests/texture/closed_meshes.h"
+#include "tests/texture/mesh/closed_meshes.h"
 #include "tests/transport/velocity_grids.h"
 #include "transport/carry.h"
 #include "transport/trust.h"
@@ -65,7 +65,8 @@ inline TexturedSurface texturedMesh(const SurfaceMesh& mesh, const Flow& directi
     texture.gradient.push_back({projected(Vec3f(float(kTexelsPerMeter), 0, 0), n),
                                 projected(Vec3f(0, float(kTexelsPerMeter), 0), n)});
     // What fades lies elsewhere in the exemplar, turned by a quarter.
-    texture.fading.coordinate.emplace_back(float(50 + kTexelsPerMeter * x.y()), float(-kTexelsPerMeter * x.x()));
+    texture.fading.coordinate.emplace_back(float(50 + kTexelsPerMeter * x.y()),
+                                           float(-kTexelsPerMeter * x.x()));
     texture.fading.gradient.push_back({projected(Vec3f(0, float(kTexelsPerMeter), 0), n),
                                        projected(Vec3f(-float(kTexelsPerMeter), 0, 0), n)});
     texture.fading.weight.push_back(0.25f);

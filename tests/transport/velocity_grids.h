@@ -1,7 +1,7 @@
 // Frames whose velocity is given by a formula, for tests.
 #pragma once
 
-#include "sim/frame.h"
+#include "sim/frame/frame.h"
 
 #include <algorithm>
 #include <cmath>

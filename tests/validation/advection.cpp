@@ -1,8 +1,8 @@
 #include "tests/validation/advection.h"
 
-#include "sim/level_set.h"
-#include "sim/move_surface.h"
-#include "sim/solids.h"
+#include "sim/flows/move_surface.h"
+#include "sim/solids/solids.h"
+#include "sim/surface/level_set.h"
 
 #include <cmath>
 

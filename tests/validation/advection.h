@@ -1,7 +1,8 @@
-// A shape carried by a known flow with the solver's own kernels (sim/move_surface.h), and what became of it.
+// A shape carried by a known flow with the solver's own kernels (sim/flows/move_surface.h), and what became
+// of it.
 #pragma once
 
-#include "sim/known_flow.h"
+#include "sim/motion/known_flow.h"
 #include "tests/validation/case.h"
 #include "tests/validation/measure.h"
 

@@ -1,7 +1,7 @@
 // Collapsing columns: what of the liquid is left, and how fast the front runs.
 #include "tests/validation/dam_break_cases.h"
 
-#include "sim/solver.h"
+#include "sim/step/solver.h"
 
 #include <fmt/format.h>
 

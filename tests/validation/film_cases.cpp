@@ -1,6 +1,6 @@
 #include "tests/validation/film_cases.h"
 
-#include "sim/solids.h"
+#include "sim/solids/solids.h"
 #include "tests/validation/solver_run.h"
 
 #include <fmt/format.h>

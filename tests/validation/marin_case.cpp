@@ -2,9 +2,9 @@
 // impact problems", 2005. One phase only: no air cushions the impact.
 #include "tests/validation/marin_case.h"
 
-#include "sim/advect_velocity.h"
-#include "sim/pressure.h"
-#include "sim/solids.h"
+#include "sim/pressure/pressure.h"
+#include "sim/solids/solids.h"
+#include "sim/velocity/advect_velocity.h"
 #include "tests/validation/solver_run.h"
 
 #include <fmt/format.h>

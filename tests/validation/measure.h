@@ -1,7 +1,7 @@
 // How far a level set is from the shape it should have.
 #pragma once
 
-#include "sim/mac_grid.h"
+#include "sim/grid/mac_grid.h"
 #include "tests/validation/case.h"
 #include "tests/validation/shapes.h"
 

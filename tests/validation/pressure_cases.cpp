@@ -1,7 +1,7 @@
 #include "tests/validation/pressure_cases.h"
 
-#include "sim/mac_grid.h"
-#include "sim/pressure.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/pressure/pressure.h"
 #include "tests/validation/order.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Section A.4 of the reference: making phi a distance without moving the surface.
 #include "tests/validation/reinit_cases.h"
 
-#include "sim/level_set.h"
+#include "sim/surface/level_set.h"
 #include "tests/validation/measure.h"
 #include "tests/validation/order.h"
 

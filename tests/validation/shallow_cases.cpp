@@ -2,7 +2,7 @@
 // on channels one leaf wide with lengths in depths; times in those in which a long wave runs one depth.
 #include "tests/validation/shallow_cases.h"
 
-#include "sim/solver.h"
+#include "sim/step/solver.h"
 #include "tests/validation/solver_run.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 // walls that move with the exact profile; figures are taken in its middle.
 #include "tests/validation/viscous_cases.h"
 
-#include "sim/viscosity.h"
+#include "sim/viscosity/viscosity.h"
 #include "tests/validation/order.h"
 
 #include <algorithm>

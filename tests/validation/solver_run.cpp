@@ -1,6 +1,6 @@
 #include "tests/validation/solver_run.h"
 
-#include "sim/mac_grid.h"
+#include "sim/grid/mac_grid.h"
 
 #include <algorithm>
 #include <cmath>

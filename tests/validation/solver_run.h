@@ -1,7 +1,7 @@
 // What several of the fluid tests need: a solver that starts from a given velocity, and figures of its state.
 #pragma once
 
-#include "sim/solver.h"
+#include "sim/step/solver.h"
 
 #include <functional>
 

@@ -2,7 +2,7 @@
 // horizontal surface", 1982.
 #include "tests/validation/spread_cases.h"
 
-#include "sim/solver.h"
+#include "sim/step/solver.h"
 #include "tests/validation/solver_run.h"
 
 #include <fmt/format.h>

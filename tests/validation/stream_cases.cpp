@@ -1,8 +1,8 @@
 // Section C.11 of the reference, on channels one leaf wide.
 #include "tests/validation/stream_cases.h"
 
-#include "sim/solids.h"
-#include "sim/solver.h"
+#include "sim/solids/solids.h"
+#include "sim/step/solver.h"
 
 #include <algorithm>
 #include <cmath>

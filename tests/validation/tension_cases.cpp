@@ -1,9 +1,9 @@
 // Surface tension against closed forms: Laplace's pressure jump, Rayleigh's and Lamb's frequencies.
 #include "tests/validation/tension_cases.h"
 
-#include "sim/level_set.h"
-#include "sim/pressure.h"
-#include "sim/step.h"
+#include "sim/pressure/pressure.h"
+#include "sim/step/step.h"
+#include "sim/surface/level_set.h"
 #include "tests/validation/solver_run.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // A closed dam break, frame by frame, against Blender's liquid solver.
-#include "sim/solver.h"
+#include "sim/step/solver.h"
 #include "tools/benchmarks/closed_dam_break.h"
 #include "tools/benchmarks/measure.h"
 

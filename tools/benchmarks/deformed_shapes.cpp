@@ -1,7 +1,7 @@
 #include "tools/benchmarks/deformed_shapes.h"
 
 #include "random/random.h"
-#include "texture/parallel.h"
+#include "texture/loops/parallel.h"
 
 #include <openvdb/tools/Morphology.h>
 #include <openvdb/tools/SignedFloodFill.h>

@@ -1,6 +1,6 @@
 // Memory of a running dam break, and of two balls in a space without an end. Each figure comes from a program
 // of its own, since what a program has once held the system goes on counting.
-#include "sim/solver.h"
+#include "sim/step/solver.h"
 #include "tools/benchmarks/closed_dam_break.h"
 #include "tools/benchmarks/measure.h"
 

@@ -1,8 +1,8 @@
 #include "tools/benchmarks/moving_surfaces.h"
 
-#include "sim/solver.h"
-#include "texture/parallel.h"
-#include "texture/prepare.h"
+#include "sim/step/solver.h"
+#include "texture/loops/parallel.h"
+#include "texture/mesh/prepare.h"
 #include "tools/benchmarks/closed_dam_break.h"
 #include "tools/benchmarks/deformed_shapes.h"
 #include "transport/carry.h"

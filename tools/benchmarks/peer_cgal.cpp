@@ -1,4 +1,4 @@
-#include "texture/remesh.h"
+#include "texture/mesh/remesh.h"
 #include "tools/benchmarks/cgal_remeshing.h"
 #include "tools/benchmarks/measure.h"
 

@@ -1,8 +1,8 @@
 #include "tools/benchmarks/poisson_problem.h"
 
-#include "sim/liquid_cells.h"
-#include "sim/pressure_system.h"
-#include "sim/solver.h"
+#include "sim/pressure/liquid_cells.h"
+#include "sim/pressure/pressure_system.h"
+#include "sim/step/solver.h"
 #include "tools/benchmarks/closed_dam_break.h"
 #include "tools/benchmarks/measure.h"
 

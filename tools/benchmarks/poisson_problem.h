@@ -1,7 +1,7 @@
 // Pressure systems that solvers are compared on, and how each solves them.
 #pragma once
 
-#include "sim/poisson.h"
+#include "sim/poisson/poisson.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // How much faster two threads are than one, beside a STREAM triad on the same machine at the same time. By
 // the wall's clock, one and two threads in turn.
-#include "sim/solver.h"
+#include "sim/step/solver.h"
 #include "tools/benchmarks/closed_dam_break.h"
 #include "tools/benchmarks/measure.h"
 

@@ -1,7 +1,7 @@
 // The search of windows by another program: FAISS, on the same windows reduced to their principal components.
 #pragma once
 
-#include "texture/pca.h"
+#include "texture/search/pca.h"
 
 #include <string>
 #include <vector>

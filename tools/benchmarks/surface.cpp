@@ -1,9 +1,9 @@
 // Surface preparation: points, mesh and orientation of one frame, from the last frame's points and from
 // random ones, beside CGAL's isotropic remeshing.
-#include "texture/isosurface.h"
-#include "texture/mesh_stats.h"
-#include "texture/orient.h"
-#include "texture/prepare.h"
+#include "texture/levelset/isosurface.h"
+#include "texture/mesh/mesh_stats.h"
+#include "texture/mesh/prepare.h"
+#include "texture/orientation/orient.h"
 #include "tools/benchmarks/cgal_remeshing.h"
 #include "tools/benchmarks/measure.h"
 #include "tools/benchmarks/moving_surfaces.h"

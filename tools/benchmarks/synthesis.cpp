@@ -1,10 +1,10 @@
 // Synthesis: what an exemplar costs before its first window is matched, without and with what an earlier run
 // has kept; a first frame; and later frames of a texture that is drawn out evenly, neighbourhoods included.
 // Processor time of one thread, but for the preparation, which is wall time on all.
-#include "sim/motion.h"
-#include "texture/orient.h"
-#include "texture/prepare.h"
-#include "texture/synthesize.h"
+#include "sim/motion/motion.h"
+#include "texture/frames/synthesize.h"
+#include "texture/mesh/prepare.h"
+#include "texture/orientation/orient.h"
 #include "tools/benchmarks/measure.h"
 #include "tools/benchmarks/textured_samples.h"
 #include "transport/carry.h"

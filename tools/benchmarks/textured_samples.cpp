@@ -1,9 +1,9 @@
 #include "tools/benchmarks/textured_samples.h"
 
 #include "scenes/exemplars/scales.h"
-#include "texture/orient.h"
-#include "texture/prepare.h"
-#include "texture/srgb.h"
+#include "texture/exemplar/srgb.h"
+#include "texture/mesh/prepare.h"
+#include "texture/orientation/orient.h"
 #include "tools/benchmarks/moving_surfaces.h"
 
 namespace fluidtex::benchmarks {

@@ -1,7 +1,7 @@
 // What the benchmarks of synthesis are made from: an exemplar of any size, and a surface to put it on.
 #pragma once
 
-#include "texture/exemplar.h"
+#include "texture/exemplar/exemplar.h"
 #include "texture/surface.h"
 
 namespace fluidtex::benchmarks {

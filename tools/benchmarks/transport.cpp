@@ -2,9 +2,9 @@
 // points alone beside Embree and CGAL. A sphere in LeVeque's deformation, one cell a vertex; processor time
 // of one thread.
 #include "random/random.h"
-#include "texture/parallel.h"
-#include "texture/prepare.h"
-#include "texture/tangent.h"
+#include "texture/loops/parallel.h"
+#include "texture/mesh/prepare.h"
+#include "texture/orientation/tangent.h"
 #include "tools/benchmarks/closest_peers.h"
 #include "tools/benchmarks/deformed_shapes.h"
 #include "tools/benchmarks/measure.h"

@@ -1,8 +1,9 @@
 #include "tools/stress_scenes/budget.h"
 
-#include "sim/mac_grid.h"
-#include "sim/shapes.h"
-#include "sim/solids.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/shapes/shapes.h"
+#include "sim/solids/domain.h"
+#include "sim/solids/solids.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,7 @@ namespace fluidtex::stress {
 namespace {
 
 // Of what a source gave. Its front is as fine as the cells, and where liquid has crept over its bare sides it
-// is taken away (sim/flows.cpp).
+// is taken away (sim/flows/flows.cpp).
 constexpr double kSourceSlack = 0.05;
 
 // Cells know edges and curved surfaces of what is poured to some hundredths of their size.

@@ -1,8 +1,10 @@
 #include "tools/stress_scenes/check_scene.h"
 
 #include "scenes/scene.h"
-#include "sim/level_set.h"
-#include "sim/solver.h"
+#include "sim/grid/leaf_table.h"
+#include "sim/solids/domain.h"
+#include "sim/step/solver.h"
+#include "sim/surface/level_set.h"
 #include "tools/stress_scenes/budget.h"
 #include "tools/stress_scenes/measures.h"
 #include "tools/stress_scenes/surroundings.h"

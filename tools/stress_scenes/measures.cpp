@@ -1,7 +1,8 @@
 #include "tools/stress_scenes/measures.h"
 
-#include "sim/cell_volume.h"
-#include "sim/level_set.h"
+#include "sim/grid/leaf_table.h"
+#include "sim/surface/cell_volume.h"
+#include "sim/surface/level_set.h"
 
 #include <fmt/core.h>
 

@@ -1,8 +1,8 @@
 // What is measured in a state of the solver.
 #pragma once
 
-#include "sim/solids.h"
-#include "sim/solver.h"
+#include "sim/solids/solids.h"
+#include "sim/step/solver.h"
 
 #include <string>
 
@@ -31,7 +31,7 @@ struct Measures {
 };
 
 // solid: at the state's time, around its liquid. How much of a cell is liquid is what the solver says
-// (sim/cell_volume.h), so that the mass is that of the volume in sim::FrameStats.
+// (sim/surface/cell_volume.h), so that the mass is that of the volume in sim::FrameStats.
 Measures measure(const sim::State& state, const sim::SolidField& solid, const sim::Options& options);
 
 // The name of the first grid that has a value that is not finite; empty for none.

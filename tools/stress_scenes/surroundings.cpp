@@ -1,6 +1,7 @@
 #include "tools/stress_scenes/surroundings.h"
 
-#include "sim/open_faces.h"
+#include "sim/solids/domain.h"
+#include "sim/solids/open_faces.h"
 
 #include <tbb/parallel_for.h>
 

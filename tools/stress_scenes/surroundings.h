@@ -2,9 +2,9 @@
 // is at rest. By samples, three to a cell along each axis, of the shapes themselves: no grid of the solver.
 #pragma once
 
-#include "sim/mac_grid.h"
-#include "sim/shapes.h"
-#include "sim/solids.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/shapes/shapes.h"
+#include "sim/solids/solids.h"
 
 #include <cstdint>
 #include <functional>

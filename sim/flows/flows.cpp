@@ -1,0 +1,317 @@
+#include "sim/flows/flows.h"
+
+#include "sim/grid/leaf_table.h"
+#include "sim/markers/drop_markers.h"
+#include "sim/shapes/shapes.h"
+#include "sim/solids/domain.h"
+#include "sim/surface/level_set.h"
+
+#include <openvdb/tools/Interpolation.h>
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::sim {
+namespace {
+
+// A source's surface whose normal has a larger share than this along the velocity is its front.
+constexpr double kFront = 0.1;
+// Liquid that stands less than this many cells over a source's side has crept there; deeper, the source is
+// under water.
+constexpr double kBare = 0.25;
+
+// The value of a curve, level before its first point and after its last one.
+double rateAt(const std::vector<RatePoint>& rate, double t) {
+  if (rate.empty()) return 1.0;
+  if (t <= rate.front().time) return rate.front().factor;
+  for (std::size_t n = 1; n < rate.size(); ++n) {
+    if (t > rate[n].time) continue;
+    const double share = (t - rate[n - 1].time) / (rate[n].time - rate[n - 1].time);
+    return rate[n - 1].factor + share * (rate[n].factor - rate[n - 1].factor);
+  }
+  return rate.back().factor;
+}
+
+// All faces of the domain's cells whose middle lies in the source. Its back is shut, for under water what
+// leaves at the front would come in there.
+std::array<FloatGrid::Ptr, 3> facesOf(const FloatGrid& phi, const Vec3d& velocity, const CoordBBox& domain) {
+  const auto shape = phi.getConstUnsafeAccessor();
+  const auto outside = [&](const Coord& cell) {
+    return domain.isInside(cell) && shape.getValue(cell) >= 0.0f;
+  };
+  // On a round front, a staircase of cells, what comes out of one step goes back into the next: only so does
+  // as much come in all as the front itself would give. Into other outer faces nothing goes.
+  const auto isFed = [&](const Coord& cell) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Coord upstream = cell;
+      upstream[axis] += velocity[axis] > 0.0 ? -1 : velocity[axis] < 0.0 ? 1 : 0;
+      if (upstream != cell && domain.isInside(upstream) && shape.getValue(upstream) < 0.0f) return true;
+    }
+    return false;
+  };
+  const auto isBack = [&](const Coord& cell) { return outside(cell) && !isFed(cell); };
+  std::array<FloatGrid::Ptr, 3> faces;
+  for (int axis = 0; axis < 3; ++axis) {
+    FloatGrid::Ptr grid = FloatGrid::create(0.0f);
+    grid->setTransform(faceTransform(phi.voxelSize()[0], axis));
+    for (const Coord& origin : wetLeaves(phi, domain)) {
+      float scratch[kLeafSize];
+      const float* values = leafValues(phi.constTree(), origin, scratch);
+      for (int c = 0; c < kLeafSize; ++c) {
+        const Coord cell = origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
+        if (values[c] >= 0.0f || !domain.isInside(cell)) continue;
+        Coord next = cell, before = cell;
+        next[axis] += 1;
+        before[axis] -= 1;
+        const float speed = static_cast<float>(velocity[axis]);
+        grid->tree().setValueOn(cell, speed > 0.0f && isBack(before) ? 0.0f : speed);
+        grid->tree().setValueOn(next, speed < 0.0f && isBack(next) ? 0.0f : speed);
+      }
+    }
+    faces[axis] = grid;
+  }
+  return faces;
+}
+
+std::vector<FloatLeaf*> touchLeaves(FloatGrid& phi, const std::vector<Coord>& origins) {
+  std::vector<FloatLeaf*> leaves;
+  for (const Coord& origin : origins) leaves.push_back(phi.tree().touchLeaf(origin));
+  return leaves;
+}
+
+// Whether air lies just outside the source's surface there, on another side than the one it flows out of.
+// place: a cell; distance: the source's there.
+bool bareSide(const FloatGrid& phi, const FloatGrid& shape, const Coord& place, float distance,
+              const Vec3d& velocity) {
+  const double h = phi.voxelSize()[0];
+  Vec3d normal;
+  for (int a = 0; a < 3; ++a) {
+    Coord below = place, above = place;
+    below[a] -= 1;
+    above[a] += 1;
+    normal[a] = shape.constTree().getValue(above) - shape.constTree().getValue(below);
+  }
+  if (!normal.normalize() || normal.dot(velocity) > kFront * velocity.length()) return false;
+  const Vec3d outside = place.asVec3d() + (kBare - distance / h) * normal;
+  return openvdb::tools::BoxSampler::sample(phi.constTree(), outside) > 0.0f;
+}
+
+// phi = min(phi, source). Where the sides of a source that flows lie bare they are the surface: liquid that
+// has crept over them is taken away, or what little rises there would draw the next after it.
+void fill(FloatGrid& phi, const SourceGrids& source) {
+  const std::vector<FloatLeaf*> leaves = touchLeaves(phi, wetLeaves(*source.phi, CoordBBox::inf()));
+  const float background = phi.background(), band = 2.0f * static_cast<float>(phi.voxelSize()[0]);
+  std::vector<std::array<float, kLeafSize>> filled(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    float scratch[kLeafSize];
+    const float* liquid = leafValues(source.phi->constTree(), leaves[n]->origin(), scratch);
+    const float* was = leaves[n]->buffer().data();
+    for (int i = 0; i < kLeafSize; ++i) {
+      const bool bare =
+          source.speed != Vec3d(0.0) && std::abs(liquid[i]) < band &&
+          bareSide(phi, *source.phi, leaves[n]->offsetToGlobalCoord(i), liquid[i], source.speed);
+      filled[n][i] = std::clamp(bare ? liquid[i] : std::min(was[i], liquid[i]), -background, background);
+    }
+  });
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    std::copy_n(filled[n].data(), kLeafSize, leaves[n]->buffer().data());
+  });
+}
+
+// phi = max(phi, -drain).
+void empty(FloatGrid& phi, const FloatGrid& drain) {
+  const std::vector<FloatLeaf*> leaves = touchLeaves(phi, wetLeaves(phi, drain.evalActiveVoxelBoundingBox()));
+  const float background = phi.background();
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    float scratch[kLeafSize];
+    const float* shape = leafValues(drain.constTree(), leaves[n]->origin(), scratch);
+    float* values = leaves[n]->buffer().data();
+    for (int i = 0; i < kLeafSize; ++i)
+      values[i] = std::clamp(std::max(values[i], -shape[i]), -background, background);
+  });
+}
+
+// Drops the markers of one side that lie in the shape.
+void dropWithin(Markers& markers, const FloatGrid& shape, bool ofLiquid) {
+  dropMarkers(markers, [&](const Marker& m, const Coord& cell) {
+    return (m.radius < 0.0f) == ofLiquid && shape.constTree().getValue(cell) < 0.0f;
+  });
+}
+
+struct GivenFaces {
+  std::array<FloatGrid::Ptr, 3> grid;
+
+  void set(int axis, const Coord& face, float speed) { grid[axis]->tree().setValueOn(face, speed); }
+};
+
+// The cells among these between which all their liquid lies.
+CoordBBox boxAround(const FloatGrid& phi, const CoordBBox& cells) {
+  CoordBBox box;
+  for (const Coord& origin : wetLeaves(phi, cells)) box.expand(CoordBBox::createCube(origin, kLeafDim));
+  box.intersect(cells);
+  return box;
+}
+
+// Depth of the liquid in the column of cells through `cell` along `down`, metres. box: around it.
+double depthOf(const FloatGrid& phi, const SolidField& solid, const CoordBBox& box, Coord cell, int down) {
+  const auto liquid = phi.getConstUnsafeAccessor();
+  const auto wall = solid.phi->getConstUnsafeAccessor();
+  double depth = 0.0;
+  for (cell[down] = box.min()[down]; cell[down] <= box.max()[down]; ++cell[down]) {
+    const double p = std::max(liquid.getValue(cell), -wall.getValue(cell));
+    depth += std::clamp(0.5 * solid.voxelSize - p, 0.0, solid.voxelSize);
+  }
+  return depth;
+}
+
+// Through one side of the domain: what arrives there by the end of the step.
+void giveStream(GivenFaces& given, int side, const SolidField& solid, const FloatGrid& phi,
+                const Velocity& before, const Vec3d& gravity, double dt) {
+  const int axis = side / 2, out = side % 2 == 0 ? -1 : 1;
+  const FloatGrid* const open[3] = {solid.openU.get(), solid.openV.get(), solid.openW.get()};
+  const auto share = open[axis]->getConstUnsafeAccessor();
+  const auto liquid = phi.getConstUnsafeAccessor();
+  const auto speed = before.component[axis]->getConstUnsafeAccessor();
+  int down = 0;
+  for (int a = 1; a < 3; ++a)
+    if (std::abs(gravity[a]) > std::abs(gravity[down])) down = a;
+  const int across = 3 - axis - down;
+  const double h = solid.voxelSize;
+  CoordBBox layer = solid.domain;  // of cells beside the side
+  if (out > 0) {
+    layer.min()[axis] = layer.max()[axis];
+  } else {
+    layer.max()[axis] = layer.min()[axis];
+  }
+  const CoordBBox box = boxAround(phi, layer);
+  // Waves on shallow water run along the surface only: not where the side is the floor or the ceiling.
+  const bool waves = axis != down;
+  const int beside = waves ? across : (axis + 1) % 3, along = waves ? down : (axis + 2) % 3;
+  for (int i = box.min()[beside]; i <= box.max()[beside]; ++i) {
+    double wave = -1.0;
+    for (int j = box.min()[along]; j <= box.max()[along]; ++j) {
+      Coord cell;
+      cell[axis] = layer.min()[axis];
+      cell[beside] = i;
+      cell[along] = j;
+      Coord face = cell;
+      if (out > 0) face[axis] += 1;
+      if (liquid.getValue(cell) >= 0.0f || share.getValue(face) <= 0.0f) continue;
+      if (wave < 0.0)
+        wave = waves ? std::sqrt(std::abs(gravity[down]) * depthOf(phi, solid, box, cell, down)) : 0.0;
+      const double here = out * speed.getValue(face);
+      const double back = std::clamp((here + wave) * dt / h, 0.0, kLeafDim - 1.0);
+      // The faces on the way inwards, as far as they are open.
+      const auto valueAt = [&](int steps) {
+        Coord at = face, last = face;
+        for (int n = 0; n < steps; ++n) {
+          at[axis] -= out;
+          if (share.getValue(at) <= 0.0f || !speed.isValueOn(at)) break;
+          last = at;
+        }
+        return static_cast<double>(speed.getValue(last));
+      };
+      const int whole = static_cast<int>(back);
+      const double near = valueAt(whole), far = valueAt(whole + 1);
+      given.set(axis, face, static_cast<float>(near + (back - whole) * (far - near)));
+    }
+  }
+}
+
+}  // namespace
+
+Flows::Flows(const Options& options)
+    : m_sources(options.sources),
+      m_drains(options.drains),
+      m_h(options.voxelSize()),
+      m_domain(domainCells(options)),
+      m_box(domainBox(options)),
+      m_band(bandWidth(options.cfl) * m_h) {
+  for (const Source& source : m_sources) {
+    SourceGrids grids{gridOf(source.shape), source.velocity, source.temperature, {}};
+    if (source.velocity != Vec3d(0.0)) grids.velocity = facesOf(*grids.phi, source.velocity, m_domain);
+    m_sourceGrids.push_back(std::move(grids));
+  }
+  for (const Drain& drain : m_drains) m_drainGrids.push_back(gridOf(drain.shape));
+}
+
+FloatGrid::Ptr Flows::gridOf(const Shape& shape) const {
+  FloatGrid::Ptr phi = makePhi(m_h, m_band);
+  unite(*phi, ShapeDistance(shape, m_h, m_box), m_domain);
+  return phi;
+}
+
+RunningFlows Flows::at(double t) const {
+  RunningFlows running;
+  for (std::size_t n = 0; n < m_sources.size(); ++n) {
+    const double factor = rateAt(m_sources[n].rate, t);
+    if (m_sources[n].from <= t && t < m_sources[n].until && factor > 0.0)
+      running.sources.push_back({&m_sourceGrids[n], factor});
+  }
+  for (std::size_t n = 0; n < m_drains.size(); ++n)
+    if (m_drains[n].from <= t && t < m_drains[n].until) running.drains.push_back(m_drainGrids[n].get());
+  return running;
+}
+
+double Flows::nextChange(double t) const {
+  double next = kForever;
+  const auto consider = [&](double time) {
+    if (time > t) next = std::min(next, time);
+  };
+  for (const Source& source : m_sources) {
+    consider(source.from);
+    consider(source.until);
+    for (const RatePoint& point : source.rate) consider(point.time);
+  }
+  for (const Drain& drain : m_drains) {
+    consider(drain.from);
+    consider(drain.until);
+  }
+  return next;
+}
+
+std::vector<const FloatGrid*> Flows::places() const {
+  std::vector<const FloatGrid*> grids;
+  for (const SourceGrids& source : m_sourceGrids) grids.push_back(source.phi.get());
+  return grids;
+}
+
+void applyFlows(FloatGrid& phi, Markers& markers, const RunningFlows& flows) {
+  for (const auto& [source, factor] : flows.sources) {
+    fill(phi, *source);
+    dropWithin(markers, *source->phi, false);
+  }
+  for (const FloatGrid* drain : flows.drains) {
+    empty(phi, *drain);
+    dropWithin(markers, *drain, true);
+  }
+}
+
+SolidField withFlows(const SolidField& solid, const RunningFlows& flows, const FloatGrid& phi,
+                     const Velocity& before, const Vec3d& gravity, double dt) {
+  SolidField field = solid;
+  const bool streams = std::find(solid.sides.begin(), solid.sides.end(), Side::stream) != solid.sides.end();
+  const bool moving = std::any_of(flows.sources.begin(), flows.sources.end(),
+                                  [](const auto& running) { return running.source->velocity[0] != nullptr; });
+  if (!streams && !moving) return field;
+  GivenFaces given;
+  for (int axis = 0; axis < 3; ++axis) {
+    given.grid[axis] = FloatGrid::create(kNotGiven);
+    given.grid[axis]->setTransform(faceTransform(solid.voxelSize, axis));
+  }
+  for (int side = 0; side < 6; ++side)
+    if (solid.sides[side] == Side::stream) giveStream(given, side, solid, phi, before, gravity, dt);
+  for (const auto& [source, factor] : flows.sources) {
+    for (int axis = 0; axis < 3 && source->velocity[axis] != nullptr; ++axis)
+      for (auto it = source->velocity[axis]->cbeginValueOn(); it; ++it)
+        given.set(axis, it.getCoord(), static_cast<float>(factor * *it));
+  }
+  field.givenU = given.grid[0];
+  field.givenV = given.grid[1];
+  field.givenW = given.grid[2];
+  return field;
+}
+
+}  // namespace fluidtex::sim

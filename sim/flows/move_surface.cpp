@@ -1,0 +1,41 @@
+#include "sim/flows/move_surface.h"
+
+#include "sim/markers/drop_markers.h"
+#include "sim/solids/solid_layers.h"
+#include "sim/surface/level_set.h"
+
+#include <utility>
+
+namespace fluidtex::sim {
+namespace {
+
+// In one step the surface moves at most a few cells; this many iterations renew the distance as far out.
+constexpr int kReinitIterations = 8;
+
+// What is known of places that a solid has just left is what stands beside them now; markers there are those
+// of a surface that only went on behind the solid's.
+void dropLeft(Markers& markers, const FloatGrid& left) {
+  const float deep = -kDeepInSolid * static_cast<float>(left.voxelSize()[0]);
+  dropMarkers(markers,
+              [&](const Marker&, const Coord& cell) { return left.constTree().getValue(cell) < deep; });
+}
+
+}  // namespace
+
+void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const SolidField& solid,
+                 double dt, std::uint64_t seed, const RunningFlows& flows, const FloatGrid* left) {
+  const Visibility* const visibility = solid.visibility.get();
+  markers = advectMarkers(std::move(markers), velocity, dt, visibility);
+  if (left != nullptr) dropLeft(markers, *left);
+  advectPhi(phi, velocity, *solid.phi, dt, visibility);
+  correctPhi(phi, markers, visibility);
+  applyFlows(phi, markers, flows);
+  extendBeyond(phi, solid, {}, kDeepInSolid, left);
+  redistance(phi, solid, kReinitIterations);
+  correctPhi(phi, markers, visibility);
+  applyFlows(phi, markers, flows);
+  maintainMarkers(markers, phi, *solid.phi, seed, visibility);
+  trimBand(phi, *solid.phi);
+}
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,26 @@
+// Which of the cells around one lie on its own side of a thin solid, and their values.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace fluidtex::sim {
+
+// Cells that are seen from one cell, of the 5 x 5 x 5 around it.
+struct VisibleCells {
+  static constexpr int kReach = 2, kSide = 2 * kReach + 1, kCount = kSide * kSide * kSide;
+  static constexpr int kStride[3] = {kSide * kSide, kSide, 1};
+  static constexpr int kMiddle = kReach * (kStride[0] + kStride[1] + kStride[2]);
+
+  std::array<std::uint64_t, 2> bits{~std::uint64_t{0}, ~std::uint64_t{0}};
+
+  // at: kMiddle + i kStride[0] + j kStride[1] + k kStride[2] for the cell (i, j, k) away.
+  bool sees(int at) const { return (bits[at >> 6] >> (at & 63) & 1) != 0; }
+  bool seesAll() const { return bits[0] == ~std::uint64_t{0} && bits[1] == ~std::uint64_t{0}; }
+  void hide(int at) { bits[at >> 6] &= ~(std::uint64_t{1} << (at & 63)); }
+};
+
+// A field's values in the cells around one.
+using Stencil = std::array<float, VisibleCells::kCount>;
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,52 @@
+// Which cells a marker beside a thin wall sees: those that its nearest cell does.
+#pragma once
+
+#include "sim/markers/markers.h"
+#include "sim/solids/visibility.h"
+
+#include <cmath>
+#include <cstdlib>
+
+namespace fluidtex::sim {
+
+// The cell whose centre is nearest to a marker, along one axis.
+inline int nearestCell(float x) {
+  return static_cast<int>(std::floor(x + 0.5f));
+}
+
+// What the markers of a block see.
+class Sight {
+ public:
+  // visibility: null where no solid is thin.
+  Sight(const Visibility* visibility, const Coord& origin) : m_visibility(visibility), m_origin(origin) {
+    if (visibility == nullptr || !visibility->touches(openvdb::CoordBBox(origin, origin.offsetBy(kLeafDim))))
+      m_visibility = nullptr;
+  }
+  bool any() const { return m_visibility != nullptr; }
+  // null where all is seen.
+  const VisibleCells* at(const Marker& m) const {
+    if (m_visibility == nullptr) return nullptr;
+    return m_visibility->around(m_origin + nearestTo(m));
+  }
+  // Whether a thin wall is between two places of a marker, as far as is known: of those more than two cells
+  // apart nothing is.
+  bool parts(const Marker& from, const Marker& to) const {
+    const Coord way = nearestTo(to) - nearestTo(from);
+    int at = VisibleCells::kMiddle;
+    for (int a = 0; a < 3; ++a) {
+      if (std::abs(way[a]) > VisibleCells::kReach) return false;
+      at += way[a] * VisibleCells::kStride[a];
+    }
+    if (at == VisibleCells::kMiddle) return false;
+    const VisibleCells* visible = this->at(from);
+    return visible != nullptr && !visible->sees(at);
+  }
+
+ private:
+  static Coord nearestTo(const Marker& m) { return {nearestCell(m.x), nearestCell(m.y), nearestCell(m.z)}; }
+
+  const Visibility* m_visibility;
+  Coord m_origin;
+};
+
+}  // namespace fluidtex::sim

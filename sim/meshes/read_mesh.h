@@ -1,0 +1,40 @@
+// What a mesh file holds, and what is wrong with one.
+#pragma once
+
+#include "sim/meshes/triangle_mesh.h"
+#include "sim/options.h"
+
+#include <stdexcept>
+
+namespace fluidtex::sim {
+
+// Thrown by readMesh(), and by all that reads a mesh through it; names the file and what is wrong with it.
+struct MeshError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The points and polygons of an OBJ, PLY or STL file, in its order and with nothing repaired, but that all
+// points are finite, all corners exist and all polygons have three or more. An STL has three points of its
+// own for each facet. Throws MeshError; memory stays within a multiple of the file's size, whatever it holds.
+struct MeshSoup {
+  std::vector<Vec3d> points;                       // #P, as in the file
+  std::vector<std::vector<std::size_t>> polygons;  // corners of each
+};
+MeshSoup readSoup(const std::filesystem::path& file);
+
+// scale * x + translate of a file's points, metres. Throws MeshError where that is beyond single precision.
+std::vector<openvdb::Vec3f> placedPoints(const std::filesystem::path& file, const MeshSoup& soup,
+                                         double scale, const Vec3d& translate);
+
+// Throws MeshError where the file's polygons are no closed surface.
+void checkClosed(const std::filesystem::path& file, const std::vector<std::vector<std::size_t>>& polygons);
+
+// turnedOutward(); throws MeshError where the file's surface has one side only.
+std::vector<openvdb::Vec3I> outwardTriangles(const std::filesystem::path& file, const TriangleMesh& mesh);
+
+// Reads OBJ, PLY or STL: polygons split into triangles, all turned outward whichever way they are in the
+// file. A closed surface within another one is the wall of a cavity; parts that cross or touch are one solid.
+// Throws MeshError, which names the file and what is wrong (missing, unreadable, no faces, not closed).
+TriangleMesh readMesh(const MeshShape& shape);
+
+}  // namespace fluidtex::sim

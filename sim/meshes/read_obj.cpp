@@ -1,0 +1,111 @@
+// Wavefront, "Object files (.obj)", Advanced Visualizer manual, appendix B1.
+#include "sim/meshes/mesh_formats.h"
+#include "sim/meshes/text_scan.h"
+
+#include <utility>
+
+namespace fluidtex::sim {
+namespace {
+
+[[noreturn]] void fail(std::size_t line, const std::string& what) {
+  throw std::runtime_error("line " + std::to_string(line) + ": " + what);
+}
+
+// Whether a line goes on in the next one; takes the sign of that off.
+bool goesOn(std::string_view& line) {
+  const std::size_t last = line.find_last_not_of(" \t");
+  if (last == std::string_view::npos || line[last] != '\\') return false;
+  line = line.substr(0, last);
+  return true;
+}
+
+class Reader {
+ public:
+  MeshSoup read(std::string_view text) {
+    text = withoutMark(text);
+    while (!text.empty()) {
+      ++m_line;
+      std::string_view line = takeLine(text);
+      std::string_view rest = line;
+      const std::string keyword = inLowerCase(takeWord(rest));
+      const bool isFace = keyword == "f" || keyword == "fo";
+      if (keyword == "surf" || keyword == "curv" || keyword == "curv2")
+        fail(m_line,
+             "holds a free-form surface (" + keyword + "); only faces (f) can be read: export polygons");
+      // Of others than vertices and faces nothing counts, and a comment or a folder's name may end with
+      // a backslash too.
+      if (keyword != "v" && !isFace) continue;
+      const std::size_t first = m_line;
+      std::string joined;
+      if (goesOn(rest)) {
+        bool more = true;
+        while (more) {
+          joined.append(rest).append(" ");
+          more = !text.empty();
+          if (!more) break;
+          rest = takeLine(text);
+          ++m_line;
+          more = goesOn(rest);
+        }
+        joined.append(rest);
+        rest = joined;
+      }
+      isFace ? addFace(rest, first) : addVertex(rest, first);
+    }
+    const auto count = static_cast<long long>(m_soup.points.size());
+    if (m_highest >= count)
+      fail(m_highestAt, "a face names vertex " + std::to_string(m_highest + 1) + ", but there are " +
+                            std::to_string(count));
+    return std::move(m_soup);
+  }
+
+ private:
+  void addVertex(std::string_view words, std::size_t line) {
+    Vec3d x;
+    for (int a = 0; a < 3; ++a) {
+      const std::string_view word = takeWord(words);
+      if (word.empty()) fail(line, "a vertex needs three numbers");
+      if (!parseNumber(word, x[a])) fail(line, inQuotes(word) + " is not a number");
+    }
+    m_soup.points.push_back(x);
+  }
+
+  // Corners are v, v/vt, v//vn or v/vt/vn; from 1 on, or from the last vertex so far, -1, backwards.
+  void addFace(std::string_view words, std::size_t line) {
+    std::vector<std::size_t> polygon;
+    for (std::string_view word = takeWord(words); !word.empty(); word = takeWord(words)) {
+      if (word.starts_with('#')) break;
+      const std::string_view number = word.substr(0, word.find('/'));
+      long long index = 0;
+      const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
+      if (number.empty() || error != std::errc() || end != number.data() + number.size())
+        fail(line, inQuotes(word) + " is no corner of a face: a whole number is needed");
+      const auto count = static_cast<long long>(m_soup.points.size());
+      if (index == 0) fail(line, "a face names vertex 0; they are counted from 1");
+      if (index < -count)
+        fail(line, "a face names vertex " + std::to_string(index) + ", but there are " +
+                       std::to_string(count) + " before it");
+      index = index > 0 ? index - 1 : count + index;
+      if (index > m_highest) {
+        m_highest = index;
+        m_highestAt = line;
+      }
+      polygon.push_back(static_cast<std::size_t>(index));
+    }
+    if (polygon.empty()) fail(line, "a face without corners");
+    // One corner or two bound nothing: some programs write loose edges so.
+    if (polygon.size() >= 3) m_soup.polygons.push_back(std::move(polygon));
+  }
+
+  MeshSoup m_soup;
+  std::size_t m_line = 0, m_highestAt = 0;
+  long long m_highest = -1;
+};
+
+}  // namespace
+
+MeshSoup soupOfObj(std::string_view text) {
+  return Reader().read(text);
+}
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,309 @@
+// Preconditioned conjugate gradients, in the flexible form that forgives a preconditioner rounded to single
+// precision: Notay, "Flexible conjugate gradients", 2000. Singular parts: Bochev and Lehoucq, "On the finite
+// element solution of the pure Neumann problem", 2005.
+#include "sim/poisson/poisson.h"
+
+#include "sim/poisson/multigrid.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace fluidtex::sim {
+
+namespace {
+
+using Range = tbb::blocked_range<int>;
+
+// Sums are split at fixed places, so that they do not depend on the number of threads.
+constexpr int kGrain = 8192;
+
+struct Sums {
+  double first = 0.0, second = 0.0;
+};
+
+template <typename Body>
+Sums sum(int n, const Body& body) {
+  return tbb::parallel_deterministic_reduce(
+      Range(0, n, kGrain), Sums{},
+      [&](const Range& range, Sums sums) {
+        for (int i = range.begin(); i < range.end(); ++i) body(i, sums);
+        return sums;
+      },
+      [](const Sums& a, const Sums& b) {
+        return Sums{a.first + b.first, a.second + b.second};
+      });
+}
+
+template <typename Scalar>
+void removeMeans(const std::vector<std::vector<int>>& parts, std::vector<Scalar>& values) {
+  for (const auto& part : parts) {
+    double mean = 0.0;
+    for (const int i : part) mean += values[i];
+    mean /= static_cast<double>(part.size());
+    for (const int i : part) values[i] -= static_cast<Scalar>(mean);
+  }
+}
+
+}  // namespace
+
+CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks) {
+  m_lists = std::make_shared<Lists>();
+  Lists& lists = *m_lists;
+  std::vector<Coord> places;
+  for (const CellBlock& block : blocks) {
+    lists.origins.push_back(block.origin);
+    const Coord place = block.origin >> 5;
+    if (places.empty() || places.back() != place) places.push_back(place);
+  }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  lists.tables.resize(std::bit_ceil(2 * places.size() + 1));
+  lists.blockStart.assign(64 * places.size(), -1);
+  for (std::size_t n = 0; n < places.size(); ++n)
+    lists.tables[slotOf(places[n])] = {places[n], static_cast<int>(64 * n)};
+  lists.numbers.assign(blocks.size() * 512, -1);
+
+  std::bitset<512> red;
+  for (int c = 0; c < 512; ++c) red[c] = (((c >> 6) ^ (c >> 3) ^ c) & 1) == 0;
+
+  const int count = static_cast<int>(blocks.size());
+  std::vector<int> firstRed(count), firstBlack(count);
+  int size = 0;
+  for (int b = 0; b < count; ++b) {
+    lists.blockStart[tableOf(blocks[b].origin) + placeInTable(blocks[b].origin)] = b * 512;
+    firstRed[b] = m_red;
+    const int reds = static_cast<int>((blocks[b].cells & red).count());
+    m_red += reds;
+    size += static_cast<int>(blocks[b].cells.count());
+    firstBlack[b] = size - m_red;
+  }
+  // firstBlack counts past the block's own black cells.
+  for (int b = 0; b < count; ++b) {
+    firstBlack[b] += m_red - static_cast<int>((blocks[b].cells & ~red).count());
+  }
+  lists.places.resize(size);
+  tbb::parallel_for(Range(0, count), [&](const Range& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      int nextRed = firstRed[b], nextBlack = firstBlack[b];
+      for (int c = 0; c < 512; ++c) {
+        if (!blocks[b].cells[c]) continue;
+        const int number = red[c] ? nextRed++ : nextBlack++;
+        lists.numbers[b * 512 + c] = number;
+        lists.places[number] = b * 512 + c;
+      }
+    }
+  });
+}
+
+BlockNumbers::BlockNumbers(const CellNumbering& numbering, const Coord& origin) {
+  m_own = numbering.block(origin);
+  for (int s = 0; s < kSides; ++s) {
+    Coord there = origin;
+    there[s >> 1] += (s & 1) != 0 ? 8 : -8;
+    m_beside[s] = numbering.block(there);
+  }
+}
+
+EvenRows::EvenRows(const PoissonRows& rows, const std::vector<double>& anchor)
+    : m_link((rows.size() + (1u << kShift) - 1) >> kShift) {
+  const int n = static_cast<int>(rows.size());
+  tbb::parallel_for(Range(0, static_cast<int>(m_link.size()), 64), [&](const Range& range) {
+    for (int part = range.begin(); part < range.end(); ++part) {
+      const int first = part << kShift, last = std::min(n, first + (1 << kShift));
+      const float link = rows.link[first][0];
+      bool alike = true;
+      for (int i = first; i < last; ++i) {
+        alike = alike && anchor[i] == 0.0;
+        for (const float other : rows.link[i]) alike = alike && other == link;
+      }
+      m_link[part] = alike ? link : 0.0f;
+    }
+  });
+}
+
+namespace {
+
+// Whether each connected part has an anchor: cells are merged with their lower neighbours in the order in
+// which they lie in memory.
+bool allAnchored(const PoissonSystem& system) {
+  const int n = system.numbering.size();
+  std::vector<int> above(n);  // another cell of the part, itself for one cell of each part
+  std::iota(above.begin(), above.end(), 0);
+  const auto rootOf = [&](int i) {
+    while (above[i] != i) i = above[i] = above[above[i]];
+    return i;
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int s = 0; s < kSides; s += 2) {
+      if (system.rows.link[i][s] <= 0.0f) continue;
+      const int a = rootOf(i), b = rootOf(system.rows.neighbor[i][s]);
+      above[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::vector<char> anchored(n, 0);
+  for (int i = 0; i < n; ++i) {
+    if (system.anchor[i] > 0.0) anchored[rootOf(i)] = 1;
+  }
+  for (int i = 0; i < n; ++i) {
+    if (above[i] == i && !anchored[i]) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> singularParts(const PoissonSystem& system) {
+  if (allAnchored(system)) return {};
+  const int n = system.numbering.size();
+  std::vector<char> seen(n, 0);
+  std::vector<int> front;
+  for (int i = 0; i < n; ++i) {
+    if (system.anchor[i] > 0.0) {
+      seen[i] = 1;
+      front.push_back(i);
+    }
+  }
+  const auto visitNeighbors = [&](int i) {
+    for (int s = 0; s < kSides; ++s) {
+      const int j = system.rows.neighbor[i][s];
+      if (j < n && system.rows.link[i][s] > 0.0f && !seen[j]) {
+        seen[j] = 1;
+        front.push_back(j);
+      }
+    }
+  };
+  for (std::size_t next = 0; next < front.size(); ++next) visitNeighbors(front[next]);
+
+  std::vector<std::vector<int>> parts;
+  if (static_cast<int>(front.size()) == n) return parts;
+  for (int i = 0; i < n; ++i) {
+    if (seen[i]) continue;
+    seen[i] = 1;
+    front.assign(1, i);
+    for (std::size_t next = 0; next < front.size(); ++next) visitNeighbors(front[next]);
+    parts.push_back(front);
+  }
+  return parts;
+}
+
+PoissonSolver::PoissonSolver(const PoissonSystem& system, const std::vector<std::vector<int>>& singular)
+    : m_system(system), m_singular(singular), m_even(system.rows, system.anchor) {}
+
+PoissonSolver::~PoissonSolver() = default;
+
+PoissonReport PoissonSolver::solve(std::vector<double> b, std::vector<double>& x, double tolerance,
+                                   int maxIterations, const PoissonProbe& probe) {
+  const PoissonSystem& system = m_system;
+  const EvenRows& even = m_even;
+  const int n = system.numbering.size();
+  removeMeans(m_singular, b);
+
+  PoissonReport report;
+  const double normB = std::sqrt(sum(n, [&](int i, Sums& s) { s.first += b[i] * b[i]; }).first);
+  if (!(normB > 0.0)) {
+    std::fill(x.begin(), x.end(), 0.0);
+    report.converged = normB == 0.0;
+    report.residual = normB;
+    return report;
+  }
+
+  std::vector<double> p(n + 1, 0.0), q(n), r(std::move(b));
+  std::vector<float> scaled(n + 1, 0.0f), z(n + 1, 0.0f);
+  std::copy(x.begin(), x.end(), p.begin());
+  // The sum of what body(i, row i times p) gives.
+  const auto sumOfProducts = [&](const auto& body) {
+    return tbb::parallel_deterministic_reduce(
+        Range(0, n, kGrain), 0.0,
+        [&](const Range& range, double total) {
+          even.forParts(
+              range.begin(), range.end(),
+              [&](int first, int last, double link) {
+                for (int i = first; i < last; ++i) {
+                  double value = 6.0 * link * p[i];
+                  for (const int neighbor : system.rows.neighbor[i]) value -= link * p[neighbor];
+                  total += body(i, value);
+                }
+              },
+              [&](int first, int last) {
+                for (int i = first; i < last; ++i) {
+                  const auto& link = system.rows.link[i];
+                  const double diagonal =
+                      system.anchor[i] + (double(link[0]) + link[1] + link[2] + link[3] + link[4] + link[5]);
+                  double value = diagonal * p[i];
+                  for (int s = 0; s < kSides; ++s) value -= link[s] * p[system.rows.neighbor[i][s]];
+                  total += body(i, value);
+                }
+              });
+          return total;
+        },
+        std::plus<double>());
+  };
+  double normR = std::sqrt(sumOfProducts([&](int i, double product) {
+    r[i] -= product;
+    return r[i] * r[i];
+  }));
+  report.residual = normR / normB;
+  report.converged = report.residual <= tolerance;
+  if (report.converged) return report;
+
+  if (m_preconditioner == nullptr) m_preconditioner = std::make_unique<Multigrid>(system, even);
+  double rz = 0.0, alpha = 0.0;
+  bool asked = probe.goOn == nullptr;
+  while (!report.converged && !report.ended && report.iterations < maxIterations &&
+         std::isfinite(report.residual)) {
+    // The preconditioner works on values of about 1, whatever is left of the residual.
+    const double unit = normR / std::sqrt(static_cast<double>(n));
+    tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
+      for (int i = range.begin(); i < range.end(); ++i) scaled[i] = static_cast<float>(r[i] / unit);
+    });
+    m_preconditioner->apply(scaled, z);
+    removeMeans(m_singular, z);
+
+    // z.(r - r_old) = -alpha z.q gives the flexible (Polak-Ribiere) direction without keeping the old
+    // residual.
+    const Sums products = sum(n, [&](int i, Sums& s) {
+      s.first += z[i] * r[i];
+      s.second += z[i] * q[i];
+    });
+    const double beta = report.iterations == 0 ? 0.0 : -alpha * products.second / rz;
+    rz = products.first;
+    tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
+      for (int i = range.begin(); i < range.end(); ++i)
+        p[i] = report.iterations == 0 ? z[i] : z[i] + beta * p[i];
+    });
+    const double pq = sumOfProducts([&](int i, double product) {
+      q[i] = product;
+      return p[i] * product;
+    });
+    if (!(pq > 0.0) || !(rz > 0.0)) break;  // rounding is all that is left
+    alpha = rz / pq;
+    normR = std::sqrt(sum(n, [&](int i, Sums& s) {
+                        x[i] += alpha * p[i];
+                        r[i] -= alpha * q[i];
+                        s.first += r[i] * r[i];
+                      }).first);
+    ++report.iterations;
+    report.residual = normR / normB;
+    report.converged = report.residual <= tolerance;
+    if (!asked && !report.converged && report.residual <= probe.tolerance) {
+      asked = true;
+      report.ended = !probe.goOn(x);
+    }
+  }
+  removeMeans(m_singular, x);
+  return report;
+}
+
+PoissonReport solvePoisson(const PoissonSystem& system, const std::vector<std::vector<int>>& singular,
+                           std::vector<double> b, std::vector<double>& x, double tolerance,
+                           int maxIterations) {
+  return PoissonSolver(system, singular).solve(std::move(b), x, tolerance, maxIterations);
+}
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,187 @@
+#include "sim/pressure/liquid_cells.h"
+
+#include "sim/grid/leaf_table.h"
+#include "sim/surface/level_set.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace fluidtex::sim {
+
+namespace {
+
+using Range = tbb::blocked_range<int>;
+
+// A cell counts as at least this deep in the liquid, in cells: bounds the matrix' entries. The depth and not
+// the distance along each axis is bounded, so that the pressure's slope keeps its direction there.
+constexpr float kLeastDepth = 1e-5f;
+
+constexpr int kSide = kLeafDim + 2;  // a leaf's values and one more layer around them
+constexpr int kStride[3] = {kSide * kSide, kSide, 1};
+using Patch = std::array<float, kSide * kSide * kSide>;
+
+Coord localOf(int offset) {
+  return Coord(offset >> 6, (offset >> 3) & 7, offset & 7);
+}
+
+int patchIndex(int local) {
+  return ((local >> 6) + 1) * kStride[0] + (((local >> 3) & 7) + 1) * kStride[1] + (local & 7) + 1;
+}
+
+Patch patchOf(const FloatTree& tree, const Coord& origin) {
+  Patch patch{};
+  gather(tree, origin, 1, patch.data(), true);
+  return patch;
+}
+
+// Open shares of the three kinds of faces around one block.
+std::array<Patch, 3> openPatches(const SolidField& solid, const Coord& origin) {
+  return {patchOf(solid.openU->constTree(), origin), patchOf(solid.openV->constTree(), origin),
+          patchOf(solid.openW->constTree(), origin)};
+}
+
+// A field that is 0 where there is none, or of which there may be no tree.
+Patch patchOf(const FloatGrid::Ptr& grid, const Coord& origin, float without) {
+  if (grid != nullptr) return patchOf(grid->constTree(), origin);
+  Patch patch;
+  patch.fill(without);
+  return patch;
+}
+
+// Velocities that are given around one block, kNotGiven elsewhere.
+std::array<Patch, 3> givenPatches(const SolidField& solid, const Coord& origin) {
+  return {patchOf(solid.givenU, origin, kNotGiven), patchOf(solid.givenV, origin, kNotGiven),
+          patchOf(solid.givenW, origin, kNotGiven)};
+}
+
+// Cells of the domain with phi < 0 and an open face whose velocity is not given.
+std::vector<CellBlock> liquidBlocks(const FloatGrid& phi, const SolidField& solid) {
+  const std::vector<Coord> origins = wetLeaves(phi, solid.domain);
+  std::vector<CellBlock> blocks(origins.size());
+  tbb::parallel_for(Range(0, static_cast<int>(blocks.size())), [&](const Range& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      CellBlock& block = blocks[b];
+      block.origin = origins[b];
+      const FloatLeaf* leaf = phi.constTree().probeConstLeaf(block.origin);
+      for (int c = 0; c < kLeafSize; ++c) {
+        const Coord cell = block.origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
+        block.cells[c] = solid.domain.isInside(cell) && (leaf == nullptr || leaf->getValue(c) < 0.0f);
+      }
+      if (block.cells.none()) continue;
+      const auto open = openPatches(solid, block.origin);
+      const auto given = givenPatches(solid, block.origin);
+      for (int c = 0; c < kLeafSize; ++c) {
+        const int at = patchIndex(c);
+        bool any = false;
+        for (int a = 0; a < 3; ++a) {
+          for (const int face : {at, at + kStride[a]})
+            any = any || (open[a][face] > 0.0f && given[a][face] == kNotGiven);
+        }
+        if (!any) block.cells.reset(c);
+      }
+    }
+  });
+  std::erase_if(blocks, [](const CellBlock& block) { return block.cells.none(); });
+  return blocks;
+}
+
+// One list of all blocks' sides, which cells' numbers have counted block by block.
+void gatherSides(std::vector<std::vector<LiquidSides>>& sidesIn, LiquidCells& liquid) {
+  std::vector<int> first(sidesIn.size() + 1, 0);
+  for (std::size_t b = 0; b < sidesIn.size(); ++b)
+    first[b + 1] = first[b] + static_cast<int>(sidesIn[b].size());
+  liquid.sides.resize(first.back());
+  tbb::parallel_for(Range(0, static_cast<int>(sidesIn.size())), [&](const Range& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      std::copy(sidesIn[b].begin(), sidesIn[b].end(), liquid.sides.begin() + first[b]);
+      sidesIn[b] = {};
+      const int* numbers = liquid.numbering.block(liquid.blocks[b].origin);
+      for (int c = 0; c < kLeafSize; ++c) {
+        if (numbers[c] >= 0 && liquid.special[numbers[c]] >= 0) liquid.special[numbers[c]] += first[b];
+      }
+    }
+  });
+}
+
+}  // namespace
+
+bool endsAt(Side kind, const SolidField& solid, const Coord& cell, int side) {
+  const int axis = side >> 1;
+  return solid.sides[side] == kind &&
+         cell[axis] == (side & 1 ? solid.domain.max() : solid.domain.min())[axis];
+}
+
+LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
+                         const std::array<const FloatTree*, 3>& velocity) {
+  const FloatTree& phi = phiGrid.constTree();
+  LiquidCells liquid;
+  liquid.blocks = liquidBlocks(phiGrid, solid);
+  liquid.numbering = CellNumbering(liquid.blocks);
+  liquid.outflow.resize(liquid.numbering.size());
+  liquid.special.resize(liquid.numbering.size());
+  std::vector<std::vector<LiquidSides>> sidesIn(liquid.blocks.size());
+  const float shallowest = -kLeastDepth * static_cast<float>(solid.voxelSize);
+  tbb::parallel_for(Range(0, static_cast<int>(liquid.blocks.size())), [&](const Range& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      const Coord& origin = liquid.blocks[b].origin;
+      const int* numbers = liquid.numbering.block(origin);
+      const Patch distance = patchOf(phi, origin);
+      const auto open = openPatches(solid, origin);
+      const std::array<Patch, 3> speed{patchOf(*velocity[0], origin), patchOf(*velocity[1], origin),
+                                       patchOf(*velocity[2], origin)};
+      const std::array<Patch, 3> solidSpeed{patchOf(solid.speedU, origin, 0.0f),
+                                            patchOf(solid.speedV, origin, 0.0f),
+                                            patchOf(solid.speedW, origin, 0.0f)};
+      const auto given = givenPatches(solid, origin);
+      for (int c = 0; c < kLeafSize; ++c) {
+        if (numbers[c] < 0) continue;
+        LiquidSides cell;
+        double& outflow = liquid.outflow[numbers[c]];
+        const int here = patchIndex(c);
+        for (int s = 0; s < kSides; ++s) {
+          const int axis = s >> 1, up = s & 1;
+          const int face = here + up * kStride[axis];
+          const int beside = up ? here + kStride[axis] : here - kStride[axis];
+          const float out = up ? 1.0f : -1.0f, closed = 1.0f - open[axis][face];
+          const bool isGiven = given[axis][face] != kNotGiven;
+          const double outward = out * (isGiven ? given[axis][face] : speed[axis][face]);
+          const double push = out * solidSpeed[axis][face];
+          outflow += open[axis][face] * outward + closed * push;
+          if (isGiven) {
+            cell.open[s] = cell.theta[s] = 0.0f;
+            continue;
+          }
+          cell.open[s] = open[axis][face];
+          if (closed > 0.0f && endsAt(Side::symmetry, solid, origin + localOf(c), s)) continue;
+          cell.closed += closed;
+          cell.leaving += closed * static_cast<float>(std::max(0.0, push - outward));
+          if (cell.open[s] > 0.0f && endsAt(Side::open, solid, origin + localOf(c), s)) {
+            cell.theta[s] = kEdgeTheta;
+            continue;
+          }
+          const float inside = std::min(distance[here], shallowest), outside = distance[beside];
+          cell.theta[s] = cell.open[s] > 0.0f && outside >= 0.0f ? inside / (inside - outside) : 0.0f;
+        }
+        int& special = liquid.special[numbers[c]];
+        special = cell == kAllLiquid ? -1 : static_cast<int>(sidesIn[b].size());
+        if (special >= 0) sidesIn[b].push_back(cell);
+      }
+    }
+  });
+  gatherSides(sidesIn, liquid);
+  if (std::find(solid.sides.begin(), solid.sides.end(), Side::open) != solid.sides.end()) {
+    for (int i = 0; i < liquid.numbering.size(); ++i) {
+      const Coord place = liquid.numbering.cell(i);
+      for (int s = 0; s < kSides; ++s) {
+        if (liquid.sidesOf(i).open[s] <= 0.0f || !endsAt(Side::open, solid, place, s)) continue;
+        const double along = velocity[s >> 1]->getValue(s & 1 ? neighborOf(place, s) : place);
+        liquid.edges.push_back({i, s, s & 1 ? along : -along, false});
+      }
+    }
+  }
+  return liquid;
+}
+
+}  // namespace fluidtex::sim

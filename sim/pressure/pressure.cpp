@@ -1,0 +1,390 @@
+// Pressure projection on the liquid's cells.
+// Walls that let go: 0 <= p, complementary to 0 <= outflow, in cells at solids; Batty, Bertails, Bridson, "A
+// fast variational framework for accurate solid-fluid coupling", 2007, section 5. Solved by the primal-dual
+// active set method: Hintermueller, Ito, Kunisch, 2002.
+#include "sim/pressure/pressure.h"
+
+#include "sim/grid/mac_grid.h"
+#include "sim/grid/require.h"
+#include "sim/poisson/poisson.h"
+#include "sim/pressure/liquid_cells.h"
+#include "sim/pressure/pressure_system.h"
+#include "sim/pressure/surface_pressure.h"
+#include "sim/solids/solid_layers.h"
+#include "sim/surface/level_set.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace fluidtex::sim {
+
+namespace {
+
+using Range = tbb::blocked_range<int>;
+
+// Below this share of the largest pressure, suction is the solver's rounding.
+constexpr double kSuctionNoise = 1e-5;
+
+// What is owed changes from step to step by more than what is left of it at this tolerance.
+constexpr double kGrowthTolerance = 1e-2;
+
+// Where liquid lets go of solids is asked at this tolerance first: mostly it shows by then.
+constexpr double kSeparationTolerance = 1e-3;
+
+// A face whose solid lies within about 25 degrees of square to it takes the solid's normal velocity.
+constexpr float kSquare = 0.9f;
+
+// Nothing comes in over an edge: where the pressure would draw it in, the face is shut. True if any was.
+bool shutEdges(LiquidCells& liquid, const std::vector<double>& q) {
+  bool any = false;
+  for (Edge& edge : liquid.edges) {
+    assert(liquid.special[edge.cell] >= 0);
+    LiquidSides& cell = liquid.sides[liquid.special[edge.cell]];
+    if (edge.shut || edge.outward + q[edge.cell] / kEdgeTheta >= 0.0) continue;
+    // A cell's only way out stays one.
+    if (std::count_if(cell.open.begin(), cell.open.end(), [](float open) { return open > 0.0f; }) < 2)
+      continue;
+    edge.shut = any = true;
+    liquid.outflow[edge.cell] -= cell.open[edge.side] * edge.outward;
+    cell.open[edge.side] = cell.theta[edge.side] = 0.0f;
+  }
+  return any;
+}
+
+// 1 more than how firmly a cell's pressure is held by its surface, which grows as that comes near its centre.
+double anchoredBy(const LiquidSides& cell) {
+  double anchored = 1.0;
+  for (int s = 0; s < kSides; ++s) {
+    if (cell.theta[s] > 0.0f) anchored += cell.open[s] / cell.theta[s];
+  }
+  return anchored;
+}
+
+// The pressure of cells that let go of a solid: that of the air, but where their own surface is near, what
+// surface tension makes of it there. Else it would act on them over next to no way.
+std::vector<double> pressureOfDetached(const LiquidCells& liquid, const std::vector<double>& guess) {
+  std::vector<double> pressure(liquid.numbering.size());
+  for (std::size_t i = 0; i < guess.size(); ++i)
+    pressure[i] = guess[i] * (1.0 - 1.0 / anchoredBy(liquid.sidesOf(static_cast<int>(i))));
+  return pressure;
+}
+
+// Takes a guess at the pressure out of the unknowns x and the right-hand side b; not in parts that are
+// enclosed. Differences are formed before they are weighted: beside a surface close to a cell's centre
+// weights are large. loose: the pressure of cells that are detached.
+void takeOut(const LiquidCells& liquid, const SurfacePressure& surface, const std::vector<double>& guess,
+             const std::vector<double>& loose, const std::vector<char>& enclosed, const PoissonSystem& system,
+             const std::vector<int>& liquidOf, std::vector<double>& b, std::vector<double>& x) {
+  const int n = static_cast<int>(b.size());
+  tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
+    for (int i = range.begin(); i < range.end(); ++i) {
+      const int number = liquidOf[i];
+      if (enclosed[number]) continue;
+      const LiquidSides& cell = liquid.sidesOf(number);
+      x[i] -= guess[number];
+      for (int s = 0; s < kSides; ++s) {
+        const int neighbor = system.rows.neighbor[i][s];
+        if (neighbor < n) {
+          b[i] -= system.rows.link[i][s] * (guess[number] - guess[liquidOf[neighbor]]);
+        } else if (cell.open[s] > 0.0f) {
+          const bool ends = cell.theta[s] > 0.0f;
+          const int detached = ends ? -1 : liquid.numbering.at(neighborOf(liquid.numbering.cell(number), s));
+          const double beyond = detached < 0 ? surface.at(number, s) : loose[detached];
+          b[i] -= cell.open[s] / (ends ? double(cell.theta[s]) : 1.0) * (guess[number] - beyond);
+        }
+      }
+    }
+  });
+}
+
+// What flows out of a cell's open faces once the pressure has acted.
+double projectedOutflow(const LiquidCells& liquid, const SurfacePressure& surface,
+                        const std::vector<double>& q, int number) {
+  const LiquidSides& cell = liquid.sidesOf(number);
+  const Coord place = liquid.numbering.cell(number);
+  double outflow = liquid.outflow[number];
+  for (int s = 0; s < kSides; ++s) {
+    if (cell.open[s] <= 0.0f) continue;
+    const bool ends = cell.theta[s] > 0.0f;
+    const int neighbor = ends ? -1 : liquid.numbering.at(neighborOf(place, s));
+    const double step = (neighbor < 0 ? surface.at(number, s) : q[neighbor]) - q[number];
+    outflow -= cell.open[s] * (ends ? step / cell.theta[s] : step);
+  }
+  return outflow;
+}
+
+// What is to flow out of each unknown's cell so that it grows, m/s through one open face.
+void setOutflow(const FloatGrid& growth, const LiquidCells& liquid, const PoissonSystem& system, double h,
+                std::vector<double>& outflow) {
+  outflow.assign(system.numbering.size(), 0.0);
+  tbb::parallel_for(Range(0, static_cast<int>(liquid.blocks.size())), [&](const Range& range) {
+    for (int b = range.begin(); b < range.end(); ++b) {
+      const FloatLeaf* leaf = growth.constTree().probeConstLeaf(liquid.blocks[b].origin);
+      const int* numbers = system.numbering.block(liquid.blocks[b].origin);
+      if (leaf == nullptr || numbers == nullptr) continue;
+      for (int c = 0; c < kLeafSize; ++c) {
+        if (numbers[c] >= 0) outflow[numbers[c]] = leaf->getValue(c) * h;
+      }
+    }
+  });
+}
+
+// One step of the active set method: cells at solids that let go of them, or are pressed back. True if any
+// changed. What a cell can suck, below the pressure that it has when it is detached, is held back by its own
+// surface: of a drop of one cell only a share of `suction`, which is that of a cell with a column of liquid
+// below it; less than `rounding` is none.
+bool updateDetached(const LiquidCells& liquid, const SurfacePressure& surface, const std::vector<double>& q,
+                    const std::vector<double>& loose, const std::vector<char>& enclosed, double suction,
+                    double rounding, std::vector<char>& detached) {
+  const int n = liquid.numbering.size();
+  std::vector<char> changed(n, 0);
+  tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
+    for (int i = range.begin(); i < range.end(); ++i) {
+      const LiquidSides& cell = liquid.sidesOf(i);
+      if (cell.closed <= 0.0f) continue;
+      const double least = (loose.empty() ? 0.0 : loose[i]) - std::max(suction / anchoredBy(cell), rounding);
+      changed[i] = detached[i] ? projectedOutflow(liquid, surface, q, i) < 0.0 : q[i] < least && !enclosed[i];
+    }
+  });
+  bool any = false;
+  for (int i = 0; i < n; ++i) {
+    if (!changed[i]) continue;
+    detached[i] = !detached[i];
+    any = true;
+  }
+  return any;
+}
+
+// Leaves of `grid` that hold a face of a liquid cell; made where they were missing. They are the same for
+// every axis, so that the components keep one topology.
+std::vector<FloatLeaf*> faceLeaves(const LiquidCells& liquid, FloatGrid& grid) {
+  std::vector<FloatLeaf*> leaves;
+  for (const CellBlock& block : liquid.blocks) {
+    leaves.push_back(grid.tree().touchLeaf(block.origin));
+    for (int axis = 0; axis < 3; ++axis) {
+      Coord next = block.origin;
+      next[axis] += kLeafDim;
+      leaves.push_back(grid.tree().touchLeaf(next));
+    }
+  }
+  std::sort(leaves.begin(), leaves.end(),
+            [](const FloatLeaf* a, const FloatLeaf* b) { return a->origin() < b->origin(); });
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  return leaves;
+}
+
+// Subtracts the pressure's gradient on the faces normal to `axis`, gives closed ones the solid's speed, and
+// writes what is given there.
+MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surface, const SolidField& solid,
+                          const std::vector<double>& q, const std::vector<char>& detached, int axis,
+                          FloatGrid& grid) {
+  const FloatGrid* const solidSpeed =
+      std::array{solid.speedU.get(), solid.speedV.get(), solid.speedW.get()}[axis];
+  const FloatGrid* const given = std::array{solid.givenU.get(), solid.givenV.get(), solid.givenW.get()}[axis];
+  const FloatGrid& open = *std::array{solid.openU.get(), solid.openV.get(), solid.openW.get()}[axis];
+  auto valid = MaskGrid::create();
+  valid->setTransform(faceTransform(solid.voxelSize, axis));
+  const std::vector<FloatLeaf*> leaves = faceLeaves(liquid, grid);
+  std::vector<MaskGrid::TreeType::LeafNodeType*> masks;
+  for (const FloatLeaf* leaf : leaves) masks.push_back(valid->tree().touchLeaf(leaf->origin()));
+
+  tbb::parallel_for(Range(0, static_cast<int>(leaves.size())), [&](const Range& range) {
+    const openvdb::tree::ValueAccessor<const FloatTree> distance(solid.phi->constTree());
+    const auto isOpen = [&](const Coord& face) { return open.constTree().getValue(face) > 0.0f; };
+    for (int n = range.begin(); n < range.end(); ++n) {
+      FloatLeaf& leaf = *leaves[n];
+      const BlockNumbers numbers(liquid.numbering, leaf.origin());
+      for (int c = 0; c < kLeafSize; ++c) {
+        const int upper = numbers.at(c), lower = numbers.beside(c, 2 * axis);
+        if (upper < 0 && lower < 0) continue;
+
+        const LiquidSides& cell = liquid.sidesOf(upper >= 0 ? upper : lower);
+        const int side = 2 * axis + (upper >= 0 ? 0 : 1);
+        const Coord wetCell = liquid.numbering.cell(upper >= 0 ? upper : lower);
+        const bool edge = endsAt(Side::open, solid, wetCell, side);
+        if (cell.open[side] > 0.0f) {
+          // A nozzle: all that enters a cell whose surface is there would leave by it, as fast as it has to.
+          // The liquid beside it knows better how fast it flows; over an edge, only the pressure does.
+          if (cell.theta[side] > 0.0f && cell.open[side] < kLeastOpen && !edge) continue;
+          const double step = (upper < 0 ? surface.at(lower, side) : q[upper]) -
+                              (lower < 0 ? surface.at(upper, side) : q[lower]);
+          const double change = cell.theta[side] > 0.0f ? step / cell.theta[side] : step;
+          leaf.setValueOn(c, static_cast<float>(leaf.getValue(c) - change));
+          masks[n]->setValueOn(c);
+          continue;
+        }
+        const Coord place = leaf.offsetToGlobalCoord(c);
+        if (edge && isOpen(place)) {
+          // It is shut, and no wall that liquid could come off.
+          leaf.setValueOn(c, 0.0f);
+          masks[n]->setValueOn(c);
+          continue;
+        }
+        const float slope = distance.getValue(place) - distance.getValue(neighborOf(place, 2 * axis));
+        const bool solidBelow = slope > 0.0f;
+        const int wet = solidBelow ? upper : lower;
+        if (std::abs(slope) < kSquare * solid.voxelSize || wet < 0) continue;
+        const double push = solidSpeed == nullptr ? 0.0 : solidSpeed->constTree().getValue(place);
+        double away = 0.0;
+        const int wall = 2 * axis + (solidBelow ? 0 : 1);
+        if (detached[wet] && !endsAt(Side::symmetry, solid, liquid.numbering.cell(wet), wall)) {
+          // What the cell loses through its open faces comes off its walls, so that there is no divergence
+          // there either; from each in proportion to the speed at which the liquid was about to leave it.
+          const auto& [open, theta, closed, leaving] = liquid.sidesOf(wet);
+          const double relative = leaf.getValue(c) - push;
+          const double ready = std::max(0.0, solidBelow ? relative : -relative);
+          const double share = leaving > 0.0f ? ready / leaving : 1.0 / closed;
+          away = std::max(0.0, projectedOutflow(liquid, surface, q, wet)) * share;
+        }
+        leaf.setValueOn(c, static_cast<float>(push + (solidBelow ? away : -away)));
+        masks[n]->setValueOn(c);
+      }
+    }
+  });
+  if (given != nullptr) {
+    for (auto it = given->cbeginValueOn(); it; ++it) {
+      grid.tree().setValueOn(it.getCoord(), *it);
+      valid->tree().setValueOn(it.getCoord());
+    }
+  }
+  return valid;
+}
+
+// Cells of liquid that let go. Of a cell deep in a solid next to nothing is open: the liquid beside it lets
+// go with it.
+MaskGrid::Ptr separatingCells(const LiquidCells& liquid, const SolidField& solid,
+                              const std::vector<char>& detached) {
+  const MaskGrid::Ptr separating = MaskGrid::create();
+  separating->setTransform(cellTransform(solid.voxelSize));
+  const auto distance = solid.phi->getConstAccessor();
+  const float deep = -kDeepInSolid * static_cast<float>(solid.voxelSize);
+  for (int i = 0; i < liquid.numbering.size(); ++i) {
+    if (!detached[i]) continue;
+    const Coord cell = liquid.numbering.cell(i);
+    separating->tree().setValueOn(cell);
+    if (distance.getValue(cell) >= deep) continue;
+    const LiquidSides& sides = liquid.sidesOf(i);
+    for (int side = 0; side < kSides; ++side)
+      if (sides.open[side] > 0.0f && liquid.numbering.at(neighborOf(cell, side)) >= 0)
+        separating->tree().setValueOn(neighborOf(cell, side));
+  }
+  return separating;
+}
+
+}  // namespace
+
+Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi, const SolidField& solid,
+                   double dt, double density, const PressureOptions& options) {
+  require(dt > 0.0 && density > 0.0, "project: the time step and the density must be positive");
+  LiquidCells liquid = gatherLiquid(phi, solid, {&u.constTree(), &v.constTree(), &w.constTree()});
+  const int n = liquid.numbering.size();
+  const double pascal = density * solid.voxelSize / dt;  // of one unit of q
+
+  const SurfacePressure surface = options.surfaceTension > 0.0
+                                      ? SurfacePressure(liquid, phi, solid, options.surfaceTension / pascal)
+                                      : SurfacePressure();
+  const std::vector<double> guess = surface.none() ? std::vector<double>() : guessedPressure(liquid, surface);
+  const std::vector<double> loose =
+      surface.none() ? std::vector<double>() : pressureOfDetached(liquid, guess);
+
+  Projection result;
+  PressureReport& report = result.report;
+  report.cells = n;
+  report.converged = true;
+  std::vector<double> q(n, 0.0), growing;
+  std::vector<char> detached(n, 0);
+  for (int pass = 0; n > 0; ++pass) {
+    std::vector<int> liquidOf;
+    const PoissonSystem system = pressureSystem(liquid, detached, liquidOf);
+    const auto singular = singularParts(system);
+    std::vector<char> enclosed(n, 0);
+    for (const auto& part : singular) {
+      for (const int i : part) enclosed[liquidOf[i]] = 1;
+    }
+    std::vector<double> b(liquidOf.size()), x(liquidOf.size());
+    for (std::size_t i = 0; i < liquidOf.size(); ++i) {
+      b[i] = -liquid.outflow[liquidOf[i]];
+      x[i] = q[liquidOf[i]];
+    }
+    q = std::vector<double>();  // and not {}, which keeps its room
+    if (!surface.none()) {
+      // Solved for what is left beside the guess.
+      takeOut(liquid, surface, guess, loose, enclosed, system, liquidOf, b, x);
+    }
+    // Whether liquid lets go of solids, or comes back to them, at this pressure.
+    bool again = false, last = pass == options.maxSeparationPasses;
+    const auto separates = [&](const std::vector<double>& pressure) {
+      q = loose;
+      q.resize(n, 0.0);
+      double largest = 0.0;
+      for (std::size_t i = 0; i < liquidOf.size(); ++i) {
+        const int number = liquidOf[i];
+        q[number] = surface.none() || enclosed[number] ? pressure[i] : pressure[i] + guess[number];
+        largest = std::max(largest, std::abs(pressure[i]));
+      }
+      if (last) return false;
+      const bool shut = shutEdges(liquid, q);
+      const bool changed = updateDetached(liquid, surface, q, loose, enclosed, options.suction / pascal,
+                                          kSuctionNoise * largest, detached);
+      again = changed || shut;
+      return again;
+    };
+    PoissonSolver poisson(system, singular);
+    const PoissonReport solved =
+        poisson.solve(std::move(b), x, options.tolerance, options.maxIterations,
+                      {kSeparationTolerance, [&](const std::vector<double>& rough) {
+                         const bool goOn = !separates(rough);
+                         if (goOn) q = std::vector<double>();  // memory is shortest while the solve runs
+                         return goOn;
+                       }});
+    last = last || !(solved.converged || solved.ended);
+    report.iterations += solved.iterations;
+    report.residual = solved.residual;
+    report.converged = solved.converged;
+    report.separationPasses = pass;
+    if (again || separates(x)) continue;
+    if (options.growth != nullptr && solved.converged) {
+      setOutflow(*options.growth, liquid, system, solid.voxelSize, b);
+      std::fill(x.begin(), x.end(), 0.0);
+      // Where that fails nothing is given back in this step.
+      if (poisson.solve(std::move(b), x, kGrowthTolerance, options.maxIterations).converged) {
+        growing.assign(n, 0.0);
+        for (std::size_t i = 0; i < liquidOf.size(); ++i) growing[liquidOf[i]] = x[i];
+      }
+    }
+    break;
+  }
+
+  if (options.keepBefore) result.before = {{u.deepCopy(), v.deepCopy(), w.deepCopy()}};
+  result.valid.u = updateFaces(liquid, surface, solid, q, detached, 0, u);
+  result.valid.v = updateFaces(liquid, surface, solid, q, detached, 1, v);
+  result.valid.w = updateFaces(liquid, surface, solid, q, detached, 2, w);
+  if (!growing.empty()) {
+    result.swelling = makeVelocity(solid.voxelSize);
+    const SolidField still = atRest(solid);
+    const std::vector<char> none(n, 0);
+    for (int axis = 0; axis < 3; ++axis)
+      updateFaces(liquid, {}, still, growing, none, axis, *result.swelling.component[axis]);
+  }
+  result.separating = separatingCells(liquid, solid, detached);
+  for (const Edge& edge : liquid.edges) {
+    if (!edge.shut) continue;
+    Coord face = liquid.numbering.cell(edge.cell);
+    face[edge.side / 2] += edge.side % 2;
+    result.shut.push_back({edge.side / 2, face});
+  }
+  if (options.keepPressure) {
+    result.pressure = openvdb::DoubleGrid::create(0.0);
+    result.pressure->setTransform(cellTransform(solid.voxelSize));
+    result.pressure->setName("pressure");
+    openvdb::DoubleGrid::Accessor pressure = result.pressure->getAccessor();
+    for (int i = 0; i < n; ++i) pressure.setValue(liquid.numbering.cell(i), q[i] * pascal);
+  }
+  return result;
+}
+
+}  // namespace fluidtex::sim

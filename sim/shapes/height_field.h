@@ -1,0 +1,17 @@
+// Ground from an image as triangles.
+#pragma once
+
+#include "sim/meshes/triangle_mesh.h"
+#include "sim/shapes/shapes.h"
+
+namespace fluidtex::sim {
+
+// The ground as a closed mesh, sampled every `spacing` metres or a little less. It ends `beyond` metres
+// outside the domain where the picture reaches the domain's side, `beyond` outside the picture where the
+// domain is infinite, else at the picture's rim, and below at `base` metres or, where that lies higher,
+// `beyond` below its lowest point. Heights more than `beyond` above or below the domain are cut off there.
+// Empty where the picture lies beside the domain. Throws HeightError.
+TriangleMesh groundMesh(const HeightField& ground, const openvdb::BBoxd& domain, double spacing,
+                        double beyond, double base);
+
+}  // namespace fluidtex::sim

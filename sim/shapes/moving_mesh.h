@@ -1,0 +1,33 @@
+// The surface of a mesh sequence at any time.
+#pragma once
+
+#include "sim/meshes/triangle_mesh.h"
+#include "sim/shapes/shapes.h"
+
+#include <vector>
+
+namespace fluidtex::sim {
+
+// Files of a sequence, read: one closed triangle mesh whose vertices move. Polygons are cut into triangles,
+// and vertices that lie together in all files joined, the same way in each of them. Takes 12 bytes a vertex
+// and file.
+class MovingMesh {
+ public:
+  // Reads all files, or those from `begin` to `end`, counted from 0. Throws MeshError, as readMesh does, and
+  // where two files have other vertices or faces.
+  explicit MovingMesh(const MeshSequence& sequence);
+  MovingMesh(const MeshSequence& sequence, int begin, int end);
+
+  // As far as `part` (0 to 1) on the way from a file to the next.
+  TriangleMesh at(int file, double part) const;
+
+  // From the file to the next, of each vertex; #V, metres.
+  std::vector<openvdb::Vec3f> change(int file) const;
+
+ private:
+  int m_begin;
+  std::vector<std::vector<openvdb::Vec3f>> m_positions;  // of each file; #V, metres
+  std::vector<openvdb::Vec3I> m_triangles;
+};
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,156 @@
+// Velocity that does not run into solids, where the pressure has had no say: Houston, Bond, Wiebe, "A unified
+// approach for modeling complex occlusions in fluid simulations", 2003; Batty, Bertails, Bridson, 2007,
+// section 4.4.
+#include "sim/grid/leaf_table.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/solids/solids.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace fluidtex::sim {
+
+namespace {
+
+using Range = tbb::blocked_range<std::size_t>;
+using MaskAccessor = openvdb::tree::ValueAccessor<const MaskGrid::TreeType>;
+
+// A leaf's values and one more layer around them.
+constexpr int kSide = kLeafDim + 2;
+constexpr int kStride[3] = {kSide * kSide, kSide, 1};
+using Block = std::array<float, kSide * kSide * kSide>;
+
+int blockIndex(int offset) {
+  return ((offset >> 6) + 1) * kStride[0] + (((offset >> 3) & 7) + 1) * kStride[1] + (offset & 7) + 1;
+}
+
+// Component `other` at a face normal to `axis`: the mean of the four faces around it.
+float across(const float* other, int axis, int otherAxis) {
+  const float* low = other - kStride[axis];
+  return 0.25f * (other[0] + other[kStride[otherAxis]] + low[0] + low[kStride[otherAxis]]);
+}
+
+Coord shifted(Coord c, int axis, int by) {
+  c[axis] += by;
+  return c;
+}
+
+// Whether a face lies beyond a side of the domain that lets liquid pass.
+bool beyondOpening(const SolidField& solid, const Coord& face, int axis) {
+  for (int a = 0; a < 3; ++a) {
+    const int last = solid.domain.max()[a] + (a == axis ? 1 : 0);
+    if (face[a] < solid.domain.min()[a] && !isClosed(solid.sides[2 * a])) return true;
+    if (face[a] > last && !isClosed(solid.sides[2 * a + 1])) return true;
+  }
+  return false;
+}
+
+// A leaf's active faces that are closed, or all but closed, and not known.
+FloatLeaf::NodeMaskType closedFaces(const FloatLeaf& leaf, const FloatTree& open, const MaskTree& known) {
+  float scratch[kLeafSize];
+  const float* openness = leafValues(open, leaf.origin(), scratch);
+  FloatLeaf::NodeMaskType faces = leaf.getValueMask();
+  if (const auto* there = known.probeConstLeaf(leaf.origin())) {
+    faces -= there->getValueMask();
+  } else if (known.isValueOn(leaf.origin())) {
+    faces.setOff();
+  }
+  for (int i = 0; i < kLeafSize; ++i) {
+    if (openness[i] >= kLeastOpen) faces.setOff(i);
+  }
+  return faces;
+}
+
+}  // namespace
+
+void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
+                       const SolidField& solid, const FaceMasks& valid, const MaskGrid& separating) {
+  FloatGrid* const grids[3] = {&u, &v, &w};
+  const FloatGrid* const open[3] = {solid.openU.get(), solid.openV.get(), solid.openW.get()};
+  const MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
+
+  const bool moving = solid.speedU != nullptr, anyLeaving = !separating.empty();
+  const FloatGrid* const solidSpeed[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};
+
+  // All new values are found from the old ones before any is written.
+  struct Change {
+    float* value;
+    float to;
+  };
+  const auto leaves = leavesOf(u.tree());
+  std::vector<std::vector<Change>> changes(leaves.size());
+  tbb::parallel_for(Range(0, leaves.size()), [&](const Range& range) {
+    const MaskAccessor leaving(separating.constTree());
+    const openvdb::tree::ValueAccessor<const FloatTree> wall(solid.phi->constTree());
+    Block distance, liquid, speed[3], push[3];
+    for (std::size_t n = range.begin(); n < range.end(); ++n) {
+      const Coord origin = leaves[n]->origin();
+      std::array<FloatLeaf*, 3> own;
+      std::array<FloatLeaf::NodeMaskType, 3> asked;
+      bool any = false;
+      for (int axis = 0; axis < 3; ++axis) {
+        own[axis] = axis == 0 ? leaves[n] : grids[axis]->tree().probeLeaf(origin);
+        if (own[axis] == nullptr) continue;
+        asked[axis] = closedFaces(*own[axis], open[axis]->constTree(), masks[axis]->constTree());
+        any = any || !asked[axis].isOff();
+      }
+      if (!any) continue;
+      gather(solid.phi->constTree(), origin, 1, distance.data());
+      // Deep inside a solid the distance is cut off.
+      const auto [least, most] = std::minmax_element(distance.begin(), distance.end());
+      if (*most - *least < 1e-3f * static_cast<float>(solid.voxelSize)) continue;
+      gather(phi.constTree(), origin, 1, liquid.data());
+      for (int a = 0; a < 3; ++a) {
+        gather(grids[a]->constTree(), origin, 1, speed[a].data());
+        if (moving) gather(solidSpeed[a]->constTree(), origin, 1, push[a].data());
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        for (auto it = asked[axis].beginOn(); it; ++it) {
+          const int offset = static_cast<int>(it.pos()), at = blockIndex(offset);
+          const Coord c = origin + Coord(offset >> 6, (offset >> 3) & 7, offset & 7);
+          if (beyondOpening(solid, c, axis)) continue;
+          const float *here = distance.data() + at, *below = here - kStride[axis];
+          openvdb::Vec3f normal(0.0f), velocity(0.0f);
+          for (int a = 0; a < 3; ++a) {
+            normal[a] =
+                a == axis
+                    ? here[0] - below[0]
+                    : 0.25f * (here[kStride[a]] - here[-kStride[a]] + below[kStride[a]] - below[-kStride[a]]);
+            velocity[a] = a == axis ? speed[a][at] : across(speed[a].data() + at, axis, a);
+            if (moving) velocity[a] -= a == axis ? push[a][at] : across(push[a].data() + at, axis, a);
+          }
+          // In the middle of a thin wall both sides read the velocity. Deep inside a solid there is no
+          // normal, and nothing does.
+          const bool within = *here < 0.0f && *below < 0.0f && here[kStride[axis]] > *here;
+          if (within && wall.getValue(shifted(c, axis, -2)) > *below) {
+            changes[n].push_back({own[axis]->buffer().data() + offset, speed[axis][at] - velocity[axis]});
+            continue;
+          }
+          const float length = normal.length();
+          if (length < 0.5f * static_cast<float>(solid.voxelSize)) continue;
+          normal /= length;
+          const float outward = velocity.dot(normal);
+          if (outward >= 0.0f) {
+            const bool wet = liquid[at] < 0.0f || liquid[at - kStride[axis]] < 0.0f;
+            if (!wet || (anyLeaving && (leaving.isValueOn(c) || leaving.isValueOn(shifted(c, axis, -1)))))
+              continue;
+          }
+          changes[n].push_back(
+              {own[axis]->buffer().data() + offset, speed[axis][at] - outward * normal[axis]});
+        }
+      }
+    }
+  });
+  tbb::parallel_for(Range(0, changes.size()), [&](const Range& range) {
+    for (std::size_t n = range.begin(); n < range.end(); ++n) {
+      for (const Change& change : changes[n]) *change.value = change.to;
+    }
+  });
+}
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,252 @@
+// Open areas by marching squares on nodal distances: Ng, Min, Gibou, "An efficient fluid-solid coupling
+// algorithm for single-phase flows", 2009, section 3; Min and Gibou, "Geometric integration over irregular
+// domains", 2007.
+#include "sim/solids/open_faces.h"
+
+#include "sim/grid/mac_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace fluidtex::sim {
+
+namespace {
+
+// Open shares below this count as closed: they would let next to nothing through and spoil the matrix.
+constexpr double kClosed = 1e-3;
+
+// Walls of half a cell are seen: samples between cell centres are no farther apart than this share of one.
+constexpr double kThinnestWall = 0.25;
+
+// So many cells from a surface, a cell's centre has none at the cell's corners: its half diagonal, and what
+// distances that are interpolated between places of a lattice may be off.
+constexpr double kClear = 1.2;
+
+// Area of the part of the unit square where the distance is positive; corners in order, no saddle.
+double polygonArea(const std::array<double, 4>& d) {
+  static constexpr double kX[4] = {0, 1, 1, 0}, kY[4] = {0, 0, 1, 1};
+  double x[8], y[8];
+  int n = 0;
+  for (int a = 0; a < 4; ++a) {
+    const int b = (a + 1) & 3;
+    if (d[a] > 0.0) {
+      x[n] = kX[a];
+      y[n++] = kY[a];
+    }
+    if ((d[a] > 0.0) != (d[b] > 0.0)) {
+      const double t = d[a] / (d[a] - d[b]);
+      x[n] = kX[a] + t * (kX[b] - kX[a]);
+      y[n++] = kY[a] + t * (kY[b] - kY[a]);
+    }
+  }
+  double twice = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const int j = (i + 1) % n;
+    twice += x[i] * y[j] - x[j] * y[i];
+  }
+  return 0.5 * twice;
+}
+
+// Corner triangle of a saddle: corner a alone has its sign.
+double cornerArea(double corner, double next, double previous) {
+  return 0.5 * corner / (corner - next) * corner / (corner - previous);
+}
+
+double snapped(double fraction) {
+  if (fraction < kClosed) return 0.0;
+  constexpr double kRounding = 1e-6;
+  return fraction > 1.0 - kRounding ? 1.0 : fraction;
+}
+
+// Whether a solid crosses the way between two places outside it, so many metres apart, where the distance is
+// low and high. Distances never change by more than one gets on; samples are no farther apart than `least`.
+bool isCrossed(const SolidDistance& distance, const Vec3d& from, const Vec3d& to, double low, double high,
+               double length, double least) {
+  if (low + high > length || length <= least) return false;
+  const Vec3d middle = 0.5 * (from + to);
+  const double there = distance(middle), half = 0.5 * length;
+  return there < 0.0 || isCrossed(distance, from, middle, low, there, half, least) ||
+         isCrossed(distance, middle, to, there, high, half, least);
+}
+
+// Distances at the corners and centres of a block's cells and of those below it, found when they are asked
+// for.
+class CellPlaces {
+ public:
+  CellPlaces(const SolidDistance& distance, const Coord& origin, double h)
+      : m_distance(distance), m_origin(origin), m_h(h) {
+    m_corner.fill(kUnknown);
+    m_centre.fill(kUnknown);
+  }
+  static constexpr int kCells = kLeafDim + 1;  // -1 to 7
+  static int index(const Coord& cell) {
+    return ((cell[0] + 1) * kCells + cell[1] + 1) * kCells + cell[2] + 1;
+  }
+  Vec3d cornerPlace(const Coord& at) const { return (m_origin + at).asVec3d() * m_h; }
+  Vec3d centrePlace(const Coord& cell) const { return ((m_origin + cell).asVec3d() + Vec3d(0.5)) * m_h; }
+  // Each from -1 to 8.
+  double corner(const Coord& at) {
+    double& value = m_corner[((at[0] + 1) * kCorners + at[1] + 1) * kCorners + at[2] + 1];
+    if (value == kUnknown) {
+      value = m_distance(cornerPlace(at));
+      if (std::abs(value) < kOnWall * m_h) value = 0.0;
+    }
+    return value;
+  }
+  // Each from -1 to 7.
+  double centre(const Coord& cell) {
+    double& value = m_centre[index(cell)];
+    if (value == kUnknown) value = m_distance(centrePlace(cell));
+    return value;
+  }
+
+ private:
+  static constexpr int kCorners = kLeafDim + 2;
+  static constexpr double kUnknown = std::numeric_limits<double>::max();
+  const SolidDistance& m_distance;
+  Coord m_origin;
+  double m_h;
+  std::array<double, kCorners * kCorners * kCorners> m_corner;
+  std::array<double, kCells * kCells * kCells> m_centre;
+};
+
+// Corners of a cell: number n lies at the upper end of axis a where bit a is set.
+constexpr int kCellCorners = 8;
+constexpr unsigned kAllCorners = 0xff;
+
+Coord cornerOf(const Coord& cell, int n) {
+  return cell.offsetBy(n & 1, n >> 1 & 1, n >> 2);
+}
+
+// Of a cell that a thin wall parts, the open corners on one side, a bit each: that of its centre, or where
+// that lies in the wall, the roomier one. Corners are together where the edge between them is open. All
+// corners where nothing parts them. A cell must not join both sides of a wall.
+unsigned cornersOfOneSide(CellPlaces& places, const SolidDistance& distance, const Coord& cell, double h) {
+  const double diagonal = 0.5 * std::sqrt(3.0) * h, middle = places.centre(cell);
+  if (std::abs(middle) >= diagonal) return kAllCorners;
+  std::array<double, kCellCorners> d;
+  std::array<Vec3d, kCellCorners> place;
+  unsigned open = 0;
+  for (int n = 0; n < kCellCorners; ++n) {
+    d[n] = places.corner(cornerOf(cell, n));
+    place[n] = places.cornerPlace(cornerOf(cell, n));
+    if (d[n] > 0.0) open |= 1u << n;
+  }
+  const auto grown = [&](unsigned side) {
+    for (unsigned before = 0; before != side;) {
+      before = side;
+      for (int n = 0; n < kCellCorners; ++n) {
+        if ((side >> n & 1u) == 0) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+          const int other = n ^ (1 << axis);
+          if ((open >> other & 1u) == 0 || (side >> other & 1u) != 0) continue;
+          if (!isCrossed(distance, place[n], place[other], d[n], d[other], h, kThinnestWall * h))
+            side |= 1u << other;
+        }
+      }
+    }
+    return side;
+  };
+  unsigned best = 0;
+  if (middle > 0.0) {
+    const Vec3d x = places.centrePlace(cell);
+    for (int n = 0; n < kCellCorners; ++n) {
+      if ((open >> n & 1u) != 0 &&
+          !isCrossed(distance, x, place[n], middle, d[n], diagonal, kThinnestWall * h))
+        best |= 1u << n;
+    }
+    best = grown(best);
+  } else {
+    double most = 0.0;
+    for (unsigned left = open; left != 0;) {
+      const unsigned side = grown(left & (~left + 1u));
+      double room = 0.0;
+      for (int n = 0; n < kCellCorners; ++n)
+        if ((side >> n & 1u) != 0) room += d[n];
+      if (room > most) {
+        most = room;
+        best = side;
+      }
+      left &= ~side;
+    }
+  }
+  return best == open ? kAllCorners : best;
+}
+
+}  // namespace
+
+FaceShares openFaceShares(const SolidDistance& distance, const FloatTree& cellDistances,
+                          const CoordBBox& domain, double h, const Coord& origin) {
+  FaceShares faces;
+  CellPlaces places(distance, origin, h);
+  constexpr int kCells = CellPlaces::kCells;
+  std::array<unsigned, kCells * kCells * kCells> side;
+  side.fill(0);
+  const auto sideOf = [&](const Coord& cell) {
+    unsigned& known = side[CellPlaces::index(cell)];
+    // A cell without an open corner has all of them on its side.
+    if (known == 0) known = cornersOfOneSide(places, distance, cell, h);
+    return known;
+  };
+  for (int c = 0; c < kLeafSize; ++c) {
+    const Coord local(c >> 6, (c >> 3) & 7, c & 7);
+    for (int axis = 0; axis < 3; ++axis) {
+      // Only the faces of the domain's own cells are open, also where a side is no wall.
+      Coord below = local;
+      below[axis] -= 1;
+      faces[axis][c] = 0.0f;
+      if (!domain.isInside(origin + local) && !domain.isInside(origin + below)) continue;
+      // What lies below may not be known.
+      const double far = local[axis] > 0 ? std::min(cellDistances.getValue(origin + local),
+                                                    cellDistances.getValue(origin + below))
+                                         : cellDistances.getValue(origin + local) - h;
+      if (far > kClear * h) {
+        faces[axis][c] = 1.0f;
+        continue;
+      }
+      const double low = places.centre(below), high = places.centre(local);
+      if (std::max(low, high) < -kClear * h) continue;
+      if (std::min(low, high) > kClear * h) {
+        faces[axis][c] = 1.0f;
+        continue;
+      }
+      // Around the face: the corners of the cell at the lower end of the axis.
+      const int s = 1 << (axis + 1) % 3, t = 1 << (axis + 2) % 3, corners[4] = {0, s, s | t, t};
+      std::array<double, 4> d;
+      for (int n = 0; n < 4; ++n) d[n] = places.corner(cornerOf(local, corners[n]));
+      const auto [least, most] = std::minmax({d[0], d[1], d[2], d[3]});
+      // All corners on walls: in the plane of one the face is shut, between two it is open.
+      const bool between = least == 0.0 && most == 0.0 && low > 0.0 && high > 0.0;
+      if (most <= 0.0 && !between) continue;
+      if (low > 0.0 && high > 0.0 &&
+          isCrossed(distance, places.centrePlace(below), places.centrePlace(local), low, high, h,
+                    kThinnestWall * h))
+        continue;
+      const unsigned lowSide = sideOf(below) >> (1 << axis), highSide = sideOf(local);
+      for (int n = 0; n < 4; ++n)
+        if ((lowSide & highSide & 1u << corners[n]) == 0) d[n] = -std::abs(d[n]);
+      faces[axis][c] = between ? 1.0f : static_cast<float>(openAreaFraction(d[0], d[1], d[2], d[3]));
+    }
+  }
+  return faces;
+}
+
+double openAreaFraction(double d00, double d10, double d11, double d01) {
+  const std::array<double, 4> d{d00, d10, d11, d01};
+  const int positive = (d00 > 0.0) + (d10 > 0.0) + (d11 > 0.0) + (d01 > 0.0);
+  if (positive == 0) return 0.0;
+  if (std::min({d00, d10, d11, d01}) >= 0.0) return 1.0;
+  const bool saddle = positive == 2 && (d00 > 0.0) == (d11 > 0.0);
+  if (!saddle) return snapped(polygonArea(d));
+  // The middle decides whether the two equal corners are joined.
+  const bool joined = d00 + d10 + d11 + d01 > 0.0;
+  double corners = 0.0;
+  for (int a = 0; a < 4; ++a) {
+    if ((d[a] > 0.0) != joined) corners += cornerArea(d[a], d[(a + 1) & 3], d[(a + 3) & 3]);
+  }
+  return snapped(joined ? 1.0 - corners : corners);
+}
+
+}  // namespace fluidtex::sim

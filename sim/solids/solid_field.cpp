@@ -1,0 +1,221 @@
+#include "sim/solids/solid_field.h"
+
+#include "sim/grid/mac_grid.h"
+#include "sim/solids/open_faces.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace fluidtex::sim {
+
+namespace {
+
+// Calls body(origin, size) for the parts of a chunk that touch the box: for the chunk as a whole where
+// that says it is settled, and else for each of its blocks.
+template <class Body>
+void forPieces(const Coord& chunk, const CoordBBox& box, const Body& body) {
+  const CoordBBox all = CoordBBox::createCube(chunk, kChunkDim);
+  if (box.isInside(all) && body(chunk, kChunkDim)) return;
+  for (int n = 0; n < 64; ++n) {
+    const Coord origin = chunk + (Coord(n >> 4, (n >> 2) & 3, n & 3) << 3);
+    if (box.hasOverlap(CoordBBox::createCube(origin, kLeafDim))) body(origin, kLeafDim);
+  }
+}
+
+// At these shares of a cell along the axes.
+Vec3d placeOf(const Coord& cell, const Vec3d& share, double h) {
+  return (cell.asVec3d() + share) * h;
+}
+
+Vec3d middleOf(const Coord& origin, int size, double h) {
+  return (origin.asVec3d() + Vec3d(0.5 * size)) * h;
+}
+
+// Which level of a tree has tiles of this many cells.
+int levelOf(int size) {
+  return size == kChunkDim ? 2 : 1;
+}
+
+// The distance at a cell's centre. Solids that touch know only their own surfaces, and what is nearest may be
+// a joint between them. A place in the open has a ball of its own distance around it that holds no solid: the
+// way to the nearest of these balls is the depth. Where none is near and all around is solid, it is half a
+// cell.
+double centreDistance(const SolidDistance& distance, const Coord& cell, double h) {
+  // The balls may miss the surface's nearest point by this share of a cell.
+  constexpr double kAside = 0.15;
+  // What is left between two solids may be a gap that is closed: balls below this radius, in cells, say
+  // nothing.
+  constexpr double kSmallest = 0.1;
+  const double d = distance(placeOf(cell, Vec3d(0.5), h));
+  if (d > 0.0 || d <= -0.5 * h) return d;
+  double depth = kForever;
+  bool allSolid = true;
+  const auto look = [&](const Vec3d& way, double closed) {
+    const double there = distance(placeOf(cell, Vec3d(0.5) + way, h));
+    allSolid = allSolid && there <= closed;
+    if (there > kSmallest * h) depth = std::min(depth, std::max(0.0, way.length() * h - there));
+    return there;
+  };
+  const auto isTrue = [&] { return depth <= -d + kAside * h; };
+  // Most often the surface lies straight ahead.
+  Vec3d ahead;
+  for (int a = 0; a < 3; ++a) {
+    Vec3d way(0.0);
+    way[a] = 1.0;
+    ahead[a] = look(way, 0.0) - look(-way, 0.0);
+  }
+  if (ahead.normalize()) look((0.25 - d / h) * ahead, kOnWall * h);
+  for (const double far : {0.5, 0.375, 0.25, 0.125}) {
+    for (int n = 0; n < 27 && !isTrue(); ++n)
+      if (n != 13) look(far * Vec3d(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1), kOnWall * h);
+  }
+  if (isTrue()) return d;
+  return depth < kForever || allSolid ? -std::min(depth, 0.5 * h) : d;
+}
+
+FloatGrid::Ptr cellDistances(const SolidDistance& distance, const CoordBBox& domain, const Chunks& chunks,
+                             double h) {
+  const float band = static_cast<float>(kSolidBand * h);
+  FloatGrid::Ptr grid = makePhi(h, band);
+  grid->setName("solidPhi");
+  struct Piece {
+    Coord origin;
+    int size;
+    std::unique_ptr<FloatLeaf> leaf;  // null: solid throughout
+  };
+  const CoordBBox box = grown(domain, kSolidMargin);
+  std::vector<std::vector<Piece>> pieces(chunks.size());
+  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t n) {
+    forPieces(chunks[n], box, [&](const Coord& origin, int size) {
+      // Farther than this from its middle, none of its cells is in the band.
+      const double radius = (0.5 * std::sqrt(3.0) * (size - 1) + kSolidBand) * h;
+      const double middle = distance(middleOf(origin, size, h));
+      if (std::abs(middle) > radius) {
+        if (middle < 0.0) pieces[n].push_back({origin, size, nullptr});
+        return true;
+      }
+      if (size > kLeafDim) return false;
+      auto leaf = std::make_unique<FloatLeaf>(origin, band, false);
+      for (int c = 0; c < kLeafSize; ++c) {
+        const double d = centreDistance(distance, leaf->offsetToGlobalCoord(c), h);
+        leaf->setValueOnly(c, std::clamp(static_cast<float>(d), -band, band));
+        if (std::abs(d) < band) leaf->setActiveState(c, true);
+      }
+      pieces[n].push_back({origin, size, std::move(leaf)});
+      return true;
+    });
+  });
+  for (auto& ofChunk : pieces) {
+    for (Piece& piece : ofChunk) {
+      if (piece.leaf != nullptr) {
+        grid->tree().addLeaf(piece.leaf.release());
+      } else {
+        grid->tree().addTile(levelOf(piece.size), piece.origin, -band, false);
+      }
+    }
+  }
+  return grid;
+}
+
+// The three grids of open shares.
+std::array<FloatGrid::Ptr, 3> openFaces(const SolidDistance& distance, const CoordBBox& domain,
+                                        const Chunks& chunks, const FloatTree& phi, double h) {
+  struct Piece {
+    Coord origin;
+    int size;
+    std::unique_ptr<FaceShares> faces;  // null: open throughout
+  };
+  const CoordBBox box(domain.min(), domain.max().offsetBy(1));  // the last cells' upper faces as well
+  std::vector<std::vector<Piece>> pieces(chunks.size());
+  tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t n) {
+    forPieces(chunks[n], box, [&](const Coord& origin, int size) {
+      const double radius = 0.5 * std::sqrt(3.0) * size * h;
+      const double middle = distance(middleOf(origin, size, h));
+      if (middle < -radius) return true;
+      if (middle > radius && domain.isInside(CoordBBox::createCube(origin, size))) {
+        pieces[n].push_back({origin, size, nullptr});
+        return true;
+      }
+      if (size > kLeafDim) return false;
+      pieces[n].push_back(
+          {origin, size, std::make_unique<FaceShares>(openFaceShares(distance, phi, domain, h, origin))});
+      return true;
+    });
+  });
+  std::array<FloatGrid::Ptr, 3> open;
+  static constexpr const char* kNames[3] = {"openU", "openV", "openW"};
+  for (int axis = 0; axis < 3; ++axis) {
+    FloatGrid::Ptr grid = FloatGrid::create(0.0f);
+    grid->setTransform(faceTransform(h, axis));
+    grid->setName(kNames[axis]);
+    for (const auto& ofChunk : pieces) {
+      for (const Piece& piece : ofChunk) {
+        if (piece.faces == nullptr) {
+          grid->tree().addTile(levelOf(piece.size), piece.origin, 1.0f, true);
+          continue;
+        }
+        FloatLeaf* leaf = grid->tree().touchLeaf(piece.origin);
+        const auto& shares = (*piece.faces)[axis];
+        for (int c = 0; c < kLeafSize; ++c) {
+          if (shares[c] > 0.0f) leaf->setValueOn(c, shares[c]);
+        }
+      }
+    }
+    grid->tree().prune();
+    open[axis] = grid;
+  }
+  return open;
+}
+
+// Gaps between solids that are narrower than a cell, so that no corner of the grid lies in them, are closed:
+// nothing gets into a cell without an open face, or out of it. It is made part of the solids: liquid that was
+// poured into it would be there for ever, and make surface beside it anew in each step.
+void closeNarrowGaps(FloatGrid& phi, const std::array<FloatGrid::Ptr, 3>& open, const CoordBBox& domain,
+                     double h) {
+  const auto leaves = leavesOf(phi.tree());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    FloatLeaf& leaf = *leaves[n];
+    const float edge = 0.5f * static_cast<float>(h);
+    std::array<std::optional<openvdb::tree::ValueAccessor<const FloatTree>>, 3> faces;
+    for (int i = 0; i < kLeafSize; ++i) {
+      const float value = leaf.getValue(i);
+      const Coord cell = leaf.offsetToGlobalCoord(i);
+      if (!(value > 0.0f) || value >= edge || !domain.isInside(cell)) continue;
+      bool any = false;
+      for (int axis = 0; axis < 3 && !any; ++axis) {
+        if (!faces[axis]) faces[axis].emplace(open[axis]->constTree());
+        Coord above = cell;
+        above[axis] += 1;
+        any = faces[axis]->getValue(cell) > 0.0f || faces[axis]->getValue(above) > 0.0f;
+      }
+      if (!any) leaf.setValueOnly(i, -edge);
+    }
+  });
+}
+
+}  // namespace
+
+SolidField makeSolidField(const SolidDistance& distance, const SolidDistance& openDistance,
+                          const SolidDistance& mirrored, const CoordBBox& domain, Chunks chunks, double h) {
+  SolidField field;
+  field.voxelSize = h;
+  field.domain = domain;
+  field.phi = cellDistances(distance, domain, chunks, h);
+  field.phiMirrored = mirrored ? cellDistances(mirrored, domain, chunks, h) : field.phi;
+  const std::array<FloatGrid::Ptr, 3> open = openFaces(openDistance, domain, chunks, field.phi->tree(), h);
+  const auto& [u, v, w] = open;
+  field.openU = u;
+  field.openV = v;
+  field.openW = w;
+  closeNarrowGaps(*field.phi, open, domain, h);
+  if (field.phiMirrored != field.phi) closeNarrowGaps(*field.phiMirrored, open, domain, h);
+  field.visibility = visibilityOf(*field.phi, {u.get(), v.get(), w.get()});
+  field.chunks = std::move(chunks);
+  return field;
+}
+
+}  // namespace fluidtex::sim

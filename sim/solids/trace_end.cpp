@@ -1,0 +1,108 @@
+#include "sim/solids/trace_end.h"
+
+#include "sim/grid/leaf_table.h"
+#include "sim/grid/trilinear.h"
+#include "sim/solids/solid_layers.h"
+
+#include <algorithm>
+
+namespace fluidtex::sim {
+namespace {
+
+using openvdb::Vec3f;
+
+// A field at a place, in cells from the corner of the cell `origin`.
+float valueAt(const FloatGrid::ConstUnsafeAccessor& field, const Coord& origin, const Vec3f& x) {
+  Coord low = origin;
+  float t[3];
+  for (int a = 0; a < 3; ++a) {
+    const float from = x[a] - 0.5f, whole = std::floor(from);
+    low[a] += static_cast<int>(whole);
+    t[a] = from - whole;
+  }
+  float corners[8];
+  for (int n = 0; n < 8; ++n) corners[n] = field.getValue(low.offsetBy(n >> 2, n >> 1 & 1, n & 1));
+  return trilinear(corners, 4, 2, t[0], t[1], t[2]);
+}
+
+bool sees(const VisibleCells& visible, const Coord& offset) {
+  int at = VisibleCells::kMiddle;
+  for (int a = 0; a < 3; ++a) at += offset[a] * VisibleCells::kStride[a];
+  return visible.sees(at);
+}
+
+}  // namespace
+
+TraceEnd::TraceEnd(const FloatGrid& solidPhi, const Visibility* visibility)
+    : m_distance(solidPhi.getConstUnsafeAccessor()),
+      m_tree(solidPhi.constTree()),
+      m_visibility(visibility),
+      m_h(static_cast<float>(solidPhi.voxelSize()[0])) {}
+
+void TraceEnd::setLeaf(const Coord& origin, int reach) {
+  m_origin = origin;
+  float scratch[kLeafSize];
+  std::copy_n(leafValues(m_tree, origin, scratch), kLeafSize, m_solid.begin());
+  m_nearSolids = false;
+  for (int n = 0; n < 27 && !m_nearSolids; ++n) {
+    const Coord beside =
+        origin.offsetBy(kLeafDim * (n / 9 - 1), kLeafDim * (n / 3 % 3 - 1), kLeafDim * (n % 3 - 1));
+    m_nearSolids = m_tree.probeConstLeaf(beside) != nullptr || m_tree.getValue(beside) < 0.0f;
+  }
+  m_nearThinWalls = m_nearSolids && m_visibility != nullptr &&
+                    m_visibility->touches(grown(CoordBBox::createCube(origin, kLeafDim), reach));
+}
+
+TraceEnd::End TraceEnd::walk(const Vec3f& start, const Vec3f& aim) const {
+  // Cells that follow each other lie side by side, so that each tells of the next.
+  constexpr float kStep = 0.5f;
+  const float deep = -kDeepInSolid * m_h;
+  const Vec3f way = aim - start;
+  const float length = way.length();
+  // A trace from a face starts in the cell that it leads into.
+  Coord cell = cellAt(start + way * std::min(0.5f, 0.5f * kStep / std::max(length, kStep)));
+  for (float gone = kStep; gone < length + kStep; gone += kStep) {
+    const Vec3f x = gone < length ? start + way * (gone / length) : aim;
+    const Coord next = cellAt(x);
+    if (next != cell) {
+      const VisibleCells* visible = m_nearThinWalls ? m_visibility->around(cell) : nullptr;
+      if (visible != nullptr && !sees(*visible, next - cell)) {
+        const float farthest = std::min(length, gone + 1.0f);
+        return {start + way * (farthest / length), cell};
+      }
+      cell = next;
+    }
+    if (m_distance.getValue(next) < 0.0f && valueAt(m_distance, m_origin, x) < deep) return {x, cell};
+  }
+  return {aim, cell};
+}
+
+Vec3f TraceEnd::onOwnSide(int offset, const Vec3f& start, const Vec3f& aim, int axis) const {
+  if (isClear(offset, start, aim)) return aim;
+  auto [place, cell] = walk(start, aim);
+  const VisibleCells* visible = m_nearThinWalls ? m_visibility->around(cell) : nullptr;
+  if (visible == nullptr) return place;
+  Vec3f middle;
+  for (int a = 0; a < 3; ++a) middle[a] = static_cast<float>(cell[a] - m_origin[a]) + 0.5f;
+  if (axis >= 0) place[axis] = std::clamp(place[axis], middle[axis] - 0.5f, middle[axis] + 0.5f);
+  // The cells beside are those on the place's side of the middle, along one axis or several.
+  for (int n = 1; n < 8;) {
+    Coord beside(0);
+    int farthest = -1;
+    for (int a = 0; a < 3; ++a) {
+      const float away = place[a] - middle[a];
+      if ((n >> a & 1) == 0 || a == axis || away == 0.0f) continue;
+      beside[a] = away < 0.0f ? -1 : 1;
+      if (farthest < 0 || std::abs(away) > std::abs(place[farthest] - middle[farthest])) farthest = a;
+    }
+    if (sees(*visible, beside)) {
+      ++n;
+      continue;
+    }
+    place[farthest] = middle[farthest];
+    n = 1;
+  }
+  return place;
+}
+
+}  // namespace fluidtex::sim

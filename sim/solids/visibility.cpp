@@ -1,0 +1,306 @@
+#include "sim/solids/visibility.h"
+
+#include "sim/solids/solid_layers.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <set>
+
+namespace fluidtex::sim {
+namespace {
+
+// Walls thicker than this many cells are none: stencils end within them.
+constexpr int kThickest = 5;
+// What is known around a block: the cells that are asked about, the way from one in the solid to the open,
+// and from there on.
+constexpr int kHalo = 8, kSide = kLeafDim + 2 * kHalo;
+constexpr int kStride[3] = {kSide * kSide, kSide, 1}, kLastCell = kSide * kSide * kSide - 1;
+// Farther from solids than this, in cells, a distance may be one that nobody has asked for.
+constexpr float kSurelyKnown = 2.9f;
+// From the open cell that looks.
+constexpr int kFar = 5, kBox = 2 * kFar + 1;
+constexpr int kBoxStride[3] = {kBox * kBox, kBox, 1};
+constexpr int kBoxMiddle = kFar * (kBoxStride[0] + kBoxStride[1] + kBoxStride[2]);
+
+struct Surroundings {
+  std::vector<float> distance;                 // in cells
+  std::array<std::vector<float>, 3> openness;  // of the lower faces
+
+  Surroundings(const FloatGrid& solidPhi, const std::array<const FloatGrid*, 3>& open, const Coord& origin)
+      : distance(kSide * kSide * kSide) {
+    gather(solidPhi.constTree(), origin, kHalo, distance.data());
+    const float scale = static_cast<float>(1.0 / solidPhi.voxelSize()[0]);
+    for (float& d : distance) d *= scale;
+    for (int a = 0; a < 3; ++a) {
+      openness[a].resize(distance.size());
+      gather(open[a]->constTree(), origin, kHalo, openness[a].data());
+    }
+  }
+
+  // Nearer than a cell's half diagonal to every cell centre beside its surface.
+  bool anySolid() const {
+    return std::any_of(distance.begin(), distance.end(), [](float d) { return d < 0.87f; });
+  }
+  // In the open. Beyond what is known of the solids distances are those of the open, but no face is.
+  bool isOpen(int cell) const {
+    if (distance[cell] < -kDeepInSolid) return false;
+    if (distance[cell] < kSurelyKnown) return true;
+    for (int a = 0; a < 3; ++a)
+      if (openness[a][cell] > 0.0f || openness[a][std::min(cell + kStride[a], kLastCell)] > 0.0f) return true;
+    return false;
+  }
+  // Whether a way leads from a cell to the next one along an axis.
+  bool leadsUp(int cell, int axis) const {
+    const int next = cell + kStride[axis];
+    return isOpen(cell) && isOpen(next) && openness[axis][next] > 0.0f;
+  }
+
+  // Marks the cells from which a row of cells leaves the open to where it comes back, where these are no
+  // more than kThickest apart. True if any.
+  bool markThinWalls(int first, int axis, std::vector<char>& marks) const {
+    int last = -kSide;  // the last open cell
+    bool left = false, any = false;
+    for (int i = 0; i < kSide; ++i) {
+      const int cell = first + i * kStride[axis];
+      if (!isOpen(cell)) {
+        left = true;
+        continue;
+      }
+      if (last == i - 1 && openness[axis][cell] <= 0.0f) left = true;
+      if (left && i - last <= kThickest) {
+        any = true;
+        for (int n = last; n <= i; ++n) marks[first + n * kStride[axis]] = 1;
+      }
+      last = i;
+      left = false;
+    }
+    return any;
+  }
+  // The cells beside thin walls, and those in them; none where there are none.
+  std::vector<char> besideThinWalls() const {
+    std::vector<char> marks(distance.size(), 0);
+    bool any = false;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int p = kStride[(axis + 1) % 3], q = kStride[(axis + 2) % 3];
+      for (int i = 0; i < kSide; ++i)
+        for (int j = 0; j < kSide; ++j) any = markThinWalls(i * p + j * q, axis, marks) || any;
+    }
+    if (!any) return {};
+    // As far as stencils reach, one axis after the other.
+    for (const int stride : kStride) {
+      const std::vector<char> before = marks;
+      for (std::size_t at = 0; at < marks.size(); ++at) {
+        if (before[at] == 0) continue;
+        for (int n = -VisibleCells::kReach; n <= VisibleCells::kReach; ++n) {
+          const auto there = static_cast<std::ptrdiff_t>(at) + n * stride;
+          if (there >= 0 && there < static_cast<std::ptrdiff_t>(marks.size())) marks[there] = 1;
+        }
+      }
+    }
+    return marks;
+  }
+
+  // The cell in the open from which a cell gets its values: downhill in depth, through faces that are open
+  // where there are any. Itself in the open; -1 for none within the layers that hold values.
+  int sourceOf(int cell) const {
+    for (int step = 0; !isOpen(cell); ++step) {
+      if (step > static_cast<int>(kSolidLayers) + 1) return -1;
+      int best = cell;
+      for (const bool through : {true, false}) {
+        for (int a = 0; a < 3; ++a) {
+          for (const int next : {cell - kStride[a], cell + kStride[a]}) {
+            if (through && openness[a][std::max(cell, next)] <= 0.0f) continue;
+            if (distance[next] > distance[best]) best = next;
+          }
+        }
+        if (best != cell) break;
+      }
+      if (best == cell) return -1;
+      cell = best;
+    }
+    return cell;
+  }
+};
+
+using Reached = std::array<bool, kBox * kBox * kBox>;
+
+// Which cells up to `far` from an open one a way leads to that turns back along no axis.
+void walk(const Surroundings& around, int from, int far, Reached& reached) {
+  reached[kBoxMiddle] = true;
+  // From the cells one step nearer along each axis; of one octant, the upper one where a sign is 1.
+  const auto fill = [&](int si, int sj, int sk) {
+    const int out[3] = {si * kStride[0], sj * kStride[1], sk * kStride[2]};
+    const int boxOut[3] = {si * kBoxStride[0], sj * kBoxStride[1], sk * kBoxStride[2]};
+    const int sign[3] = {si, sj, sk};
+    for (int i = 0; i <= far; ++i) {
+      for (int j = 0; j <= far; ++j) {
+        for (int k = 0; k <= far; ++k) {
+          const int steps[3] = {i, j, k};
+          const int cell = from + i * out[0] + j * out[1] + k * out[2];
+          const int at = kBoxMiddle + i * boxOut[0] + j * boxOut[1] + k * boxOut[2];
+          bool any = i + j + k == 0;
+          for (int a = 0; a < 3 && !any; ++a) {
+            any = steps[a] > 0 && reached[at - boxOut[a]] &&
+                  around.leadsUp(sign[a] > 0 ? cell - kStride[a] : cell, a);
+          }
+          reached[at] = any;
+        }
+      }
+    }
+  };
+  for (int octant = 0; octant < 8; ++octant)
+    fill((octant & 4) != 0 ? -1 : 1, (octant & 2) != 0 ? -1 : 1, (octant & 1) != 0 ? -1 : 1);
+}
+
+std::unique_ptr<Visibility::Leaf> look(const Surroundings& around) {
+  const std::vector<char> asked = around.besideThinWalls();
+  if (asked.empty()) return nullptr;
+  auto leaf = std::make_unique<Visibility::Leaf>();
+  bool any = false;
+  std::vector<int> source(around.distance.size(), -2);  // -2: not asked yet
+  const auto sourceOf = [&](int cell) {
+    if (source[cell] == -2) source[cell] = around.sourceOf(cell);
+    return source[cell];
+  };
+  Reached reached;
+  constexpr int kReach = VisibleCells::kReach;
+  for (int c = 0; c < kLeafSize; ++c) {
+    const int i = (c >> 6) + kHalo, j = ((c >> 3) & 7) + kHalo, k = (c & 7) + kHalo;
+    const int cell = i * kStride[0] + j * kStride[1] + k * kStride[2];
+    if (asked[cell] == 0) continue;
+    const int from = sourceOf(cell);
+    if (from < 0) continue;
+    const Coord fromAt(from / kStride[0], from / kSide % kSide, from % kSide);
+    // Where the cells around get their values from, seen from there; too far away to be seen where beyond
+    // kFar.
+    std::array<Coord, VisibleCells::kCount> way;
+    std::array<bool, VisibleCells::kCount> owned;
+    int far = 0, at = 0;
+    for (int di = -kReach; di <= kReach; ++di) {
+      for (int dj = -kReach; dj <= kReach; ++dj) {
+        for (int dk = -kReach; dk <= kReach; ++dk, ++at) {
+          const int to = sourceOf(cell + di * kStride[0] + dj * kStride[1] + dk * kStride[2]);
+          owned[at] = to >= 0;
+          if (!owned[at]) continue;
+          way[at] = Coord(to / kStride[0], to / kSide % kSide, to % kSide) - fromAt;
+          for (int a = 0; a < 3; ++a) far = std::max(far, std::abs(way[at][a]));
+        }
+      }
+    }
+    far = std::min(far, kFar);
+    for (int a = 0; a < 3; ++a) far = std::min({far, fromAt[a], kSide - 1 - fromAt[a]});
+    walk(around, from, far, reached);
+    VisibleCells& visible = (*leaf)[c];
+    for (at = 0; at < VisibleCells::kCount; ++at) {
+      if (!owned[at]) continue;
+      const Coord& w = way[at];
+      const bool near = std::abs(w[0]) <= far && std::abs(w[1]) <= far && std::abs(w[2]) <= far;
+      if (near && reached[kBoxMiddle + w[0] * kBoxStride[0] + w[1] * kBoxStride[1] + w[2] * kBoxStride[2]])
+        continue;
+      visible.hide(at);
+      any = true;
+    }
+  }
+  return any ? std::move(leaf) : nullptr;
+}
+
+}  // namespace
+
+void goOnBehind(Stencil& values, const VisibleCells& visible, float gap) {
+  if (visible.seesAll()) return;
+  constexpr int kReach = VisibleCells::kReach;
+  std::array<bool, VisibleCells::kCount> known;
+  for (int at = 0; at < VisibleCells::kCount; ++at) known[at] = visible.sees(at);
+  // Outwards from the middle, so that what goes on is what lies there.
+  for (int ring = 1; ring <= 3 * kReach; ++ring) {
+    for (int i = -kReach; i <= kReach; ++i) {
+      for (int j = -kReach; j <= kReach; ++j) {
+        const int k = ring - std::abs(i) - std::abs(j);
+        if (k < 0 || k > kReach) continue;
+        for (const int up : {-1, 1}) {
+          if (k == 0 && up > 0) continue;
+          const int offset[3] = {i, j, up * k};
+          int at = VisibleCells::kMiddle;
+          for (int a = 0; a < 3; ++a) at += offset[a] * VisibleCells::kStride[a];
+          if (known[at]) continue;
+          float sum = 0.0f;
+          int count = 0;
+          for (int a = 0; a < 3; ++a) {
+            if (offset[a] == 0) continue;
+            const int inwards = offset[a] > 0 ? -VisibleCells::kStride[a] : VisibleCells::kStride[a];
+            const float near = values[at + inwards];
+            // Two steps inwards may lead past the middle, but never out of the stencil.
+            const float further = known[at + 2 * inwards] ? 2.0f * near - values[at + 2 * inwards] : near;
+            const bool sameSide = (further < 0.0f) == (near < 0.0f);
+            sum += sameSide || further - near > gap ? further : near;
+            ++count;
+          }
+          values[at] = sum / static_cast<float>(count);
+          known[at] = true;
+        }
+      }
+    }
+  }
+}
+
+void riseBehind(Stencil& values, const VisibleCells& visible, float step) {
+  constexpr int kReach = VisibleCells::kReach;
+  const Stencil before = values;
+  const float middle = before[VisibleCells::kMiddle];
+  for (int at = 0; at < VisibleCells::kCount; ++at) {
+    if (visible.sees(at)) continue;
+    // Back to before the wall, along the axes that it bars.
+    int rest = at, foot = at, steps = 0;
+    for (int a = 0; a < 3; ++a) {
+      const int stride = VisibleCells::kStride[a], away = rest / stride - kReach;
+      rest %= stride;
+      if (away == 0 || visible.sees(VisibleCells::kMiddle + (away < 0 ? -stride : stride))) continue;
+      foot -= away * stride;
+      steps += std::abs(away);
+    }
+    const float near = steps > 0 && visible.sees(foot) ? before[foot] : middle;
+    values[at] = near + step * static_cast<float>(std::max(steps, 1));
+  }
+}
+
+const VisibleCells* Visibility::around(const Coord& cell) const {
+  constexpr int kMask = ~(kLeafDim - 1);
+  const Leaf* there = leaf(Coord(cell.x() & kMask, cell.y() & kMask, cell.z() & kMask));
+  if (there == nullptr) return nullptr;
+  const VisibleCells& visible = (*there)[((cell.x() & 7) << 6) + ((cell.y() & 7) << 3) + (cell.z() & 7)];
+  return visible.seesAll() ? nullptr : &visible;
+}
+
+bool Visibility::touches(const openvdb::CoordBBox& box) const {
+  constexpr int kMask = ~(kLeafDim - 1);
+  for (int i = box.min().x() & kMask; i <= box.max().x(); i += kLeafDim)
+    for (int j = box.min().y() & kMask; j <= box.max().y(); j += kLeafDim)
+      for (int k = box.min().z() & kMask; k <= box.max().z(); k += kLeafDim)
+        if (leaf(Coord(i, j, k)) != nullptr) return true;
+  return false;
+}
+
+std::shared_ptr<const Visibility> visibilityOf(const FloatGrid& solidPhi,
+                                               const std::array<const FloatGrid*, 3>& open) {
+  // Blocks that hold a solid's surface, and those around them.
+  std::set<Coord> origins;
+  for (auto leaf = solidPhi.constTree().cbeginLeaf(); leaf; ++leaf) {
+    for (int n = 0; n < 27; ++n) {
+      origins.insert(leaf->origin() +
+                     Coord(kLeafDim * (n / 9 - 1), kLeafDim * (n / 3 % 3 - 1), kLeafDim * (n % 3 - 1)));
+    }
+  }
+  const std::vector<Coord> all(origins.begin(), origins.end());
+  std::vector<std::unique_ptr<Visibility::Leaf>> leaves(all.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t n) {
+    const Surroundings around(solidPhi, open, all[n]);
+    if (around.anySolid()) leaves[n] = look(around);
+  });
+  auto result = std::make_shared<Visibility>();
+  for (std::size_t n = 0; n < all.size(); ++n)
+    if (leaves[n] != nullptr) result->add(all[n], std::move(leaves[n]));
+  return result->empty() ? nullptr : result;
+}
+
+}  // namespace fluidtex::sim

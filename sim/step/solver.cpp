@@ -1,0 +1,405 @@
+#include "sim/step/solver.h"
+
+#include "sim/flows/flows.h"
+#include "sim/flows/move_surface.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/grid/require.h"
+#include "sim/heat/heat.h"
+#include "sim/shapes/shapes.h"
+#include "sim/solids/domain.h"
+#include "sim/solids/solids.h"
+#include "sim/step/check_options.h"
+#include "sim/step/describe_liquid.h"
+#include "sim/step/keep_substep.h"
+#include "sim/step/step.h"
+#include "sim/step/step_failures.h"
+#include "sim/surface/level_set.h"
+#include "sim/surface/poured_surface.h"
+#include "sim/velocity/advect_velocity.h"
+#include "sim/volume/owed_volume.h"
+#include "sim/volume/poured_volume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace fluidtex::sim {
+namespace {
+
+// More of the liquid than this share should never be owed; less than so many cells goes unmentioned.
+constexpr double kMostOwed = 0.02, kFewCells = 8.0;
+// Solids that come over no more than this share of the liquid go unmentioned.
+constexpr double kMentioned = 1e-3;
+// How often a step that fails is halved.
+constexpr int kMaxHalvings = 6;
+// Times closer than this share of a frame are one.
+constexpr double kSameTime = 1e-6;
+
+Liquid liquidOf(const State& state, FloatGrid::Ptr phi, Markers markers) {
+  return {std::move(phi),
+          {{state.u, state.v, state.w}},
+          std::move(markers),
+          state.steps,
+          state.ahead,
+          {{state.au, state.av, state.aw}},
+          state.temperature,
+          state.owed,
+          {{state.su, state.sv, state.sw}}};
+}
+
+// A state's liquid, lent: the state has no markers and no acceleration meanwhile, which are too much to keep
+// twice. What a step leaves of them goes back in the end unless it gets others.
+class LentLiquid {
+ public:
+  explicit LentLiquid(State& state)
+      : m_state(state), m_liquid(liquidOf(state, state.phi, std::move(state.markers))) {
+    state.au = state.av = state.aw = nullptr;
+  }
+  ~LentLiquid() {
+    if (!m_lent) return;
+    m_state.markers = std::move(m_liquid.markers);
+    const auto& [au, av, aw] = m_liquid.acceleration.component;
+    m_state.au = au;
+    m_state.av = av;
+    m_state.aw = aw;
+  }
+  LentLiquid(const LentLiquid&) = delete;
+  LentLiquid& operator=(const LentLiquid&) = delete;
+
+  Liquid& operator*() { return m_liquid; }
+  // Nothing goes back.
+  void drop() {
+    m_liquid.markers = {};
+    m_lent = false;
+  }
+
+ private:
+  State& m_state;
+  Liquid m_liquid;
+  bool m_lent = true;
+};
+
+// Copying a grid, or writing and reading it, can change the last bits of its transform, and with them all
+// that is sampled: a state's grids get theirs anew.
+void setTransforms(State& state, double h) {
+  state.phi->setTransform(cellTransform(h));
+  state.u->setTransform(faceTransform(h, 0));
+  state.v->setTransform(faceTransform(h, 1));
+  state.w->setTransform(faceTransform(h, 2));
+  FloatGrid* const more[2][3] = {{state.au.get(), state.av.get(), state.aw.get()},
+                                 {state.su.get(), state.sv.get(), state.sw.get()}};
+  for (const auto& field : more) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (field[axis] != nullptr) field[axis]->setTransform(faceTransform(h, axis));
+    }
+  }
+  if (state.temperature) state.temperature->setTransform(cellTransform(h));
+  if (state.owed) state.owed->setTransform(cellTransform(h));
+}
+
+void store(State& state, Liquid liquid, double h) {
+  state.phi = liquid.phi;
+  state.markers = std::move(liquid.markers);
+  state.steps = liquid.steps;
+  state.ahead = liquid.ahead;
+  state.temperature = liquid.temperature;
+  state.owed = liquid.owed;
+  state.u = liquid.velocity.component[0];
+  state.v = liquid.velocity.component[1];
+  state.w = liquid.velocity.component[2];
+  state.au = liquid.acceleration.component[0];
+  state.av = liquid.acceleration.component[1];
+  state.aw = liquid.acceleration.component[2];
+  state.su = liquid.swelling.component[0];
+  state.sv = liquid.swelling.component[1];
+  state.sw = liquid.swelling.component[2];
+  setTransforms(state, h);
+}
+
+double frameTime(const Options& options, int frame) {
+  return (frame - 1) / options.frameRate;
+}
+
+// The longest step the CFL number allows; `solids` is their speed, and they move by at most one cell. The
+// second term stands for what gravity adds within one cell, so that liquid at rest does not take a step of
+// any length [Bridson, Fluid Simulation for Computer Graphics, sec. 3.3]. Ripples must not grow either.
+double longestStep(const Options& options, double fastest, double solids) {
+  const double h = options.voxelSize();
+  const double speed = fastest + std::sqrt(options.gravity.length() * h);
+  const double frame = 1.0 / options.frameRate;
+  const double longest =
+      speed > 0.0 ? std::min(frame, std::min(options.cfl, kMaxTrace - 1.0) * h / speed) : frame;
+  return std::min({longest, solids > 0.0 ? h / solids : longest, capillaryStep(options)});
+}
+
+// The longest even part of `time` that is no longer than `longest`.
+double evenPart(double time, double longest) {
+  return time / std::ceil(time / longest * (1.0 - kSameTime));
+}
+
+double speedOf(const SolidField& solid) {
+  return solid.speedU == nullptr ? 0.0 : maxAbs({{solid.speedU, solid.speedV, solid.speedW}});
+}
+
+// No part of the surface moves faster, in m/s along an axis.
+double fastest(const Liquid& liquid) {
+  const bool swells = liquid.swelling.component[0] != nullptr;
+  return maxAbs(liquid.velocity) + (swells ? maxAbs(liquid.swelling) : 0.0);
+}
+
+}  // namespace
+
+void checkResolution(const State& state, const Options& options) {
+  const double written = state.phi->voxelSize()[0], asked = options.voxelSize();
+  if (std::abs(written - asked) <= 1e-9 * asked) return;
+  std::ostringstream message;
+  message << "the state was made with cells of " << written << " m, the scene asks for " << asked << " m";
+  throw SolverError(message.str());
+}
+
+Solver::Solver(const Options& options)
+    : m_options(checked(options)), m_solids(std::make_shared<Solids>(options)) {
+  const double h = options.voxelSize();
+  m_state.poured.assign(options.liquid.size(), false);
+  store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0, 0.0, {}}, h);
+  if (options.heat.simulated) m_state.temperature = makeTemperature(h, options.heat.ambient);
+  prepare();
+}
+
+Solver::Solver(const Options& options, State state)
+    : m_options(checked(options)), m_state(std::move(state)), m_solids(std::make_shared<Solids>(options)) {
+  require(m_state.phi && m_state.u && m_state.v && m_state.w, "a state needs a surface and a velocity");
+  checkResolution(m_state, options);
+  setTransforms(m_state, options.voxelSize());
+  if (options.heat.simulated && !m_state.temperature)
+    throw SolverError("the state was made without heat, the scene asks for it");
+  if (!options.heat.simulated) m_state.temperature = nullptr;
+  m_state.poured.resize(options.liquid.size(), false);
+  prepare();
+}
+
+void Solver::prepare() {
+  m_flows = std::make_shared<Flows>(m_options);
+  m_active = m_solids->active(m_state.time);
+  m_solid = solidsAround(m_state.time, *m_state.phi);
+  m_whole = liquidVolume(*m_state.phi, *m_solid) + (m_state.owed ? totalOwed(*m_state.owed) : 0.0);
+  m_warnings = m_solids->warnings();
+  for (std::string& warning : flowWarnings(m_options, *m_solids)) m_warnings.push_back(std::move(warning));
+}
+
+std::shared_ptr<const SolidField> Solver::solidsAround(double time, const FloatGrid& phi,
+                                                       const FloatGrid* more) {
+  std::vector<const FloatGrid*> phis = m_flows->places();
+  phis.push_back(&phi);
+  if (m_state.owed != nullptr) phis.push_back(m_state.owed.get());
+  if (more != nullptr) phis.push_back(more);
+  return m_solids->around(phis, time, m_active);
+}
+
+// Pours what is due and takes over solids that come or go at the present time.
+void Solver::applyEvents() {
+  const double now = m_state.time;
+  const double h = m_options.voxelSize();
+  bool changed = m_state.frame == 0;
+  Liquid liquid = liquidOf(m_state, m_state.phi->deepCopy(), {});
+  std::vector<std::pair<const LiquidBody*, ShapeDistance>> due;
+  std::vector<bool> poured = m_state.poured;
+  FloatGrid dueLiquid(liquid.phi->background());
+  dueLiquid.setTransform(cellTransform(h));
+  for (std::size_t n = 0; n < m_options.liquid.size(); ++n) {
+    const LiquidBody& body = m_options.liquid[n];
+    if (m_state.poured[n] || body.from > now) continue;
+    due.emplace_back(&body, ShapeDistance(body.shape, h, domainBox(m_options)));
+    unite(dueLiquid, due.back().second, domainCells(m_options));
+    poured[n] = true;
+  }
+  const auto before = m_solid;
+  const auto active = m_solids->active(now);
+  const bool solidsChanged = active != m_active;
+  m_active = active;
+  m_solid = solidsAround(now, *liquid.phi, &dueLiquid);
+  if (solidsChanged) {
+    changeSolids(liquid, *before, *m_solid);
+    changed = true;
+  }
+  // What a source puts in while it runs is taken care of by the steps; where there is nothing yet, none are
+  // made.
+  const RunningFlows flows = m_flows->at(now);
+  changed = changed || (isEmpty(liquid) && !flows.sources.empty());
+  for (const auto& [body, shape] : due) {
+    // As far ahead of the present as the velocity of what is there.
+    pour(liquid, shape, pouredSurface(shape, m_solids->distanceAt(now), h),
+         body->velocity + m_options.gravity * liquid.ahead, body->temperature, *m_solid);
+    changed = true;
+  }
+  if (!changed) return;
+  // Making distances anew costs thin liquid, much of it in the middle of a splash.
+  const bool start = m_state.frame == 0;
+  const FloatGrid::Ptr whole = liquid.phi->deepCopy();
+  // Up to the middle of the first step.
+  const double first = longestStep(m_options, fastest(liquid), speedOf(*m_solid));
+  double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
+  StepReport report;
+  for (int halving = 0;; ++halving) {
+    Liquid settled = liquid;
+    settled.phi = liquid.phi->deepCopy();
+    if (settle(settled, *m_solid, kick, m_options, &report, flows)) {
+      liquid = std::move(settled);
+      break;
+    }
+    if (!(kick > 0.0) || halving == kMaxHalvings) fail(now, 2.0 * kick, report);
+    kick *= 0.5;
+  }
+  if (!start && solidsChanged) {
+    const double covered = liquidVolume(*whole, *before) - liquidVolume(*whole, *m_solid);
+    if (covered > kMentioned * m_whole) {
+      std::ostringstream text;
+      text << "at time " << now << " s a solid appears in " << covered
+           << " m3 of liquid, which comes out again beside it";
+      m_warnings.push_back(text.str());
+    }
+  }
+  if (!start) {
+    liquid.owed =
+        owedVolume(*whole, *liquid.phi, liquid.owed.get(), makeVelocity(h), *before, *m_solid, flows, 0.0);
+  }
+  if (!due.empty()) {
+    const auto distance = [&](const Vec3d& x) {
+      double nearest = kForever;
+      for (const auto& [body, shape] : due) nearest = std::min(nearest, shape(x));
+      return nearest;
+    };
+    liquid.owed =
+        withPoured(liquid.owed.get(), {dueLiquid, *whole, distance, start}, *liquid.phi, *m_solid, flows);
+  }
+  store(m_state, std::move(liquid), h);
+  m_state.poured = std::move(poured);
+}
+
+void Solver::tellOfDeficit() {
+  if (m_toldOfDeficit || m_state.owed == nullptr) return;
+  const double owed = totalOwed(*m_state.owed);
+  if (std::abs(owed) <= std::max(kMostOwed * m_whole, kFewCells * std::pow(m_options.voxelSize(), 3))) return;
+  m_toldOfDeficit = true;
+  const Vec3d place = placeOfMost(*m_state.owed);
+  std::ostringstream text;
+  text << "at time " << m_state.time << " s the surface holds " << std::abs(owed) << " m3 "
+       << (owed > 0.0 ? "less" : "more") << " than it should, of " << m_whole << " m3, most of it near ("
+       << place[0] << ", " << place[1] << ", " << place[2] << "); "
+       << (owed > 0.0
+               ? "a solid may press on liquid that has no way out, or the liquid is in drops and films "
+                 "thinner than a cell"
+               : "jets and drops may be thinner than a few cells")
+       << "; a higher domain.resolution may help";
+  m_warnings.push_back(text.str());
+}
+
+// By no more than rounding.
+void Solver::moveTime(double time) {
+  if (time == m_state.time) return;
+  m_state.time = time;
+  m_solid = solidsAround(time, *m_state.phi);
+}
+
+void Solver::advanceTo(double time, Frame& frame, const std::function<void(double)>& report) {
+  while (m_state.time < time) {
+    if (m_state.phi->empty()) {
+      m_state.time = time;
+      m_state.ahead = 0.0;
+      m_solid = solidsAround(time, *m_state.phi);
+      return;
+    }
+    m_solid = solidsAround(m_state.time, *m_state.phi);
+    LentLiquid lent(m_state);
+    Liquid& liquid = *lent;
+    const double remaining = time - m_state.time;
+    const double speed = fastest(liquid), solids = speedOf(*m_solid);
+    const double longest = longestStep(m_options, speed, solids);
+    if (capillaryStep(m_options) < kShortest / m_options.frameRate) failRippling(m_state.time);
+    if (longest < kShortest / m_options.frameRate) failFast(m_state.time, speed, solids);
+    // The velocity is that of the middle of a step of this length.
+    const double planned = 2.0 * liquid.ahead;
+    const bool asPlanned =
+        planned > 0.0 && planned <= longest * (1.0 + kSameTime) && planned <= remaining * (1.0 + kSameTime);
+    double dt = asPlanned ? planned : evenPart(remaining, longest);
+    bool last = dt > (1.0 - kSameTime) * remaining;
+    std::shared_ptr<const SolidField> solid;
+
+    StepReport solves;
+    std::optional<Liquid> next;
+    double longestNext = kForever;
+    for (int halving = 0;;) {
+      const double then = last ? time : m_state.time + dt;
+      // Solids that come or go at that time do so after the step.
+      solid = solidsAround(then, *m_state.phi);
+      const double after = last ? 1.0 / m_options.frameRate : remaining - dt;
+      const double nextLongest =
+          longestStep(m_options, speed + m_options.gravity.length() * dt, speedOf(*solid));
+      const double nextDt = std::min(longestNext, evenPart(after, nextLongest));
+      next = step(liquid, *m_solid, *solid, dt, nextDt, m_options, &solves,
+                  m_flows->at(m_state.time + 0.5 * dt));
+      if (next) break;
+      liquid.markers = seedMarkers(*liquid.phi, *m_solid->phi, markerSeed(m_options.seed, liquid.steps),
+                                   m_solid->visibility.get());
+      // Forces act for half of the next step, too. Where that is by far the longer one it comes first.
+      if (nextDt <= 1.5 * dt) {
+        if (halving++ == kMaxHalvings) fail(m_state.time, dt, solves);
+        dt *= 0.5;
+        last = false;
+      }
+      longestNext = dt;
+    }
+    frame.substeps.push_back(
+        keepSubstep(dt, movingVelocity(liquid), *liquid.phi, {m_solid->phi.get(), solid->phi.get()}));
+    FrameStats& stats = frame.stats;
+    stats.dtMin = stats.dtMin > 0.0 ? std::min(stats.dtMin, dt) : dt;
+    stats.pressureIterations += solves.pressure.iterations;
+    stats.pressureResidual = std::max(stats.pressureResidual, solves.pressure.residual);
+    stats.viscosityIterations += solves.viscosity.iterations;
+    lent.drop();
+    store(m_state, std::move(*next), m_options.voxelSize());
+    m_state.time = last ? time : m_state.time + dt;
+    m_solid = solid;
+    tellOfDeficit();
+    if (report) report(m_state.time);
+  }
+}
+
+Frame Solver::next(const std::function<void(double)>& progress) {
+  Frame frame;
+  frame.index = m_state.frame + 1;
+  frame.time = frameTime(m_options, frame.index);
+  const double start = m_state.time, length = 1.0 / m_options.frameRate, tolerance = kSameTime * length;
+  const auto report = [&](double time) {
+    if (progress) progress(std::clamp((time - start) / length, 0.0, 1.0));
+  };
+  if (m_state.frame == 0) {
+    applyEvents();
+  } else {
+    if (m_state.phi->empty()) applyEvents();
+    while (m_state.time < frame.time) {
+      double event = std::min(m_solids->nextChange(m_state.time), m_flows->nextChange(m_state.time));
+      for (std::size_t n = 0; n < m_options.liquid.size(); ++n) {
+        if (!m_state.poured[n]) event = std::min(event, m_options.liquid[n].from);
+      }
+      // An event within rounding of the frame's end belongs to that frame.
+      const double target = event < frame.time + tolerance ? event : frame.time;
+      if (target - m_state.time > tolerance) {
+        advanceTo(target, frame, report);
+      } else {
+        moveTime(target);
+      }
+      if (target == event) applyEvents();
+      if (std::abs(m_state.time - frame.time) < tolerance) moveTime(std::max(m_state.time, frame.time));
+    }
+  }
+  m_state.frame = frame.index;
+  describeLiquid(frame, *m_state.phi, *m_solid);
+  if (m_state.owed) frame.stats.owed = totalOwed(*m_state.owed);
+  m_whole = frame.stats.volume + frame.stats.owed;
+  if (m_state.temperature) frame.fields["temperature"] = m_state.temperature;
+  if (progress) progress(1.0);
+  return frame;
+}
+
+}  // namespace fluidtex::sim

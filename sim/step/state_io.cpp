@@ -1,0 +1,156 @@
+#include "sim/step/solver.h"
+
+#include <openvdb/io/File.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fluidtex::sim {
+namespace {
+
+// The first four are in every state.
+constexpr int kAlways = 4;
+constexpr std::pair<const char*, FloatGrid::Ptr State::*> kGrids[] = {
+    {"phi", &State::phi},   {"u", &State::u},   {"v", &State::v},   {"w", &State::w},
+    {"au", &State::au},     {"av", &State::av}, {"aw", &State::aw}, {"temperature", &State::temperature},
+    {"owed", &State::owed}, {"su", &State::su}, {"sv", &State::sv}, {"sw", &State::sw}};
+
+// What openvdb::io::File writes, to a stream of ours: File looks at its own no more once it is open, and says
+// nothing where the disk refuses.
+class Archive : public openvdb::io::Archive {
+ public:
+  void put(std::ostream& out, const openvdb::GridCPtrVec& grids, const openvdb::MetaMap& metadata) const {
+    openvdb::io::Archive::write(out, grids, true, metadata);
+  }
+};
+
+// Hands on to the disk what fills its buffer, however large the parts are that it gets; std::filebuf itself
+// passes each one of a kilobyte or more on by itself, a leaf at a time.
+class BlockBuffer : public std::filebuf {
+ protected:
+  std::streamsize xsputn(const char* data, std::streamsize size) override {
+    std::streamsize done = 0;
+    while (done < size) {
+      const auto room = std::min<std::streamsize>(epptr() - pptr(), size - done);
+      if (room > 0) {
+        std::memcpy(pptr(), data + done, static_cast<std::size_t>(room));
+        pbump(static_cast<int>(room));
+        done += room;
+      } else if (overflow(traits_type::to_int_type(data[done++])) == traits_type::eof()) {
+        return done - 1;
+      }
+    }
+    return done;
+  }
+};
+
+// A block as bytes: origin, number of markers, markers.
+void append(std::string& bytes, const MarkerBlock& block) {
+  const std::int32_t head[4] = {block.origin[0], block.origin[1], block.origin[2],
+                                static_cast<std::int32_t>(block.markers.size())};
+  bytes.append(reinterpret_cast<const char*>(head), sizeof head);
+  bytes.append(reinterpret_cast<const char*>(block.markers.data()), block.markers.size() * sizeof(Marker));
+}
+
+void extract(const std::string& bytes, Markers& markers) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    std::int32_t head[4];
+    if (bytes.size() - at < sizeof head) throw openvdb::ValueError("the markers end early");
+    std::memcpy(head, bytes.data() + at, sizeof head);
+    at += sizeof head;
+    const std::size_t size = static_cast<std::size_t>(head[3]) * sizeof(Marker);
+    if (head[3] <= 0 || bytes.size() - at < size) throw openvdb::ValueError("the markers end early");
+    markers.push_back({openvdb::Coord(head[0], head[1], head[2]), std::vector<Marker>(head[3])});
+    std::memcpy(markers.back().markers.data(), bytes.data() + at, size);
+    at += size;
+  }
+}
+
+// Markers are kept in metadata, in parts: a string there has a length of 32 bits.
+constexpr std::size_t kPart = std::size_t{1} << 28;
+
+std::string partName(int part) {
+  return "markers" + std::to_string(part);
+}
+
+void writeMarkers(const Markers& markers, openvdb::MetaMap& metadata) {
+  std::string bytes;
+  int part = 0;
+  for (std::size_t n = 0; n < markers.size(); ++n) {
+    append(bytes, markers[n]);
+    if (bytes.size() < kPart && n + 1 < markers.size()) continue;
+    metadata.insertMeta(partName(part++), openvdb::StringMetadata(bytes));
+    bytes.clear();
+  }
+  metadata.insertMeta("marker_parts", openvdb::Int32Metadata(part));
+}
+
+}  // namespace
+
+void writeState(const State& state, const std::filesystem::path& file) {
+  openvdb::GridCPtrVec out;
+  for (const auto& [name, member] : kGrids) {
+    if (state.*member == nullptr) continue;
+    const auto grid = toOpenVdb(*(state.*member));
+    grid->setName(name);
+    grid->setSaveFloatAsHalf(false);
+    out.push_back(grid);
+  }
+  openvdb::MetaMap metadata;
+  metadata.insertMeta("frame", openvdb::Int32Metadata(state.frame));
+  metadata.insertMeta("steps", openvdb::Int64Metadata(state.steps));
+  metadata.insertMeta("time", openvdb::DoubleMetadata(state.time));
+  metadata.insertMeta("ahead", openvdb::DoubleMetadata(state.ahead));
+  std::string poured;
+  for (const bool done : state.poured) poured += done ? '1' : '0';
+  metadata.insertMeta("poured", openvdb::StringMetadata(poured));
+  writeMarkers(state.markers, metadata);
+
+  openvdb::initialize();
+  std::vector<char> buffer(std::size_t{1} << 20);
+  BlockBuffer blocks;
+  blocks.pubsetbuf(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+  std::ostream stream(&blocks);
+  if (blocks.open(file, std::ios::out | std::ios::binary | std::ios::trunc) == nullptr)
+    stream.setstate(std::ios::failbit);
+  Archive archive;
+  archive.setCompression(openvdb::io::COMPRESS_NONE);
+  if (stream) archive.put(stream, out, metadata);
+  if (blocks.close() == nullptr || !stream)
+    throw openvdb::IoError(file.string() + ": cannot be written: " + std::strerror(errno));
+}
+
+State readState(const std::filesystem::path& file) {
+  openvdb::initialize();
+  State state;
+  try {
+    openvdb::io::File vdb(file.string());
+    vdb.open(false);
+    const auto metadata = vdb.getMetadata();
+    state.frame = metadata->metaValue<std::int32_t>("frame");
+    state.steps = metadata->metaValue<std::int64_t>("steps");
+    state.time = metadata->metaValue<double>("time");
+    state.ahead = metadata->metaValue<double>("ahead");
+    for (const char digit : metadata->metaValue<std::string>("poured")) state.poured.push_back(digit == '1');
+    for (int part = 0; part < metadata->metaValue<std::int32_t>("marker_parts"); ++part)
+      extract(metadata->metaValue<std::string>(partName(part)), state.markers);
+    for (int n = 0; n < static_cast<int>(std::size(kGrids)); ++n) {
+      const auto& [name, member] = kGrids[n];
+      if (n >= kAlways && !vdb.hasGrid(name)) continue;
+      const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(vdb.readGrid(name));
+      if (grid == nullptr) throw openvdb::TypeError(std::string("grid ") + name + " is not of floats");
+      state.*member = fromOpenVdb(*grid);
+    }
+  } catch (const std::exception& error) {
+    // A file cut short fails in many ways (no memory, unknown types); for the caller it is one.
+    throw openvdb::IoError(file.string() + " does not hold a state of the solver: " + error.what());
+  }
+  return state;
+}
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,143 @@
+// Based on: Strain, "Semi-Lagrangian methods for level set equations", 1999; Ralston, "Runge-Kutta methods
+// with minimum error bounds", 1962 (third-order trace).
+#include "sim/grid/leaf_table.h"
+#include "sim/grid/local_reach.h"
+#include "sim/grid/velocity_window.h"
+#include "sim/solids/solid_layers.h"
+#include "sim/solids/trace_end.h"
+#include "sim/surface/level_set.h"
+
+#include <openvdb/tools/Morphology.h>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace fluidtex::sim {
+namespace {
+
+// A surface that rises towards a wall by more than this, of a cell in a cell, lies along it, and liquid that
+// moves by more than this many cells in a step leaves it. What is at rest does not.
+constexpr float kAlongWall = 0.55f, kMoves = 0.02f;
+// Farther from the surface than this, in cells, phi is interpolated linearly: it only has to be about right.
+constexpr float kFar = 4.0f;
+
+using LeafBuffer = std::array<float, kLeafSize>;
+
+bool isFlat(const Window& window) {
+  const float* first = window.values.get();
+  const float* last = first + window.side * window.side * window.side;
+  return std::all_of(first, last, [value = *first](float v) { return v == value; });
+}
+
+// Whether a surface lies on a solid's; both distances in metres.
+bool liesOnSolid(float phi, float solid, float h) {
+  constexpr float kSame = 0.05f;  // of a cell
+  return phi < 0.0f && std::abs(phi + solid) < kSame * h;
+}
+
+// phi at a place seen from a cell that does not see all around it. solid: the solids' distance in that cell.
+float oneSided(const Window& window, const Coord& cell, const Vec3f& x, const VisibleCells& visible,
+               float solid, float h, bool leaves) {
+  Stencil values;
+  const Vec3f local = window.around(cell, x, values);
+  const bool behind = std::max({std::abs(local[0]), std::abs(local[1]), std::abs(local[2])}) > 0.5f;
+  if (leaves && behind && liesOnSolid(values[VisibleCells::kMiddle], solid, h))
+    riseBehind(values, visible, h);
+  else
+    goOnBehind(values, visible, leaves ? kAlongWall * h : std::numeric_limits<float>::infinity());
+  constexpr const int* kStride = VisibleCells::kStride;
+  const float* low = values.data() + VisibleCells::kMiddle;
+  float t[3];
+  bool cubicFits = true;
+  for (int a = 0; a < 3; ++a) {
+    const float whole = std::floor(local[a]);
+    low += static_cast<std::ptrdiff_t>(whole) * kStride[a];
+    t[a] = local[a] - whole;
+    cubicFits = cubicFits && (whole == 0.0f || whole == -1.0f);
+  }
+  const float linear = trilinear(low, kStride[0], kStride[1], t[0], t[1], t[2]);
+  if (!cubicFits || std::abs(linear) > kFar * h) return linear;
+  float least = *low, most = *low;
+  for (int n = 1; n < 8; ++n) {
+    const float v = low[(n >> 2) * kStride[0] + (n >> 1 & 1) * kStride[1] + (n & 1)];
+    least = std::min(least, v);
+    most = std::max(most, v);
+  }
+  const float cubic = tricubic(low, kStride[0], kStride[1], t[0], t[1], t[2]);
+  return cubic > least && cubic < most ? cubic : linear;
+}
+
+// By at most kMaxTrace cells.
+void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPhi, double dt, int reach,
+              const Visibility* visibility) {
+  openvdb::tools::dilateActiveValues(phi.tree(), reach, openvdb::tools::NN_FACE,
+                                     openvdb::tools::EXPAND_TILES);
+  const float h = static_cast<float>(phi.voxelSize()[0]), step = static_cast<float>(-dt) / h;
+  const float deepest = -kSolidLayers * h, far = kFar * h;
+  const auto leaves = leavesOf(phi.tree());
+  std::vector<std::unique_ptr<LeafBuffer>> moved(leaves.size());
+  const LocalReach local(velocity, dt);
+  using Range = tbb::blocked_range<std::size_t>;
+  tbb::parallel_for(Range(0, leaves.size()), [&](const Range& range) {
+    VelocityWindow window(reach + 1);
+    Window before(reach + 2, Vec3f(0.5f));
+    TraceEnd end(solidPhi, visibility);
+    const auto solids = solidPhi.getConstAccessor();
+    for (std::size_t n = range.begin(); n != range.end(); ++n) {
+      const Coord origin = leaves[n]->origin();
+      const int near = std::min(reach, static_cast<int>(std::ceil(local.from(origin))) + 1);
+      window.setHalo(near + 1);
+      before.setHalo(near + 2);
+      before.load(phi.constTree(), origin);
+      if (isFlat(before)) continue;
+      window.load(velocity, origin);
+      end.setLeaf(origin, near);
+      moved[n] = std::make_unique<LeafBuffer>();
+      std::copy_n(leaves[n]->buffer().data(), kLeafSize, moved[n]->data());
+      const auto look = [&](int i, const Vec3f& traced) {
+        float& out = (*moved[n])[i];
+        const Vec3f centre(float(i >> 6) + 0.5f, float((i >> 3) & 7) + 0.5f, float(i & 7) + 0.5f);
+        const auto [from, cell] = end(i, centre, traced);
+        if (const VisibleCells* visible = end.nearThinWalls() ? visibility->around(cell) : nullptr) {
+          out = oneSided(before, cell - origin, from, *visible, solids.getValue(cell), h,
+                         (from - centre).length() > kMoves);
+          return;
+        }
+        out = before.at(from);
+        if (std::abs(out) > far) return;
+        // At edges, and where phi has been made to go on behind walls, the cubic overshoots.
+        const auto [low, high] = before.range(from);
+        const float cubic = before.cubic(from);
+        if (cubic > low && cubic < high) out = cubic;
+      };
+      forPairs([&](int i) { return end.solidAt(i) > deepest; },
+               [&](int i, int other) {
+                 const auto [from, fromOther] = window.traceCentres(i, other, step);
+                 look(i, from);
+                 look(other, fromOther);
+               });
+    }
+  });
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    if (moved[n]) std::copy_n(moved[n]->data(), kLeafSize, leaves[n]->buffer().data());
+  });
+}
+
+}  // namespace
+
+void advectPhi(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPhi, double dt,
+               const Visibility* visibility) {
+  const double way = dt * maxAbs(velocity) / phi.voxelSize()[0];
+  if (way == 0.0) return;
+  const int substeps = static_cast<int>(std::ceil(way / kMaxTrace));
+  const int reach = static_cast<int>(std::ceil(way / substeps)) + 1;
+  for (int n = 0; n < substeps; ++n) moveOnce(phi, velocity, solidPhi, dt / substeps, reach, visibility);
+}
+
+}  // namespace fluidtex::sim

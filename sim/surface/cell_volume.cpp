@@ -1,0 +1,90 @@
+#include "sim/surface/cell_volume.h"
+
+#include "sim/grid/leaf_patch.h"
+#include "sim/solids/solid_layers.h"
+#include "sim/surface/level_set.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::sim {
+namespace {
+
+// At half a cell's diagonal from its centre a solid leaves the cell alone.
+constexpr float kClear = 0.87f;
+
+// The share of a cell on the inner side of two planes that leave shares a and b of it by themselves. cosine:
+// between the normals, outwards. Right where one lies behind the other, where they cross at a right angle and
+// where they face each other, as the two sides of a film do; linear between.
+float shareWithin(float a, float b, float cosine) {
+  const float same = std::min(a, b), opposite = std::max(0.0f, a + b - 1.0f);
+  return a * b + (cosine > 0.0f ? cosine * (same - a * b) : cosine * (a * b - opposite));
+}
+
+// cos of the angle between a surface and a solid at a cell: 1 where both end the liquid on the same side, and
+// where phi has no slope. Deep in solids phi only says how the liquid would go on: it does not count. h:
+// metres.
+float cosineBetween(const LeafPatch& phi, const LeafPatch& solid, int at, float h) {
+  const float deep = -kDeepInSolid * h;
+  float dot = 0.0f, ofPhi = 0.0f, ofSolid = 0.0f;
+  for (const int stride : kPatchStride) {
+    const int low = solid[at - stride] > deep ? at - stride : at,
+              high = solid[at + stride] > deep ? at + stride : at;
+    const bool both = low != at && high != at;
+    const float p = (both ? 0.5f : 1.0f) * (phi[high] - phi[low]),
+                s = solid[at - stride] - solid[at + stride];
+    dot += p * s;
+    ofPhi += p * p;
+    ofSolid += s * s;
+  }
+  const float lengths = std::sqrt(ofPhi * ofSolid);
+  return lengths > 1e-2f * h * h ? dot / lengths : 1.0f;
+}
+
+}  // namespace
+
+void openShares(const SolidField& solid, const Coord& origin, LeafShares& open) {
+  const float h = static_cast<float>(solid.voxelSize);
+  float scratch[kLeafSize];
+  const float* s = leafValues(solid.phi->constTree(), origin, scratch);
+  bool anyNear = false;
+  for (int i = 0; i < kLeafSize; ++i) {
+    open[i] = std::clamp(0.5f + s[i] / h, 0.0f, 1.0f);
+    anyNear = anyNear || s[i] < kClear * h;
+  }
+  if (!anyNear) return;
+  std::array<LeafPatch, 3> faces;
+  const FloatGrid* const grids[3] = {solid.openU.get(), solid.openV.get(), solid.openW.get()};
+  for (int a = 0; a < 3; ++a) faces[a] = patchOf(grids[a]->constTree(), origin);
+  for (int i = 0; i < kLeafSize; ++i) {
+    const int at = patchIndex(i);
+    float any = 0.0f;
+    for (int a = 0; a < 3; ++a) any += faces[a][at] + faces[a][at + kPatchStride[a]];
+    if (any <= 0.0f) open[i] = 0.0f;
+  }
+}
+
+void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& origin, LeafShares& liquid,
+                  Counts counts) {
+  const float h = static_cast<float>(solid.voxelSize);
+  openShares(solid, origin, liquid);
+  const LeafPatch p = patchOf(phi.constTree(), origin), s = patchOf(solid.phi->constTree(), origin);
+  const auto isLiquid = [&](int at) { return p[at] < 0.0f && s[at] > 0.0f; };
+  for (int i = 0; i < kLeafSize; ++i) {
+    const int at = patchIndex(i);
+    if (p[at] >= 0.5f * h) {
+      liquid[i] = 0.0f;
+      continue;
+    }
+    const float wet = std::min(1.0f, 0.5f - p[at] / h);
+    liquid[i] = liquid[i] == 1.0f || liquid[i] == 0.0f || wet == 1.0f
+                    ? std::min(liquid[i], wet)
+                    : shareWithin(liquid[i], wet, cosineBetween(p, s, at, h));
+    if (p[at] < 0.0f || liquid[i] == 0.0f || counts == Counts::unseen) continue;
+    bool beside = false;
+    for (const int stride : kPatchStride) beside = beside || isLiquid(at - stride) || isLiquid(at + stride);
+    if (!beside) liquid[i] = 0.0f;
+  }
+}
+
+}  // namespace fluidtex::sim

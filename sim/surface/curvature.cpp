@@ -1,0 +1,205 @@
+#include "sim/surface/curvature.h"
+
+#include "sim/grid/trilinear.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace fluidtex::sim {
+namespace {
+
+constexpr int kHalo = 1;
+constexpr int kSide = kLeafDim + 2 * kHalo;
+constexpr int kStride[3] = {kSide * kSide, kSide, 1};
+
+// Cells deeper in solids, in cells, are taken as this deep; their images lie within kWideHalo of a leaf.
+constexpr float kDeepest = 1.5f;
+constexpr int kWideHalo = 4, kWideSide = kLeafDim + 2 * kWideHalo;
+constexpr int kSolidHalo = 2, kSolidSide = kLeafDim + 2 * kSolidHalo;
+
+// Second differences above this share of the slope are corners, or the middle of a film or a gap.
+constexpr double kSharp = 0.7;
+
+// Of a drop of two cells' radius, in units of 1/h.
+constexpr double kMost = 1.0;
+
+// Weights of a value and of those beside it.
+constexpr double kBeside[3] = {0.25, 0.5, 0.25};
+
+struct Bend {
+  double curvature = 0.0;  // 1/h
+  bool smooth = false;
+};
+
+// Where phi / h is given around p. Differences are means over the 3 x 3 lines beside each other: without that
+// a ripple from cell to cell, oblique to the grid, bends most where it is least seen, and drops shiver.
+Bend bendAt(const float* p) {
+  double slope[3] = {}, second[3] = {}, mixed[3] = {};  // mixed: yz, xz, xy
+  for (int a = 0; a < 3; ++a) {
+    const int d = kStride[a], e = kStride[(a + 1) % 3], f = kStride[(a + 2) % 3];
+    for (int i = -1; i <= 1; ++i) {
+      for (int j = -1; j <= 1; ++j) {
+        const float* q = p + i * e + j * f;
+        const double weight = kBeside[i + 1] * kBeside[j + 1];
+        slope[a] += 0.5 * weight * (double(q[d]) - q[-d]);
+        second[a] += weight * (double(q[d]) - 2.0 * q[0] + q[-d]);
+      }
+      const float* q = p + i * d;
+      mixed[a] += 0.25 * kBeside[i + 1] * (double(q[e + f]) - q[e - f] - q[f - e] + q[-e - f]);
+    }
+  }
+  const double square = slope[0] * slope[0] + slope[1] * slope[1] + slope[2] * slope[2];
+  if (!(square > 1e-6)) return {};
+  const double length = std::sqrt(square);
+  double along = 0.0, gauss = 0.0, largest = 0.0;
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3, c = (a + 2) % 3;
+    along += slope[a] * slope[a] * second[a] + 2.0 * slope[b] * slope[c] * mixed[a];
+    gauss += slope[a] * slope[a] * (second[b] * second[c] - mixed[a] * mixed[a]) +
+             2.0 * slope[b] * slope[c] * (mixed[b] * mixed[c] - second[a] * mixed[a]);
+    largest = std::max(largest, std::abs(second[a]));
+  }
+  const double sum = (square * (second[0] + second[1] + second[2]) - along) / (square * length);
+  gauss /= square * square;
+  // From the level of phi here, a parallel surface, to 0.
+  const double depth = std::clamp<double>(p[0], -1.0, 1.0);
+  const double shrink = 1.0 - depth * sum + depth * depth * gauss;
+  const double atSurface = shrink > 0.25 ? (sum - 2.0 * depth * gauss) / shrink : sum;
+  return {std::clamp(atSurface, -kMost, kMost), largest < kSharp * length};
+}
+
+bool besideSurface(const float* p) {
+  const bool inside = p[0] < 0.0f;
+  return std::any_of(kStride, kStride + 3,
+                     [&](int d) { return (p[d] < 0.0f) != inside || (p[-d] < 0.0f) != inside; });
+}
+
+// Gives cells in solids the values of phi across the surface, those of their mirror images. block: phi around
+// a leaf, kSide cells wide.
+void mirrorInSolids(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord& origin, float* block) {
+  float solid[kSolidSide * kSolidSide * kSolidSide], wide[kWideSide * kWideSide * kWideSide];
+  gather(solidPhi.constTree(), origin, kSolidHalo, solid);
+  if (std::none_of(std::begin(solid), std::end(solid), [](float s) { return s < 0.0f; })) return;
+  gather(phi.constTree(), origin, kWideHalo, wide);
+  constexpr int kStep[3] = {kSolidSide * kSolidSide, kSolidSide, 1};
+  const auto h = static_cast<float>(phi.voxelSize()[0]);
+  for (int n = 0; n < kSide * kSide * kSide; ++n) {
+    const int cell[3] = {n / kStride[0], n / kStride[1] % kSide, n % kSide};
+    const float* s = solid + (cell[0] + 1) * kStep[0] + (cell[1] + 1) * kStep[1] + (cell[2] + 1);
+    if (*s >= 0.0f) continue;
+    float normal[3];
+    for (int a = 0; a < 3; ++a) normal[a] = 0.5f * (s[kStep[a]] - s[-kStep[a]]);
+    const float length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    // Deep in solids the distance is cut off.
+    if (length < 0.5f * h) continue;
+    const float way = 2.0f * std::min(-*s / h, kDeepest);
+    int low[3];
+    float part[3];
+    for (int a = 0; a < 3; ++a) {
+      const float at = static_cast<float>(cell[a] - kHalo + kWideHalo) + way * normal[a] / length;
+      low[a] = std::clamp(static_cast<int>(std::floor(at)), 0, kWideSide - 2);
+      part[a] = std::clamp(at - static_cast<float>(low[a]), 0.0f, 1.0f);
+    }
+    block[n] = trilinear(wide + (low[0] * kWideSide + low[1]) * kWideSide + low[2], kWideSide * kWideSide,
+                         kWideSide, part[0], part[1], part[2]);
+  }
+}
+
+// The 27 values around `at` of a block, as a cell sees them: those behind a thin wall are mirrored at the
+// wall's plane, which lies `wall` cells away along `normal`, both measured from the cell. Into `seen`, at the
+// same place.
+void mirrorUnseen(const float* block, int at, const VisibleCells& visible, double wall, const Vec3d& normal,
+                  float* seen) {
+  for (int n = 0; n < 27; ++n) {
+    const int i = n / 9 - 1, j = n / 3 % 3 - 1, k = n % 3 - 1;
+    const int offset = i * kStride[0] + j * kStride[1] + k * kStride[2];
+    const int bit = VisibleCells::kMiddle + i * VisibleCells::kStride[0] + j * VisibleCells::kStride[1] +
+                    k * VisibleCells::kStride[2];
+    if (visible.sees(bit)) {
+      seen[at + offset] = block[at + offset];
+      continue;
+    }
+    const Vec3d way(i, j, k);
+    const Vec3d image = way - 2.0 * std::min(0.0, wall + normal.dot(way)) * normal;
+    int low[3];
+    double part[3];
+    for (int a = 0; a < 3; ++a) {
+      low[a] = image[a] < 0.0 ? -1 : 0;
+      part[a] = std::clamp(image[a] - low[a], 0.0, 1.0);
+    }
+    // Of the cube of cells around the image those that are seen count.
+    double sum = 0.0, weights = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+      double weight = 1.0;
+      int to = at, seenAt = VisibleCells::kMiddle;
+      for (int a = 0; a < 3; ++a) {
+        const int up = corner >> a & 1;
+        weight *= up != 0 ? part[a] : 1.0 - part[a];
+        to += (low[a] + up) * kStride[a];
+        seenAt += (low[a] + up) * VisibleCells::kStride[a];
+      }
+      if (!visible.sees(seenAt)) continue;
+      sum += weight * block[to];
+      weights += weight;
+    }
+    seen[at + offset] = weights > 0.0 ? static_cast<float>(sum / weights) : block[at];
+  }
+}
+
+// The direction out of a solid, from its distance around a cell.
+Vec3d outOf(const FloatTree& solid, const Coord& cell) {
+  Vec3d slope;
+  for (int a = 0; a < 3; ++a) {
+    Coord low = cell, high = cell;
+    low[a] -= 1;
+    high[a] += 1;
+    slope[a] = double(solid.getValue(high)) - solid.getValue(low);
+  }
+  const double length = slope.length();
+  return length > 0.0 ? slope / length : Vec3d(0.0);
+}
+
+}  // namespace
+
+FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi,
+                                const Visibility* visibility) {
+  const auto h = static_cast<float>(phi.voxelSize()[0]);
+  const auto leaves = leavesOf(phi.constTree());
+  std::vector<std::unique_ptr<FloatLeaf>> made(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    static thread_local float block[kSide * kSide * kSide], seen[kSide * kSide * kSide];
+    const Coord origin = leaves[n]->origin();
+    gather(phi.constTree(), origin, kHalo, block);
+    const auto [low, high] = std::minmax_element(std::begin(block), std::end(block));
+    if (!(*low < 0.0f) || *high < 0.0f) return;
+    mirrorInSolids(phi, solidPhi, origin, block);
+    for (float& value : block) value /= h;
+    for (int c = 0; c < kLeafSize; ++c) {
+      const int at =
+          ((c >> 6) + kHalo) * kStride[0] + (((c >> 3) & 7) + kHalo) * kStride[1] + (c & 7) + kHalo;
+      const Coord cell = leaves[n]->offsetToGlobalCoord(static_cast<openvdb::Index>(c));
+      const VisibleCells* visible = visibility != nullptr ? visibility->around(cell) : nullptr;
+      const float* values = block;
+      if (visible != nullptr) {
+        mirrorUnseen(block, at, *visible, solidPhi.tree().getValue(cell) / h, outOf(solidPhi.tree(), cell),
+                     seen);
+        values = seen;
+      }
+      if (!besideSurface(values + at)) continue;
+      if (!made[n]) made[n] = std::make_unique<FloatLeaf>(origin, 0.0f, false);
+      const Bend bend = bendAt(values + at);
+      made[n]->setValueOnly(c, static_cast<float>(bend.curvature / h));
+      made[n]->setActiveState(c, bend.smooth || solidPhi.tree().getValue(cell) < h);
+    }
+  });
+  FloatGrid::Ptr curvature = FloatGrid::create(0.0f);
+  curvature->setTransform(phi.transform().copy());
+  for (auto& leaf : made)
+    if (leaf) curvature->tree().addLeaf(leaf.release());
+  return curvature;
+}
+
+}  // namespace fluidtex::sim

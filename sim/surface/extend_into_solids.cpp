@@ -1,0 +1,224 @@
+// Based on: Aslam, "A partial differential equation approach to multidimensional extrapolation", 2004
+// (constant and linear extension), solved upwind in the order of depth instead of in artificial time.
+#include "sim/grid/leaf_table.h"
+#include "sim/grid/voxel_mask.h"
+#include "sim/solids/solid_layers.h"
+#include "sim/surface/level_set.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace fluidtex::sim {
+namespace {
+
+using Vec3 = openvdb::Vec3f;
+
+// A surface steeper to the wall than this share of its slope runs along the wall: what opens or closes there
+// is a gap or a film, and no surface that the wall cuts.
+constexpr float kAlongWall = 0.55f;
+
+struct Extension {
+  const LeafTable& table;
+  const GapRules& rules;
+  float deepest, h;                  // metres: cells deeper in solids than `deepest` get values
+  std::vector<float> value;          // #voxels: phi
+  std::vector<float> depth;          // #voxels: -solidPhi
+  VoxelMask known;                   // all that is not deep in solids, and what has been found there
+  std::unique_ptr<Vec3[]> gradient;  // #voxels: of phi in solids, as far as it may be used
+  std::vector<const Visibility::Leaf*> sight;  // #leaves; null where each cell sees all around it
+
+  // The cell beside on that side (0 to 5); -1 where there is none, or it is on the other side of a thin wall.
+  std::int64_t beside(std::int64_t cell, int side) const {
+    if (const Visibility::Leaf* leaf = sight[cell / kLeafSize]) {
+      const int stride = VisibleCells::kStride[side / 2];
+      const VisibleCells& seen = (*leaf)[cell % kLeafSize];
+      if (!seen.sees(VisibleCells::kMiddle + (side % 2 == 0 ? -stride : stride))) return -1;
+    }
+    return table.neighbor(cell, side);
+  }
+
+  // Gradient of phi at a cell in the open, from those of its neighbours that are in the open too and known.
+  Vec3 openGradient(std::int64_t cell) const {
+    Vec3 slope(0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+      float low = value[cell], high = value[cell];
+      int steps = 0;
+      for (int up = 0; up < 2; ++up) {
+        const std::int64_t n = beside(cell, 2 * axis + up);
+        if (n < 0 || depth[n] > deepest || !isSet(known, n)) continue;
+        (up != 0 ? high : low) = value[n];
+        ++steps;
+      }
+      if (steps > 0) slope[axis] = (high - low) / (static_cast<float>(steps) * h);
+    }
+    const float length = slope.length();
+    return length > 1.0f ? slope / length : slope;
+  }
+
+  // What one known neighbour says about a cell in the solid; `normal`: into the solid there.
+  struct Guess {
+    float value;    // phi at the neighbour, or here where `gradient` is no part of it
+    Vec3 gradient;  // leads from there to this cell
+    Vec3 carried;   // to be used by cells still deeper
+  };
+
+  Guess ask(std::int64_t cell, std::int64_t from, const Vec3& normal) const {
+    if (depth[from] > deepest) return {value[from], gradient[from], gradient[from]};
+    const bool liquid = value[from] < 0.0f;
+    const Vec3 slope = openGradient(from);
+    const float inward = slope.dot(normal);
+    const auto reachesLiquid = [&](float layers) { return value[from] + layers * h * inward < 0.0f; };
+    // A surface that the wall cuts may well leave air behind it, though the liquid holds to the wall.
+    const auto away = [&] {
+      return rules.opens ? rules.opens(table.coord(from))
+                         : value[cell] >= 0.0f && (!liquid || inward > kAlongWall || reachesLiquid(1.0f));
+    };
+    // Air behind the solid's surface, which has moved with the flow since the liquid let go.
+    if (liquid && away())
+      return {rules.opens ? std::max(value[cell], depth[cell]) : value[cell], Vec3(0.0f), normal};
+    const Vec3 along = slope - inward * normal;
+    if (inward > kAlongWall) {
+      // Air between the solid and a surface that does not come nearer stays.
+      const bool stays = (!liquid && away()) || (rules.closes && !rules.closes(table.coord(from)));
+      return {value[from], stays ? slope : along, stays ? slope : along};
+    }
+    if (liquid || !reachesLiquid(kSolidLayers) || !away()) return {value[from], slope, slope};
+    // A film would begin.
+    return {value[from], reachesLiquid(1.0f) ? along : slope, along};
+  }
+
+  // The cell's value from its known neighbours nearer to the open, each axis weighted by how much nearer;
+  // with no such neighbour, from all known ones. False where one nearer to the open is not known yet, unless
+  // that does not matter.
+  bool extend(std::int64_t cell, bool withoutNearest) {
+    std::array<std::int64_t, 3> nearest{-1, -1, -1};
+    Vec3 way(0.0f);  // into the solid, by how much nearer the neighbours are
+    std::array<std::int64_t, 6> all;
+    std::array<int, 6> side;  // on which each of them is
+    int count = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int up = 0; up < 2; ++up) {
+        const std::int64_t n = beside(cell, 2 * axis + up);
+        // What a solid has left asks the open only; and what is open in part, none that is not: what comes
+        // out of the depth of a wall may be liquid from its other side.
+        if (n < 0 || (depth[cell] <= deepest && depth[n] > deepest)) continue;
+        if (depth[cell] <= kDeepInSolid * h && depth[n] > kDeepInSolid * h) continue;
+        const float shallower = depth[cell] - depth[n];
+        if (!isSet(known, n)) {
+          if (shallower > 0.0f && !withoutNearest) return false;
+          continue;
+        }
+        side[count] = 2 * axis + up;
+        all[count++] = n;
+        if (shallower <= std::abs(way[axis])) continue;
+        way[axis] = up != 0 ? -shallower : shallower;
+        nearest[axis] = n;
+      }
+    }
+    // Walled in on all sides: it stays as it is, but for what a solid has left.
+    if (count == 0) {
+      if (withoutNearest && depth[cell] <= deepest) value[cell] = std::max(value[cell], h);
+      return withoutNearest;
+    }
+    const float length = way.length();
+    const Vec3 normal = length > 0.0f ? way / length : Vec3(0.0f);
+    float weights = 0.0f, sum = 0.0f;
+    float air =
+        std::numeric_limits<float>::infinity();  // least of those asked, where all are air in the solid
+    const auto note = [&](std::int64_t from) {
+      air = depth[from] > deepest && value[from] >= 0.0f ? std::min(air, value[from]) : -1.0f;
+    };
+    Vec3 carried(0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (nearest[axis] < 0) continue;
+      const Guess guess = ask(cell, nearest[axis], normal);
+      note(nearest[axis]);
+      const float weight = std::abs(way[axis]);
+      weights += weight;
+      sum += weight * (guess.value - value[all[0]]) + way[axis] * h * guess.gradient[axis];
+      carried += weight * guess.carried;
+    }
+    for (int n = 0; length == 0.0f && n < count; ++n) {
+      const Guess guess = ask(cell, all[n], normal);
+      note(all[n]);
+      const float step = side[n] % 2 == 0 ? h : -h;
+      weights += 1.0f;
+      sum += guess.value - value[all[0]] + step * guess.gradient[side[n] / 2];
+      carried += guess.carried;
+    }
+    // The mean of equal values is exactly theirs: what differs from the background by rounding would make
+    // leaves that hold nothing else, and those further ones along the edges between walls.
+    value[cell] = value[all[0]] + sum / weights;
+    // Into what is open in part no surface comes that air only slopes towards: it may be behind the solid.
+    if (air >= 0.0f && value[cell] < 0.0f && depth[cell] <= kDeepInSolid * h) value[cell] = air;
+    gradient[cell] = carried / weights;
+    return true;
+  }
+};
+
+}  // namespace
+
+void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const GapRules& rules, float deep,
+                      const Visibility* visibility, const FloatGrid* left) {
+  const LeafTable table = makeLeafTable(phi.constTree());
+  const float h = static_cast<float>(phi.voxelSize()[0]), background = phi.background();
+  Extension extension{
+      table, rules,   deep * h, h, sampleOn(table, phi.constTree()), sampleOn(table, solidPhi.constTree()),
+      {},    nullptr, {}};
+  for (std::size_t n = 0; n < table.size(); ++n)
+    extension.sight.push_back(visibility != nullptr ? visibility->leaf(table.origins[n]) : nullptr);
+  forLeaves(table, [&](std::size_t n) {
+    for (std::size_t i = n * kLeafSize; i < (n + 1) * kLeafSize; ++i)
+      extension.depth[i] = -extension.depth[i];
+  });
+  extension.known = maskOf(table, extension.depth, [&](float d) { return !(d > extension.deepest); });
+  if (left != nullptr) {
+    const VoxelMask was =
+        maskOf(table, sampleOn(table, left->constTree()), [&](float d) { return d >= -extension.deepest; });
+    for (std::size_t n = 0; n < table.size(); ++n)
+      for (std::size_t i = 0; i < was[n].size(); ++i) extension.known[n][i] &= was[n][i];
+  }
+  std::vector<std::size_t> open;  // leaves that are not known wholly
+  for (std::size_t n = 0; n < table.size(); ++n)
+    if (!allSet(extension.known[n])) open.push_back(n);
+  if (open.empty()) return;
+  extension.gradient = std::make_unique<Vec3[]>(table.voxels());
+
+  // From the open inwards, all cells beside known ones at once.
+  bool progress = true, withoutNearest = false;
+  while (!open.empty() && (progress || !withoutNearest)) {
+    // Cells that wait for each other stop waiting.
+    withoutNearest = !progress;
+    std::vector<LeafBits> found(open.size());
+    tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t n) {
+      LeafBits next = besideAny(table, extension.known, open[n]);
+      for (std::size_t i = 0; i < next.size(); ++i) next[i] &= ~extension.known[open[n]][i];
+      forBits(next, open[n], [&](std::int64_t cell) {
+        if (extension.extend(cell, withoutNearest)) setBit(found[n], cell);
+      });
+    });
+    progress = false;
+    for (std::size_t n = 0; n < open.size(); ++n) {
+      for (std::size_t i = 0; i < found[n].size(); ++i) {
+        extension.known[open[n]][i] |= found[n][i];
+        progress = progress || found[n][i] != 0;
+      }
+    }
+    std::erase_if(open, [&](std::size_t leaf) { return allSet(extension.known[leaf]); });
+  }
+
+  const auto leaves = leavesOf(phi.tree());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    float* out = leaves[n]->buffer().data();
+    for (int i = 0; i < kLeafSize; ++i) {
+      out[i] = std::clamp(extension.value[n * kLeafSize + i], -background, background);
+    }
+  });
+}
+
+}  // namespace fluidtex::sim

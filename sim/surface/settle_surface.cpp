@@ -1,0 +1,33 @@
+#include "sim/surface/settle_surface.h"
+
+#include "sim/grid/leaf_table.h"
+#include "sim/surface/level_set.h"
+
+namespace fluidtex::sim {
+namespace {
+
+// Of cells that the wall cuts, too, when their centres lie in it: else they would be air, and the body would
+// start by falling into their open part.
+constexpr float kInSolid = 0.0f;
+constexpr int kIterations = 4;
+
+}  // namespace
+
+void settleSurface(FloatGrid& phi, const SolidField& solid) {
+  for (const Coord& origin : wetLeaves(phi, grown(solid.domain, kLeafDim))) phi.tree().touchLeaf(origin);
+  for (auto leaf = solid.phi->constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
+  const float h = static_cast<float>(phi.voxelSize()[0]);
+  // A body that ends at a wall has no surface there (sim/surface/poured_surface.h), and one that ends before
+  // it keeps its surface: both go straight on.
+  const auto never = [](const Coord&) { return false; };
+  const GapRules rules{never, never};
+  const int rounds = static_cast<int>(phi.background() / (h * kReinitReach * kIterations)) + 2;
+  for (int n = 0; n < rounds; ++n) {
+    extendBeyond(phi, solid, rules, kInSolid);
+    redistance(phi, solid, kIterations);
+  }
+  extendBeyond(phi, solid, rules, kInSolid);
+  trimBand(phi, *solid.phi);
+}
+
+}  // namespace fluidtex::sim

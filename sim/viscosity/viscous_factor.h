@@ -1,0 +1,34 @@
+// Parts of a viscous system that are solved directly.
+#pragma once
+
+#include "sim/viscosity/viscous_system.h"
+
+#include <memory>
+#include <vector>
+
+namespace fluidtex::sim {
+
+// The rows and columns of a viscous system that belong to some faces, as a sparse Cholesky factorization.
+class ViscousFactor {
+ public:
+  // faces: growing numbers of unknowns.
+  ViscousFactor(const ViscousSystem& system, std::vector<std::int32_t> faces);
+  ~ViscousFactor();
+
+  const std::vector<std::int32_t>& faces() const { return m_faces; }
+  bool good() const;  // false where the matrix is singular but for rounding
+
+  // Replaces b, one value a face, by the values that solve the system while all other faces are 0.
+  void solve(std::vector<double>& b) const;
+
+ private:
+  struct Matrix;
+  std::vector<std::int32_t> m_faces;
+  std::unique_ptr<Matrix> m_matrix;
+};
+
+// The unknowns of parts in which no 3 x 3 x 3 cells of liquid fit, and of two cells around them: sheets,
+// threads and drops that coarser grids do not see.
+std::vector<std::int32_t> facesOfThinParts(const ViscousSystem& system);
+
+}  // namespace fluidtex::sim

@@ -1,0 +1,82 @@
+#include "sim/volume/poured_volume.h"
+
+#include "sim/grid/leaf_table.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/surface/cell_volume.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace fluidtex::sim {
+namespace {
+
+// Of a cell: distances made anew differ by less where nothing is lost.
+constexpr float kRounding = 1e-3f;
+// The share of a cell that a plane leaves, by its distance from the centre alone, is wrong by less where the
+// plane is aslant.
+constexpr float kSlanted = 0.05f;
+
+// The share of a cell that a body takes: as liquidShares says, by its distance from the centre, but beside
+// edges by those of the cell's eight parts.
+float shareOf(const std::function<double(const Vec3d&)>& body, float far, const Vec3d& middle, float h) {
+  double fine = 0.0;
+  for (int part = 0; part < 8; ++part) {
+    const Vec3d towards(part >> 2, (part >> 1) & 1, part & 1);
+    fine += std::clamp(0.5 - body(middle + 0.5 * h * (towards - Vec3d(0.5))) / (0.5 * h), 0.0, 1.0) / 8.0;
+  }
+  const double coarse = std::clamp(0.5 - double(far) / h, 0.0, 1.0);
+  return static_cast<float>(std::abs(fine - coarse) > kSlanted ? fine : coarse);
+}
+
+}  // namespace
+
+FloatGrid::Ptr withPoured(const FloatGrid* owed, const PouredLiquid& poured, const FloatGrid& settled,
+                          const SolidField& solid, const RunningFlows& flows) {
+  const float h = static_cast<float>(solid.voxelSize);
+  FloatGrid::Ptr result = owed != nullptr ? owed->deepCopy() : FloatGrid::create(0.0f);
+  result->setTransform(cellTransform(solid.voxelSize));
+  result->setName("owed");
+  const auto leaves = leavesOf(poured.bodies.constTree());
+  std::vector<LeafShares> more(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    const Coord& origin = leaves[n]->origin();
+    more[n].fill(0.0f);
+    LeafShares seen, whole, after;
+    liquidShares(poured.phi, solid, origin, seen);
+    liquidShares(poured.phi, solid, origin, whole, Counts::unseen);
+    liquidShares(settled, solid, origin, after);
+    float scratch[kLeafSize];
+    const float* room = leafValues(solid.phi->constTree(), origin, scratch);
+    for (int i = 0; i < kLeafSize; ++i) {
+      const Coord cell = leaves[n]->offsetToGlobalCoord(i);
+      const float far = leaves[n]->getValue(i);
+      if (!solid.domain.isInside(cell) || std::abs(far) >= h) continue;
+      const bool inOpen = poured.start && room[i] >= h;
+      const bool isUnseen = seen[i] == 0.0f && whole[i] > 0.0f && far < 0.5f * h;
+      if (!inOpen && !isUnseen) continue;
+      const float share = shareOf(poured.distance, far, settled.indexToWorld(cell), h);
+      more[n][i] = inOpen ? share - after[i] : std::min(whole[i], share);
+    }
+    const auto none = [&](const FloatGrid& shape, float near) {
+      float values[kLeafSize];
+      const float* distance = leafValues(shape.constTree(), origin, values);
+      for (int i = 0; i < kLeafSize; ++i)
+        if (distance[i] < near) more[n][i] = 0.0f;
+    };
+    for (const auto& running : flows.sources) none(*running.source->phi, 0.0f);
+    for (const FloatGrid* drain : flows.drains) none(*drain, h);
+  });
+  for (std::size_t n = 0; n < leaves.size(); ++n) {
+    if (std::all_of(more[n].begin(), more[n].end(), [](float v) { return std::abs(v) < kRounding; }))
+      continue;
+    FloatLeaf* to = result->tree().touchLeaf(leaves[n]->origin());
+    to->setValuesOn();
+    for (int i = 0; i < kLeafSize; ++i) to->setValueOnly(i, to->getValue(i) + more[n][i]);
+  }
+  return result;
+}
+
+}  // namespace fluidtex::sim

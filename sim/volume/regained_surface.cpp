@@ -1,0 +1,139 @@
+#include "sim/volume/regained_surface.h"
+
+#include "sim/grid/leaf_patch.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/markers/drop_markers.h"
+#include "sim/surface/cell_volume.h"
+#include "sim/volume/owed_volume.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace fluidtex::sim {
+namespace {
+
+// Of a cell's volume. More than half would reach its centre; but drops that small are lost again at the next
+// step, and seem larger than they are meanwhile.
+constexpr float kFills = 0.9f;
+// Cells of which a solid leaves less than this share are too small for a surface of their own.
+constexpr float kRoomy = 0.75f;
+
+// Of a cell's volume: what shows in it, and of that, what is nothing.
+constexpr float kShows = 0.3f, kEmpty = 0.05f;
+// Where the liquid is deeper than this, in cells, in a cell or beside it, it is no speck.
+constexpr float kShallow = 0.5f;
+
+struct Regained {
+  Coord cell;
+  float share;  // of it that is liquid
+};
+
+std::vector<Regained> regainedIn(const FloatLeaf& owed, const FloatTree& phi, const SolidField& solid) {
+  const float* due = owed.buffer().data();
+  std::vector<Regained> found;
+  if (std::none_of(due, due + kLeafSize, [](float v) { return v > kFills; })) return found;
+  LeafShares open;
+  openShares(solid, owed.origin(), open);
+  const LeafPatch distance = patchOf(phi, owed.origin());
+  const LeafPatch wall = patchOf(solid.phi->constTree(), owed.origin());
+  // Behind a solid's surface phi says how the liquid would go on.
+  const auto isLiquid = [&](int at) { return distance[at] < 0.0f && wall[at] > 0.0f; };
+  for (int i = 0; i < kLeafSize; ++i) {
+    const int at = patchIndex(i);
+    const Coord cell = owed.offsetToGlobalCoord(i);
+    if (due[i] <= kFills || open[i] < kRoomy || !solid.domain.isInside(cell)) continue;
+    bool dry = distance[at] >= 0.0f;
+    for (const int stride : kPatchStride) dry = dry && !isLiquid(at - stride) && !isLiquid(at + stride);
+    if (dry) found.push_back({cell, std::min(due[i], 1.0f)});
+  }
+  return found;
+}
+
+// A cell and the six beside it.
+std::array<Coord, 7> star(const Coord& cell) {
+  std::array<Coord, 7> cells;
+  cells.fill(cell);
+  for (int n = 0; n < 6; ++n) cells[n][n / 2] += n % 2 == 0 ? -1 : 1;
+  return cells;
+}
+
+// Cells that show liquid where next to none is.
+std::vector<Coord> emptyIn(const FloatLeaf& owed, const FloatGrid& phi, const SolidField& solid) {
+  const float* due = owed.buffer().data();
+  std::vector<Coord> found;
+  if (std::none_of(due, due + kLeafSize, [](float v) { return v < kEmpty - kShows; })) return found;
+  LeafShares shown;
+  liquidShares(phi, solid, owed.origin(), shown);
+  const LeafPatch distance = patchOf(phi.constTree(), owed.origin());
+  const float deep = -kShallow * static_cast<float>(solid.voxelSize);
+  for (int i = 0; i < kLeafSize; ++i) {
+    const int at = patchIndex(i);
+    bool shallow = distance[at] < 0.0f && distance[at] > deep;
+    for (const int stride : kPatchStride)
+      shallow = shallow && distance[at - stride] > deep && distance[at + stride] > deep;
+    if (shallow && shown[i] > kShows && shown[i] + due[i] < kEmpty)
+      found.push_back(owed.offsetToGlobalCoord(i));
+  }
+  return found;
+}
+
+}  // namespace
+
+void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const SolidField& solid) {
+  const auto leaves = leavesOf(owed.constTree());
+  std::vector<std::vector<Regained>> parts(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(),
+                    [&](std::size_t n) { parts[n] = regainedIn(*leaves[n], phi.constTree(), solid); });
+  std::vector<Regained> regained;
+  for (const auto& part : parts) regained.insert(regained.end(), part.begin(), part.end());
+  if (regained.empty()) return;
+
+  std::set<Coord> cells;
+  MaskGrid where;
+  for (const Regained& r : regained) {
+    where.tree().setValueOn(r.cell);
+    for (const Coord& cell : star(r.cell)) cells.insert(cell);
+  }
+  const ShownLiquid before = shownAround(where, phi, solid);
+  const float h = static_cast<float>(phi.voxelSize()[0]);
+  for (const Coord& cell : cells) phi.tree().touchLeaf(cell);
+  for (const Regained& r : regained) {
+    const float here = (0.5f - r.share) * h;
+    for (const Coord& cell : star(r.cell)) {
+      const float distance = cell == r.cell ? here : here + h;
+      phi.tree().setValueOn(cell, std::min(phi.tree().getValue(cell), distance));
+    }
+  }
+  dropMarkers(markers,
+              [&](const Marker& m, const Coord& cell) { return m.radius > 0.0f && cells.contains(cell); });
+  oweChange(owed, before, phi, solid);
+}
+
+void withdrawSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const SolidField& solid) {
+  const auto leaves = leavesOf(owed.constTree());
+  std::vector<std::vector<Coord>> parts(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(),
+                    [&](std::size_t n) { parts[n] = emptyIn(*leaves[n], phi, solid); });
+  std::set<Coord> cells;
+  MaskGrid where;
+  for (const auto& part : parts) {
+    for (const Coord& cell : part) {
+      cells.insert(cell);
+      where.tree().setValueOn(cell);
+    }
+  }
+  if (cells.empty()) return;
+  const ShownLiquid before = shownAround(where, phi, solid);
+  const float dry = 0.5f * static_cast<float>(phi.voxelSize()[0]);
+  for (const Coord& cell : cells) phi.tree().setValueOn(cell, dry);
+  dropMarkers(markers,
+              [&](const Marker& m, const Coord& cell) { return m.radius < 0.0f && cells.contains(cell); });
+  oweChange(owed, before, phi, solid);
+}
+
+}  // namespace fluidtex::sim

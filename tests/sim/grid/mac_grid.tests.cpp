@@ -1,0 +1,84 @@
+#include "sim/grid/mac_grid.h"
+#include "sim/grid/leaf_table.h"
+
+#include <catch2/catch.hpp>
+
+#include <limits>
+
+using namespace fluidtex::sim;
+
+TEST_CASE("mac_grid: samples sit at cell centres and lower face centres") {
+  const double h = 0.25;
+  const Coord ijk(3, -1, 7);
+  const auto near = [](const Vec3d& a, const Vec3d& b) { return (a - b).length() < 1e-12; };
+  CHECK(near(cellTransform(h)->indexToWorld(ijk), Vec3d(3.5, -0.5, 7.5) * h));
+  CHECK(near(faceTransform(h, 0)->indexToWorld(ijk), Vec3d(3.0, -0.5, 7.5) * h));
+  CHECK(near(faceTransform(h, 1)->indexToWorld(ijk), Vec3d(3.5, -1.0, 7.5) * h));
+  CHECK(near(faceTransform(h, 2)->indexToWorld(ijk), Vec3d(3.5, -0.5, 7.0) * h));
+}
+
+TEST_CASE("mac_grid: cells cover the domain and no more") {
+  CHECK(cellCount(Vec3d(1.0, 0.5, 0.51), 1.0 / 64) == Coord(64, 32, 33));
+  CHECK(cellCount(Vec3d(0.3, 0.1, 0.01), 0.1) == Coord(3, 1, 1));
+}
+
+TEST_CASE("mac_grid: a gathered block is what an accessor reads") {
+  FloatTree tree(7.0f);
+  auto value = [](const Coord& c) { return static_cast<float>(c.x() + 100 * c.y() + 10000 * c.z()); };
+  // Two of the neighbours exist, the others are background or tiles.
+  for (const Coord& origin : {Coord(8, 8, 8), Coord(0, 8, 8), Coord(16, 16, 8)}) {
+    FloatLeaf* leaf = tree.touchLeaf(origin);
+    for (int n = 0; n < kLeafSize; ++n) leaf->setValueOn(n, value(leaf->offsetToGlobalCoord(n)));
+  }
+  tree.addTile(1, Coord(8, 0, 8), -3.0f, false);
+  for (int n = 0; n < 6; ++n) tree.addTile(1, Coord(0, 16 * (n / 3), 8 * (n % 3)), 10.0f + float(n), false);
+  for (const int halo : {0, 1, 3, 8}) {
+    const int side = kLeafDim + 2 * halo;
+    std::vector<float> block(static_cast<std::size_t>(side) * side * side,
+                             std::numeric_limits<float>::quiet_NaN());
+    gather(tree, Coord(8, 8, 8), halo, block.data());
+    int wrong = 0;
+    for (int i = 0; i < side; ++i) {
+      for (int j = 0; j < side; ++j) {
+        for (int k = 0; k < side; ++k) {
+          const float expected = tree.getValue(Coord(8 + i - halo, 8 + j - halo, 8 + k - halo));
+          if (block[static_cast<std::size_t>((i * side + j) * side + k)] != expected) ++wrong;
+        }
+      }
+    }
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("mac_grid: the largest component, and infinity for what is not a number") {
+  Velocity velocity = makeVelocity(0.1);
+  velocity.component[1]->tree().setValue(Coord(1, 2, 3), -4.0f);
+  velocity.component[2]->tree().setValue(Coord(-1, 2, 3), 3.0f);
+  CHECK(maxAbs(velocity) == 4.0);
+  velocity.component[0]->tree().setValue(Coord(100, 0, 0), std::numeric_limits<float>::quiet_NaN());
+  CHECK(std::isinf(maxAbs(velocity)));
+}
+
+TEST_CASE("leaf_table: neighbours lead to the coordinates beside") {
+  FloatTree tree(0.0f);
+  for (const Coord& origin : {Coord(0, 0, 0), Coord(-8, 0, 0), Coord(0, 8, 0), Coord(0, 0, -8)})
+    tree.touchLeaf(origin);
+  const LeafTable table = makeLeafTable(tree);
+  REQUIRE(table.size() == 4);
+  int wrong = 0, outside = 0;
+  for (std::int64_t voxel = 0; voxel < static_cast<std::int64_t>(table.voxels()); ++voxel) {
+    for (int direction = 0; direction < 6; ++direction) {
+      Coord there = table.coord(voxel);
+      there[direction / 2] += direction % 2 == 1 ? 1 : -1;
+      const std::int64_t n = table.neighbor(voxel, direction);
+      if (n < 0) {
+        ++outside;
+        if (tree.probeConstLeaf(there) != nullptr) ++wrong;
+      } else if (table.coord(n) != there) {
+        ++wrong;
+      }
+    }
+  }
+  CHECK(wrong == 0);
+  CHECK(outside == (4 * 6 - 6) * 64);  // three pairs of leaves touch
+}

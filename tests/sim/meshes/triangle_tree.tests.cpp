@@ -1,0 +1,81 @@
+#include "sim/meshes/triangle_tree.h"
+#include "sim/meshes/inside_test.h"
+#include "tests/sim/meshes/mesh_files.h"
+
+#include <openvdb/math/Proximity.h>
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace fluidtex::sim;
+using openvdb::Vec3f;
+
+namespace {
+
+// Somewhere in the unit cube, another place for each n.
+Vec3d somewhere(int n) {
+  const auto share = [&](double step) { return std::fmod((n + 1) * step, 1.0); };
+  return {share(0.8191725134), share(0.6710436067), share(0.5497004779)};
+}
+
+TriangleMesh triangles(int count, double size) {
+  TriangleMesh mesh;
+  for (int n = 0; n < count; ++n) {
+    for (int k = 0; k < 3; ++k) mesh.positions.emplace_back(somewhere(n) + size * somewhere(7919 * k + n));
+    mesh.triangles.emplace_back(3 * n, 3 * n + 1, 3 * n + 2);
+  }
+  return mesh;
+}
+
+TriangleMesh ball() {
+  return triangulate(Shape{Sphere{Vec3d(0.5), 0.31}}, openvdb::BBoxd(Vec3d(0.0), Vec3d(1.0)), 0.05);
+}
+
+}  // namespace
+
+TEST_CASE("triangle tree: the closest point is that of all triangles, whatever one guesses") {
+  for (const int count : {1, 2, 4, 5, 9, 23, 300, 10000}) {
+    const TriangleMesh mesh = triangles(count, count < 100 ? 0.3 : 0.05);
+    const TriangleTree tree(mesh);
+    const int places = count > 1000 ? 20 : 100;
+    for (int n = 0; n < places; ++n) {
+      const Vec3d x = 2.0 * somewhere(31 * n) - Vec3d(0.5);
+      double nearest = kForever;
+      for (const openvdb::Vec3I& t : mesh.triangles) {
+        Vec3d weight;
+        const Vec3d at = openvdb::math::closestPointOnTriangleToPoint(
+            Vec3d(mesh.positions[t[0]]), Vec3d(mesh.positions[t[1]]), Vec3d(mesh.positions[t[2]]), x, weight);
+        nearest = std::min(nearest, (at - x).lengthSqr());
+      }
+      for (const double guess : {0.0, 0.9 * std::sqrt(nearest), 1.1 * std::sqrt(nearest), 10.0}) {
+        const TriangleTree::Closest closest = tree.closest(x, guess);
+        REQUIRE(closest.square == nearest);
+        Vec3d at(0.0);
+        for (int k = 0; k < 3; ++k)
+          at += closest.weight[k] * Vec3d(mesh.positions[mesh.triangles[closest.triangle][k]]);
+        REQUIRE((at - x).lengthSqr() == Approx(nearest).margin(1e-12));
+      }
+    }
+  }
+}
+
+TEST_CASE("triangle tree: of triangles as near it is the first, and there may be none") {
+  TriangleMesh mesh = triangles(1, 0.3);
+  for (int n = 0; n < 40; ++n) mesh.triangles.push_back(mesh.triangles[0]);
+  const TriangleTree tree(mesh);
+  for (int n = 0; n < 50; ++n) CHECK(tree.closest(somewhere(n), 0.1).triangle == 0);
+  CHECK(TriangleTree(TriangleMesh{}).closest(Vec3d(0.0), 1.0).triangle == -1);
+}
+
+TEST_CASE("inside test: lines along all axes tell the same") {
+  const InsideTest inside(ball());
+  int within = 0;
+  for (int n = 0; n < 3000; ++n) {
+    const Vec3d x = somewhere(n);
+    const double far = (x - Vec3d(0.5)).length();
+    if (far > 0.305 && far < 0.31) continue;  // between the ball and its triangles
+    for (int axis = 0; axis < 3; ++axis) REQUIRE(inside.winding(x, axis) == (far < 0.31 ? 1 : 0));
+    within += far < 0.31;
+  }
+  CHECK(within > 200);
+}

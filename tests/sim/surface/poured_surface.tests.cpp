@@ -1,0 +1,100 @@
+#include "sim/surface/poured_surface.h"
+
+#include "sim/solids/domain.h"
+#include "sim/solids/solids.h"
+#include "tests/sim/step/solver_scenes.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace fluidtex::sim;
+
+namespace {
+
+constexpr double kVoxel = 1.0 / 16;
+
+std::function<double(const Vec3d&)> surfaceOf(const Options& options) {
+  const Solids solids(options);
+  const auto walls = std::make_shared<Solids>(options);
+  return pouredSurface(
+      ShapeDistance(options.liquid[0].shape, kVoxel, domainBox(options)),
+      [walls](const Vec3d& x) { return walls->distance(x, 0.0); }, kVoxel);
+}
+
+}  // namespace
+
+TEST_CASE("poured surface: level up to a wall, however near the wall is to a cell's centre") {
+  for (const double into : {0.0, 0.03, -0.03, 0.3, 0.7, 1.5}) {  // beyond the wall, in cells; or before it
+    Options options = tank(16, {});
+    options.solids.resize(1);
+    const double wall = (10.0 + 0.52) * kVoxel;  // just beyond the centres of cells 10
+    options.solids[0].shape = {Box{Vec3d(wall, -1.0, -1.0), Vec3d(2.0)}};
+    options.liquid.resize(1);
+    options.liquid[0].shape = {Box{Vec3d(0.0), Vec3d(wall + into * kVoxel, 1.0, 0.45)}};
+    const auto surface = surfaceOf(options);
+    CAPTURE(into);
+    for (int k = 6; k < 8; ++k) {  // one below the surface, one above
+      const Vec3d x = (Vec3d(10, 8, k) + Vec3d(0.5)) * kVoxel;
+      CHECK(surface(x) / kVoxel == Catch::Detail::Approx((x[2] - 0.45) / kVoxel).margin(1e-3));
+    }
+    CHECK(surface((Vec3d(10, 8, 2) + Vec3d(0.5)) * kVoxel) < 0.0);  // deep below
+  }
+}
+
+TEST_CASE("poured surface: a slope keeps its distance at a wall") {
+  Options options = tank(16, {});
+  options.liquid.resize(1);
+  const Vec3d normal = Vec3d(0.3, 0.1, 1.0).unit();
+  options.liquid[0].shape = {HalfSpace{Vec3d(0.5), normal}};
+  const auto surface = surfaceOf(options);
+  for (int i = 0; i < 16; i += 15)
+    for (int j = 0; j < 16; ++j)
+      for (int k = 4; k < 12; ++k) {
+        const Vec3d x = (Vec3d(i, j, k) + Vec3d(0.5)) * kVoxel;
+        const double exact = normal.dot(x - Vec3d(0.5));
+        if (std::abs(exact) < 0.5 * kVoxel) CHECK(surface(x) == Catch::Detail::Approx(exact).margin(1e-6));
+      }
+}
+
+TEST_CASE("poured surface: liquid that ends at a round or square wall starts level") {
+  const Vec3d foot(0.46, 0.44, 0.15), wide(0.25, 0.23, 0.0), up(0.0, 0.0, 1.0);
+  for (const bool round : {true, false}) {
+    Options options = tank(24, {});
+    options.size = Vec3d(0.97, 0.91, 1.0);  // no whole number of cells
+    const auto inside = [&](double from, double to) {
+      if (round) return Shape{Cylinder{foot + from * up, foot + to * up, 0.23}};
+      return Shape{Box{foot - wide + from * up, foot + wide + to * up}};
+    };
+    options.solids.resize(1);
+    options.solids[0].shape = {Difference{{{Box{Vec3d(0.1), Vec3d(0.85)}}, inside(0.05, 1.0)}}};
+    options.liquid = {{inside(0.05, 0.4)}};
+    Solver solver(options);
+    solver.next();
+    CAPTURE(round);
+    CHECK(fastestOf(solver.state()) < 0.01);
+  }
+}
+
+TEST_CASE("poured surface: a pool stays level round a ball that dips into it") {
+  // Cells, from a ball that all but touches the level to half of it.
+  for (const double radius : {2.8, 18.0}) {
+    for (const double dip : {0.1, 0.4, 0.9, 1.4, 2.8}) {
+      Options options = tank(24, {box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.44))});
+      options.size = Vec3d(0.97, 0.91, 1.0);
+      const double h = options.voxelSize(), r = radius * h, up = 0.44 + r - dip * h;
+      // And one that leaves a gap of a cell beside a wall.
+      options.solids.resize(2);
+      options.solids[0].shape = {Sphere{Vec3d(0.52, 0.47, up), r}};
+      options.solids[1].shape = {Sphere{Vec3d(0.97 - r - h, 0.2, up), r}};
+      Solver solver(options);
+      double fastest = 0.0;
+      for (int n = 0; n < 4; ++n) {
+        solver.next();
+        fastest = std::max(fastest, fastestOf(solver.state()));
+      }
+      CAPTURE(radius, dip);
+      CHECK(fastest < 0.02 * std::sqrt(options.gravity.length() * h));
+    }
+  }
+}

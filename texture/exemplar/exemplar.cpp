@@ -1,0 +1,213 @@
+#include "texture/exemplar/exemplar.h"
+
+#include "texture/exemplar/channels.h"
+#include "texture/exemplar/load_map.h"
+#include "texture/exemplar/matched_maps.h"
+#include "texture/exemplar/read_image.h"
+#include "texture/exemplar/srgb.h"
+#include "texture/exemplar/texel_image.h"
+#include "texture/exemplar/window_size.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace fluidtex::texture {
+namespace {
+
+// The encoded premultiplied colours of one level, from linear premultiplied RGBA.
+Image encodedColors(const Image& premultiplied, int channels) {
+  Image result{premultiplied.width, premultiplied.height, channels, {}};
+  result.data.resize(std::size_t(result.width) * std::size_t(result.height) * std::size_t(channels));
+  tbb::parallel_for(0, result.height, [&](int y) {
+    for (int x = 0; x < result.width; ++x) {
+      const float* in = premultiplied.at(x, y);
+      float* out = result.at(x, y);
+      for (int c = 0; c < 3; ++c) out[c] = encodeSrgb(in[c]);
+      if (channels > 3) out[3] = in[3];
+    }
+  });
+  return result;
+}
+
+// `image` with the channels of another one, scaled.
+Image withChannels(const Image& image, const Image& more, float scale) {
+  Image result{image.width, image.height, image.channels + more.channels, {}};
+  result.data.resize(image.data.size() + more.data.size());
+  tbb::parallel_for(0, image.height, [&](int y) {
+    for (int x = 0; x < image.width; ++x) {
+      float* end = std::copy_n(image.at(x, y), image.channels, result.at(x, y));
+      std::transform(more.at(x, y), more.at(x, y) + more.channels, end, [&](float v) { return v * scale; });
+    }
+  });
+  return result;
+}
+
+std::string sizeOf(const Image& image) {
+  return std::to_string(image.width) + " x " + std::to_string(image.height);
+}
+
+void check(const Image& color, bool toroidal, const SynthesisOptions& synthesis, const std::string& name) {
+  if (color.channels != 4 || color.width < 1 || color.height < 1 ||
+      color.data.size() != std::size_t(color.width) * std::size_t(color.height) * 4)
+    throw std::invalid_argument("makeExemplar: the image must be RGBA and hold all its pixels");
+  int window = 1;
+  for (const int w : synthesis.windows) window = std::max(window, w);
+  if (std::min(color.width, color.height) < window)
+    throw ExemplarError(name + " is too small: it has " + sizeOf(color) +
+                        " pixels, and the largest window needs " + std::to_string(window) + " x " +
+                        std::to_string(window) + ".");
+  if (fittingWindow(color, toroidal, kSmallestWindow) < kSmallestWindow)
+    throw ExemplarError(name + " is too small: it has " + sizeOf(color) +
+                        " pixels, and an image whose edges do not meet needs at least 5 x 5.");
+  bool visible = false;
+  for (std::size_t i = 0; i < color.data.size(); ++i) {
+    if (!std::isfinite(color.data[i]))
+      throw ExemplarError(name + " holds values that are not finite numbers.");
+    visible = visible || (i % 4 == 3 && color.data[i] > 0.0f);
+  }
+  if (!visible) throw ExemplarError(name + " is fully transparent, so there is no texture to take from it.");
+}
+
+bool anyMatched(const std::map<std::string, ExemplarMap>& maps) {
+  return std::any_of(maps.begin(), maps.end(), [](const auto& map) { return map.second.weight > 0.0f; });
+}
+
+Image premultipliedColors(Image color) {
+  for (std::size_t i = 0; i < color.data.size(); i += 4)
+    for (std::size_t c = 0; c < 3; ++c) color.data[i + c] *= color.data[i + 3];
+  return color;
+}
+
+// Lanes of a texel that colours, guidance and the two found channels leave.
+int lanesForMaps(const Exemplar& exemplar, const SynthesisOptions& synthesis) {
+  return kMaxChannels - exemplar.colorChannels - exemplar.guided - (synthesis.featureWeight > 0.0) -
+         (synthesis.gradientWeight > 0.0);
+}
+
+// Fills match and what it says of maps, from exemplar.color and exemplar.maps.
+void makeMatch(Exemplar& exemplar, Image guidance, const SynthesisOptions& synthesis, int levels) {
+  const bool toroidal = exemplar.toroidal;
+  Image premultiplied = premultipliedColors(exemplar.color);
+  Image encoded = encodedColors(premultiplied, exemplar.colorChannels);
+  const Image luminance = featureLuminance(encoded);
+
+  // The channels are made at full size and reduced with the colours, each in its own space.
+  std::vector<std::pair<Image, float>> channels;
+  if (!guidance.data.empty())
+    channels.emplace_back(std::move(guidance), float(std::sqrt(synthesis.guidanceWeight)));
+  if (anyMatched(exemplar.maps)) {
+    MatchedMaps matched =
+        matchedMaps(exemplar.maps, exemplar.color, encoded, toroidal, lanesForMaps(exemplar, synthesis));
+    exemplar.mapChannels = matched.image.channels;
+    exemplar.mapShare = matched.share;
+    if (exemplar.mapChannels > 0) channels.emplace_back(std::move(matched.image), 1.0f);
+  }
+  if (synthesis.featureWeight > 0.0)
+    channels.emplace_back(featureDistance(luminance, toroidal), float(std::sqrt(synthesis.featureWeight)));
+  if (synthesis.gradientWeight > 0.0)
+    channels.emplace_back(gradientEnergy(luminance, toroidal), float(std::sqrt(synthesis.gradientWeight)));
+
+  for (int level = 0; level < levels; ++level) {
+    if (level > 0) {
+      premultiplied = halve(premultiplied, toroidal);
+      encoded = encodedColors(premultiplied, exemplar.colorChannels);
+      for (auto& channel : channels) channel.first = halve(channel.first, toroidal);
+    }
+    Image match = std::move(encoded);
+    for (const auto& [channel, scale] : channels) match = withChannels(match, channel, scale);
+    exemplar.match.push_back(std::move(match));
+  }
+}
+
+// All that makeMatch() depends on, as a file's name.
+std::string nameOfMatch(const Exemplar& exemplar, const Image& guidance, const SynthesisOptions& synthesis,
+                        int levels) {
+  const auto bits = [](double value) { return std::bit_cast<std::int64_t>(value); };
+  std::vector<std::int64_t> settings{exemplar.color.width,
+                                     exemplar.color.height,
+                                     exemplar.colorChannels,
+                                     exemplar.toroidal,
+                                     levels,
+                                     bits(synthesis.featureWeight),
+                                     bits(synthesis.gradientWeight),
+                                     bits(synthesis.guidanceWeight)};
+  std::vector<std::span<const float>> data{exemplar.color.data, guidance.data};
+  for (const auto& [name, map] : exemplar.maps) {
+    if (!(map.weight > 0.0f)) continue;
+    for (const int size : {map.image.width, map.image.height, map.image.channels}) settings.push_back(size);
+    settings.push_back(bits(map.weight));
+    data.emplace_back(map.image.data);
+  }
+  return keptName(".match", settings, data);
+}
+
+// makeMatch(), or what an earlier run has kept of it.
+void keptOrMadeMatch(Exemplar& exemplar, Image guidance, const SynthesisOptions& synthesis, int levels,
+                     const CacheFolder& cache) {
+  if (cache.path.empty()) return makeMatch(exemplar, std::move(guidance), synthesis, levels);
+  const auto eachPart = [](auto& result, const auto& visit) {
+    visit(result.mapChannels), visit(result.mapShare);
+    for (auto& image : result.match)
+      visit(image.width), visit(image.height), visit(image.channels), visit(image.data);
+  };
+  const std::string name = nameOfMatch(exemplar, guidance, synthesis, levels);
+  if (const auto kept = readKept(cache, name)) {
+    exemplar.match.resize(std::size_t(levels));
+    const char* at = kept->data.get();
+    return eachPart(exemplar, ByteReader{at});
+  }
+  makeMatch(exemplar, std::move(guidance), synthesis, levels);
+  std::vector<char> bytes;
+  eachPart(exemplar, ByteWriter{bytes});
+  writeKept(cache, name, std::move(bytes));
+}
+
+Exemplar prepare(Image color, Image guidance, std::map<std::string, ExemplarMap> maps, bool toroidal,
+                 const SynthesisOptions& synthesis, int levels, const std::string& name,
+                 const CacheFolder& cache) {
+  check(color, toroidal, synthesis, name);
+  Exemplar exemplar;
+  exemplar.toroidal = toroidal;
+  float least = color.data[3], most = color.data[3];
+  for (std::size_t i = 3; i < color.data.size(); i += 4)
+    least = std::min(least, color.data[i]), most = std::max(most, color.data[i]);
+  exemplar.colorChannels = least < most ? 4 : 3;
+  exemplar.guided = !guidance.data.empty();
+  exemplar.guidanceWeight = float(synthesis.guidanceWeight);
+  exemplar.color = std::move(color);
+  exemplar.maps = std::move(maps);
+  // Colours that are carried have no maps beside them.
+  if (synthesis.method != Method::coordinates)
+    for (auto& [own, map] : exemplar.maps) map.weight = 0.0f;
+  keptOrMadeMatch(exemplar, std::move(guidance), synthesis, std::max(levels, 1), cache);
+  return exemplar;
+}
+
+}  // namespace
+
+Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
+                      Image guidance, const CacheFolder& cache, std::map<std::string, ExemplarMap> maps) {
+  return prepare(std::move(color), std::move(guidance), std::move(maps), toroidal, synthesis, levels,
+                 "the image", cache);
+}
+
+Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels,
+                      const CacheFolder& cache) {
+  Image color = readImage(options.file), guidance;
+  if (!options.guidance.empty()) {
+    guidance = readMap(options.guidance, 1);
+    if (guidance.width != color.width || guidance.height != color.height)
+      throw ExemplarError(options.guidance.string() + " has " + sizeOf(guidance) +
+                          " pixels, and its exemplar " + options.file.string() + " " + sizeOf(color) +
+                          "; a guidance map must be of the same size.");
+  }
+  std::map<std::string, ExemplarMap> maps;
+  for (const MapOptions& map : options.maps) maps[map.name] = loadMap(map, color.width, options.toroidal);
+  return prepare(std::move(color), std::move(guidance), std::move(maps), options.toroidal, synthesis, levels,
+                 options.file.string(), cache);
+}
+
+}  // namespace fluidtex::texture

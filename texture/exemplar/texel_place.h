@@ -1,0 +1,37 @@
+// Where a vertex's place in the exemplar lies in another image over the same picture.
+#pragma once
+
+#include "texture/exemplar/exemplar.h"
+
+#include <stdexcept>
+
+namespace fluidtex::texture {
+
+// From texels of a surface's exemplar to pixels of an image of any size. Throws std::invalid_argument if the
+// image is empty or the surface does not know the size of its exemplar.
+class TexelToImage {
+ public:
+  TexelToImage(const TexturedSurface& surface, const Image& image)
+      : TexelToImage(surface.exemplarWidth, surface.exemplarHeight, image) {}
+  TexelToImage(int exemplarWidth, int exemplarHeight, const Image& image)
+      : m_scale(float(image.width) / float(exemplarWidth), float(image.height) / float(exemplarHeight)) {
+    if (image.data.empty()) throw std::invalid_argument("map of the exemplar: it has no pixels");
+    if (exemplarWidth < 1 || exemplarHeight < 1)
+      throw std::invalid_argument("map of the exemplar: the surface does not know the exemplar's size");
+  }
+  // Centres lie at integers, in the exemplar as in the image.
+  Vec2f operator()(const Vec2f& texel) const {
+    const Vec2f half(0.5f, 0.5f);
+    return (texel + half) * m_scale - half;
+  }
+
+ private:
+  Vec2f m_scale;
+};
+
+// How much of a vertex's former place is still shown, 0 to 1.
+inline float leftOf(const Fading& fading, std::uint32_t v) {
+  return fading.weight.empty() ? 0.0f : fading.weight[v];
+}
+
+}  // namespace fluidtex::texture

@@ -1,0 +1,210 @@
+#include "texture/frames/later_frame.h"
+
+#include "random/random.h"
+#include "texture/frames/first_frame.h"
+#include "texture/frames/fresh_start.h"
+#include "texture/frames/look_ahead.h"
+#include "texture/frames/renewal.h"
+#include "texture/labels/chips.h"
+#include "texture/labels/fresh.h"
+#include "texture/labels/guidance.h"
+#include "texture/loops/complex.h"
+#include "texture/loops/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::texture {
+namespace {
+
+// Around discs, this many rings may change with them, so that seams find a place.
+constexpr int kRim = 5;
+// Of what is renewed where the flow wears out much, discs are this share, and the rest lies between them.
+constexpr double kDiscsOfAll = 0.65;
+// How near joined labels stay to the last average.
+constexpr float kData = 0.4f;
+// New texture is squeezed by kMostAhead, and never so much (log) that flattening takes the strained surface
+// for a folded one.
+constexpr double kMostStrain = 0.45;
+// Vertices that stand for the surface at half its detail lie 1 to 2 of its pixels apart.
+constexpr float kHalfRadius = 0.8f;
+// Rings beyond what is laid out at half detail within which windows see its surroundings. Wider ones are cut
+// off there: all of a 33 pixel window's, 47, makes no better texture and takes longer.
+constexpr int kHalfReach = 20;
+
+// What the steps of one frame share.
+struct Job {
+  Synthesizer& synthesizer;
+  const Surface& surface;
+  const SeamModel& seams;
+  int frame;
+  SynthesisStats& stats;
+  const Progress& progress;
+};
+
+// What is renewed.
+struct Renewal {
+  std::vector<Disc> discs;
+  std::vector<std::uint8_t> wanted;    // #V: in discs, or lost
+  std::vector<std::uint8_t> withRims;  // #V: those and rims around them, within which they are joined
+};
+
+// Texel x of the full exemplar lies at (x - 1/2) / 2 of the halved one; what a label says of its surroundings
+// in pixels stays.
+Labels halved(const Labels& labels, const TexelImage& half) {
+  Labels result = labels;
+  forEachIndex(labels.size(), [&](std::uint32_t v) {
+    result[v].texel = half.brought((labels[v].texel - Vec2f(0.5f, 0.5f)) * 0.5f);
+  });
+  return result;
+}
+
+// Labels of members at full detail, handed on to the wanted vertices between them.
+void spread(const TexelImage& image, const MeshView& view, const std::vector<std::uint8_t>& wanted,
+            const Labels& coarse, Labels& labels) {
+  std::vector<std::uint8_t> placed(labels.size(), 0);
+  for (std::uint32_t v = 0; v < labels.size(); ++v) {
+    if (!wanted[v] || !view.isMember(v)) continue;
+    labels[v] = {image.brought(coarse[v].texel * 2.0f + Vec2f(0.5f, 0.5f)), coarse[v].jacobian};
+    placed[v] = 1;
+  }
+  handOn(image, view, wanted, std::move(placed), labels);
+}
+
+// Lays out what is wanted at half the surface's detail, where features are half as large and their scale is
+// kept.
+void layOut(const Job& job, const std::vector<std::uint8_t>& wanted, Labels& labels) {
+  const SearchTables& tables = *job.synthesizer.tables;
+  const MeshView& view = job.seams.view;
+  MeshView half{view.mesh, view.graph, view.connection, 2.0f, nullptr};
+  std::vector<std::uint8_t> members(labels.size(), 0);
+  for (const std::uint32_t v : selectCenters(half, kHalfRadius, grown(view.graph, wanted, kHalfReach)))
+    members[v] = 1;
+  half.members = &members;
+
+  State state;
+  state.labels = halved(labels, tables.image[1]);
+  state.value = lookUp(tables.image[1], state.labels);
+  Level level{half, tables.image[1], tables.histogram[1], {}, wanted};
+  const std::size_t windows = windowsOf(job.synthesizer, 1).size();
+  runPasses(job.synthesizer, level,
+            {1, job.frame, job.synthesizer.options.laterIterations, 1, true, 0,
+             std::max<std::size_t>(windows, 2) - 1},
+            state, job.stats, job.progress);
+  spread(tables.image.front(), half, wanted, state.labels, labels);
+}
+
+// Starts what is wide and new from nothing, where the surface has levels for it.
+void startFromNothing(const Job& job, const std::vector<float>& trust, Labels& labels) {
+  const auto& [synthesizer, surface, seams, frame, stats, progress] = job;
+  const MeshView& view = seams.view;
+  if (surface.levels.size() < 2 || synthesizer.tables->image.size() < 2) return;
+  const std::vector<std::uint8_t> wide =
+      wideFresh(view.graph, freshVertices(trust), synthesizer.options.windows.front());
+  if (!any(wide)) return;
+  const State coarse = synthesizeFromNothing(synthesizer, surface, 1, frame, stats, {});
+  const Labels fine =
+      refineLabels(surface.levels[1], coarse.labels, view.mesh, synthesizer.tables->image.front());
+  for (std::uint32_t v = 0; v < labels.size(); ++v)
+    if (wide[v]) labels[v] = fine[v];
+}
+
+// What is wanted, laid anew on what was carried: discs from blocks of the exemplar, wide new surface from
+// nothing, all of it at half detail first; then within the rims around it, from where seams show least.
+Labels layAnew(const Job& job, Renewal renewal, const std::vector<float>& trust, const Labels& before) {
+  const auto& [synthesizer, surface, seams, frame, stats, progress] = job;
+  const SynthesisOptions& options = synthesizer.options;
+  const SearchTables& tables = *synthesizer.tables;
+  const TexelImage& image = tables.image.front();
+  const MeshView& view = seams.view;
+  State state;
+  state.labels = before;
+  state.average = lookUp(image, before);
+  holdGuidance(image, view.mesh, state.average);
+  startAfresh(view, image, renewal.discs, options.renewalRadius, state.average,
+              keyOf(synthesizer, frame, 0, 2), state.labels);
+  startFromNothing(job, trust, state.labels);
+  if (tables.image.size() > 1) layOut(job, renewal.wanted, state.labels);
+  state.value = lookUp(image, state.labels);
+
+  const Level level{view, image, tables.histogram.front(), {}, std::move(renewal.withRims)};
+  const std::size_t windows = windowsOf(synthesizer, 0).size();
+  runPasses(synthesizer, level,
+            {0, frame, options.laterIterations, 1, false, windows > 1 ? std::size_t(1) : 0}, state, stats,
+            progress);
+  joinLabels(seams, state, kData, level.wanted, &before, keyOf(synthesizer, frame, 0, 1), state.labels);
+  return std::move(state.labels);
+}
+
+std::vector<Disc> discsOf(const Synthesizer& synthesizer, const SeamModel& seams, const Labels& labels,
+                          const Wear& wear, const std::vector<std::uint8_t>& free,
+                          const std::vector<Strain>& rates, double seconds) {
+  const SynthesisOptions& options = synthesizer.options;
+  const double budget = options.renewalRate * seconds;
+  const double worn = kDiscsOfAll * wornShare(rates, seconds, options.keepStretch);
+  return worstDiscs(seams, labels, wear, free,
+                    {options.keepStretch, options.renewalRadius, budget, std::max(budget, worn)},
+                    streamOf(options.seed, Stream::renewal));
+}
+
+// #V, 1 where labels may change: droplets too small for texture stay as they are; so does what still fades,
+// or it would jump.
+std::vector<std::uint8_t> renewable(const Synthesizer& synthesizer, const VertexGraph& graph,
+                                    const Carried& carried) {
+  std::vector<std::uint8_t> result = searched(synthesizer, graph);
+  if (result.empty()) result.assign(carried.trust.size(), 1);
+  for (std::size_t v = 0; v < result.size(); ++v)
+    if (carried.fading.weight[v] > 0.0f && believed(carried.trust[v])) result[v] = 0;
+  return result;
+}
+
+// #V, 1 where the first, and the second or the third, are 1.
+std::vector<std::uint8_t> freeWhereEither(const std::vector<std::uint8_t>& free, std::vector<std::uint8_t> a,
+                                          const std::vector<std::uint8_t>& b) {
+  for (std::size_t v = 0; v < free.size(); ++v) a[v] = free[v] && (a[v] || b[v]);
+  return a;
+}
+
+}  // namespace
+
+LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, const MeshView& now,
+                           const Carried& carried, int frame, double secondsSinceLast, SynthesisStats& stats,
+                           const Progress& progress) {
+  const SynthesisOptions& options = synthesizer.options;
+  const Labels labels = labelsOf(now.mesh, carried.coordinate, carried.gradient);
+  const std::size_t count = labels.size();
+  const Wear wear = wearAround(seamModel(synthesizer, now, 0), labels, carried.trust);
+  const std::vector<Strain> rates =
+      strainRates(now, carried.previousPosition, carried.trust, secondsSinceLast);
+  LaterFrame result{labels, std::vector<std::uint8_t>(count, 0), std::vector<float>(count)};
+  forEachIndex(count, [&](std::uint32_t v) {
+    result.fadingSpeed[v] = fadingSpeed(largest(rates[v]), options.keepStretch, options.fade);
+  });
+
+  // From here on the surface is that of a while ahead, and labels are what they will be there.
+  const double most = std::min(kMostAhead * std::log(options.keepStretch), kMostStrain);
+  const std::vector<Strain> ahead = strainAhead(rates, options.lookAhead, most);
+  const Connection connection = strained(now, ahead);
+  const MeshView view{now.mesh, now.graph, connection, now.pixel, now.members};
+  const SeamModel seams = seamModel(synthesizer, view, 0);
+  const Labels before = strained(labels, ahead);
+
+  const std::vector<std::uint8_t> free = renewable(synthesizer, view.graph, carried);
+  Renewal renewal;
+  renewal.discs = discsOf(synthesizer, seams, labels, wear, free, rates, secondsSinceLast);
+  std::vector<std::uint8_t> inDiscs(count, 0);
+  for (const Disc& disc : renewal.discs)
+    for (const std::uint32_t v : disc.members) inDiscs[v] = 1;
+  const std::vector<std::uint8_t> lost = lostLabels(seams, before, carried.trust);
+  renewal.wanted = freeWhereEither(free, inDiscs, lost);
+  if (!any(renewal.wanted)) return result;
+  renewal.withRims = freeWhereEither(free, grown(view.graph, inDiscs, kRim), lost);
+
+  Labels proposed = layAnew({synthesizer, surface, seams, frame, stats, progress}, std::move(renewal),
+                            carried.trust, before);
+  absorbChips(seams, free, proposed);
+  result.labels = unstrained(settle(seams, before, proposed, carried.trust, result.renewed), ahead);
+  return result;
+}
+
+}  // namespace fluidtex::texture

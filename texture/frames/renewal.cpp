@@ -1,0 +1,272 @@
+#include "texture/frames/renewal.h"
+
+#include "random/random.h"
+#include "texture/labels/fresh.h"
+#include "texture/labels/guidance.h"
+#include "texture/labels/pieces.h"
+#include "texture/labels/slips.h"
+#include "texture/loops/complex.h"
+#include "texture/loops/parallel.h"
+#include "texture/orientation/averaged.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::texture {
+namespace {
+
+constexpr float kSeamWeight = 0.75f;
+constexpr float kLostStretch = 4.0f;
+constexpr float kSameTexel = 0.7f;     // a proposal this near to the carried texel says the same
+constexpr float kSlipStretch = 1.15f;  // closing slips leaves as much: no reason to renew the same texel
+constexpr float kLeastGain = 0.05f;    // a piece is renewed if its badness falls by this on average
+constexpr int kBlurSweeps = 16;        // badness is averaged over (averaged.h)
+constexpr double kDiscsApart = 2.0 * kDiscShare;  // of a disc's nominal radius
+constexpr float kMostYoung = 0.35f;               // share of a disc
+constexpr float kTooYoung =
+    0.3f;  // around a centre with more of it none is tried again, of the nominal radius
+// Of what is kept (log): the earliest that texture is renewed. Far from one, for neighbours were laid
+// together.
+constexpr float kEarliest = 0.5f;
+// How much further (log), of what is kept, texture may be drawn out while it fades.
+constexpr float kFadesWithin = 1.8f;
+
+bool lost(const TexelImage& image, const Label& label, float trust) {
+  if (!believed(trust) || !liesOn(image, label.texel)) return true;
+  return isMirrored(label) && !image.ways.mirrored;
+}
+
+float stretchBadness(const TexelImage& image, const Label& label, float trust) {
+  const float amount = std::log(stretch(label));
+  return lost(image, label, trust) ? std::max(amount, std::log(kLostStretch)) : amount;
+}
+
+// Smooth noise in 0..1 over the exemplar: random values at the corners of a grid, interpolated.
+float noiseAt(const Vec2f& texel, std::uint64_t seed) {
+  constexpr float kCell = 24.0f;  // texels
+  const float x = texel[0] / kCell, y = texel[1] / kCell;
+  const float i = std::floor(x), j = std::floor(y);
+  const auto corner = [&](int di, int dj) {
+    return float(randomUnit(
+        seed, randomBits(std::uint64_t(std::int64_t(i) + di), std::uint64_t(std::int64_t(j) + dj))));
+  };
+  const float above = corner(0, 0) + (x - i) * (corner(1, 0) - corner(0, 0));
+  const float below = corner(0, 1) + (x - i) * (corner(1, 1) - corner(0, 1));
+  return above + (y - j) * (below - above);
+}
+
+float badnessAt(const SeamModel& model, const Labels& labels, float trust, std::uint32_t v) {
+  return kSeamWeight * seamCostAround(model, labels, v) + stretchBadness(model.image, labels[v], trust) +
+         guidanceCost(model.image, model.view.mesh, labels[v].texel, v);
+}
+
+}  // namespace
+
+std::vector<float> badness(const SeamModel& model, const Labels& labels, const std::vector<float>& trust) {
+  std::vector<float> result(labels.size());
+  forEachIndex(result.size(), [&](std::uint32_t v) { result[v] = badnessAt(model, labels, trust[v], v); });
+  return result;
+}
+
+bool believed(float trust) {
+  return trust >= kLowTrust;
+}
+
+namespace {
+
+// Walks over the surface around a vertex, as far as it hangs together within a distance of it.
+class Surroundings {
+ public:
+  explicit Surroundings(const MeshView& view) : m_view(view), m_stamp(view.mesh.positions.size(), 0) {}
+
+  const std::vector<std::uint32_t>& within(std::uint32_t center, double pixels) {
+    const std::vector<Vec3f>& x = m_view.mesh.positions;
+    const auto reach = float(pixels * m_view.mesh.spacingAt(center));
+    m_found.assign(1, center);
+    m_stamp[center] = ++m_current;
+    for (std::size_t i = 0; i < m_found.size(); ++i)
+      for (const std::uint32_t u : m_view.graph.around(m_found[i])) {
+        if (m_stamp[u] == m_current || (x[u] - x[center]).lengthSqr() > reach * reach) continue;
+        m_stamp[u] = m_current;
+        m_found.push_back(u);
+      }
+    return m_found;
+  }
+
+ private:
+  const MeshView& m_view;
+  std::vector<std::uint32_t> m_stamp, m_found;
+  std::uint32_t m_current = 0;
+};
+
+// Round discs leave a third of a plane between them. What is wanted there joins the disc that reaches it
+// first, within `rings` rings: left for later, it would wait until all around it has faded in.
+template <typename Wanted>
+void fillBetween(const VertexGraph& graph, int rings, const Wanted& wanted, std::vector<Disc>& discs) {
+  std::vector<std::uint8_t> taken(graph.first.size() - 1, 0);
+  for (const Disc& disc : discs)
+    for (const std::uint32_t v : disc.members) taken[v] = 1;
+  std::vector<std::size_t> front(discs.size(), 0);  // where a disc's outermost members begin
+  for (int ring = 0; ring < rings; ++ring)
+    for (std::size_t d = 0; d < discs.size(); ++d) {
+      std::vector<std::uint32_t>& members = discs[d].members;
+      const std::size_t end = members.size();
+      for (std::size_t i = front[d]; i < end; ++i)
+        for (const std::uint32_t u : graph.around(members[i])) {
+          if (taken[u] || !wanted(u)) continue;
+          taken[u] = 1;
+          members.push_back(u);
+        }
+      front[d] = end;
+    }
+}
+
+}  // namespace
+
+Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<float>& trust) {
+  const std::vector<float> bad = badness(model, labels, trust);
+  std::vector<Vec2f> both(labels.size());
+  forEachIndex(labels.size(), [&](std::uint32_t v) {
+    both[v] = {bad[v], lost(model.image, labels[v], trust[v]) ? 0.0f : std::log(stretch(labels[v]))};
+  });
+  both = averaged(model.view.graph, std::move(both), kBlurSweeps,
+                  [](const Vec2f& value, std::uint32_t) { return value; });
+  Wear wear{std::vector<float>(labels.size()), std::vector<float>(labels.size())};
+  forEachIndex(labels.size(),
+               [&](std::uint32_t v) { wear.bad[v] = both[v][0], wear.stretch[v] = both[v][1]; });
+  return wear;
+}
+
+double wornShare(const std::vector<Strain>& rates, double seconds, double keepStretch) {
+  const double life = (kMostAhead + double(kUrgent)) * std::log(std::max(keepStretch, 1.01));
+  const double sum = sumOf(rates.size(), [&](std::uint32_t v) {
+    return std::min(1.0, double(largest(rates[v])) * seconds / life);
+  });
+  return sum / double(std::max<std::size_t>(rates.size(), 1));
+}
+
+float fadingSpeed(float strainRate, double keepStretch, double fade) {
+  const double most = double(kFadesWithin) * std::log(std::max(keepStretch, 1.01));
+  return float(std::max(1.0 / std::max(fade, 1e-3), double(strainRate) / most));
+}
+
+std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,
+                             const std::vector<std::uint8_t>& free, const DiscOptions& options,
+                             std::uint64_t seed) {
+  const std::size_t count = labels.size();
+  const std::vector<float>& bad = wear.bad;
+  const auto stays = [&](std::uint32_t v) { return free[v] == 0; };
+  const auto kept = float(std::log(options.keepStretch));
+  const auto urgent = [&](std::uint32_t v) { return wear.stretch[v] >= kUrgent * kept; };
+  std::vector<std::uint32_t> candidates = gathered<std::uint32_t>(count, [&](std::uint32_t v, auto& list) {
+    if (free[v] && bad[v] > kept * (kEarliest + (1.0f - kEarliest) * noiseAt(labels[v].texel, seed)))
+      list.push_back(v);
+  });
+  std::sort(candidates.begin(), candidates.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return bad[a] > bad[b] || (bad[a] == bad[b] && a < b); });
+
+  std::vector<Disc> discs;
+  std::vector<std::uint8_t> near(count, 0);  // to the centre of a disc, or found too young
+  Surroundings surroundings(model.view);
+  double covered = 0.0;
+  for (const std::uint32_t center : candidates) {
+    // A budget of less than a vertex is none.
+    const double budget = urgent(center) ? options.urgentBudget : options.budget;
+    if (covered + 1.0 > budget * double(count)) continue;
+    if (near[center]) continue;
+    Disc disc{center, surroundings.within(center, kDiscShare * options.radius)};
+    const auto staying = std::count_if(disc.members.begin(), disc.members.end(), stays);
+    if (float(staying) > kMostYoung * float(disc.members.size())) {
+      for (const std::uint32_t v : surroundings.within(center, double(kTooYoung) * options.radius))
+        near[v] = 1;
+      continue;
+    }
+    std::erase_if(disc.members, stays);
+    covered += double(disc.members.size());
+    for (const std::uint32_t v : surroundings.within(center, kDiscsApart * options.radius)) near[v] = 1;
+    discs.push_back(std::move(disc));
+  }
+  const auto reach = int(std::ceil((kDiscsApart - kDiscShare) * options.radius));
+  fillBetween(
+      model.view.graph, reach, [&](std::uint32_t v) { return urgent(v) && free[v]; }, discs);
+  return discs;
+}
+
+std::vector<std::uint8_t> lostLabels(const SeamModel& model, const Labels& labels,
+                                     const std::vector<float>& trust) {
+  std::vector<std::uint8_t> result(labels.size());
+  forEachIndex(labels.size(), [&](std::uint32_t v) { result[v] = lost(model.image, labels[v], trust[v]); });
+  return result;
+}
+
+std::vector<std::uint8_t> grown(const VertexGraph& graph, std::vector<std::uint8_t> mask, int rings) {
+  std::vector<std::uint32_t> front, next;
+  for (std::uint32_t v = 0; v < mask.size(); ++v)
+    if (mask[v]) front.push_back(v);
+  for (int ring = 0; ring < rings && !front.empty(); ++ring) {
+    next.clear();
+    for (const std::uint32_t v : front)
+      for (const std::uint32_t u : graph.around(v)) {
+        if (mask[u]) continue;
+        mask[u] = 1;
+        next.push_back(u);
+      }
+    front.swap(next);
+  }
+  return mask;
+}
+
+namespace {
+
+// #V: how much badness changes where `renewed` is 1: a vertex's own, and its share of that of neighbours that
+// stay. What is proposed does not depend on what was carried: it is trusted.
+std::vector<float> changesOf(const SeamModel& model, const Labels& carried, const Labels& proposed,
+                             const std::vector<float>& trust, const std::vector<std::uint8_t>& renewed) {
+  const VertexGraph& graph = model.view.graph;
+  std::vector<float> change(carried.size(), 0.0f);
+  forEachIndex(carried.size(), [&](std::uint32_t v) {
+    if (!renewed[v]) return;
+    change[v] = badnessAt(model, proposed, 1.0f, v) - badnessAt(model, carried, trust[v], v);
+    for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
+      const std::uint32_t u = graph.neighbor[h];
+      if (renewed[u]) continue;
+      const float rise =
+          seamCost(model, proposed[v], carried[u], h) - seamCost(model, carried[v], carried[u], h);
+      change[v] += kSeamWeight * rise / float(graph.around(u).size());
+    }
+  });
+  return change;
+}
+
+}  // namespace
+
+Labels settle(const SeamModel& model, const Labels& carried, const Labels& proposed,
+              const std::vector<float>& trust, std::vector<std::uint8_t>& renewed) {
+  const std::size_t count = carried.size();
+  Labels result = carried;
+  renewed.assign(count, 0);
+  forEachIndex(count, [&](std::uint32_t v) {
+    const Vec2f difference = texelDifference(model.image, proposed[v].texel, carried[v].texel);
+    if (difference.lengthSqr() <= kSameTexel * kSameTexel &&
+        stretch(carried[v]) <= std::max(kSlipStretch, stretch(proposed[v]) + 0.05f))
+      return;
+    renewed[v] = 1;
+    result[v] = proposed[v];
+  });
+  closeSlips(model, renewed, result);  // what is judged is what comes of it
+
+  const std::vector<float> change = changesOf(model, carried, result, trust, renewed);
+  const std::vector<std::uint8_t> offered = renewed;
+  forEachPiece(model.view.graph, offered, [&](const std::vector<std::uint32_t>& piece) {
+    double sum = 0.0;
+    for (const std::uint32_t v : piece) sum += double(change[v]);
+    if (sum < -double(kLeastGain) * double(piece.size())) return;
+    for (const std::uint32_t v : piece) {
+      renewed[v] = 0;
+      result[v] = carried[v];
+    }
+  });
+  return result;
+}
+
+}  // namespace fluidtex::texture

@@ -1,0 +1,74 @@
+// Points sorted into cubes of space.
+#pragma once
+
+#include "texture/loops/parallel.h"
+#include "texture/surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fluidtex::texture {
+
+using Cell = std::array<int, 3>;
+
+// The cell along one axis of a place in cells. Farther than a billion from the origin all are one; a mesh may
+// lie there, and no integer holds the number of its cell. In this order what is no number gets one, too.
+inline int cellAlong(double x) {
+  return int(std::max(-1e9, std::min(1e9, std::floor(x))));
+}
+
+inline Cell cellAt(const Vec3f& x, double perLength) {
+  return {cellAlong(x.x() * perLength), cellAlong(x.y() * perLength), cellAlong(x.z() * perLength)};
+}
+
+// For hash tables of a power of two of slots.
+inline std::size_t cellHash(const Cell& cell) {
+  std::uint64_t h = std::uint64_t(std::uint32_t(cell[0])) * 0x9e3779b1u ^
+                    std::uint64_t(std::uint32_t(cell[1])) * 0x85ebca77u ^
+                    std::uint64_t(std::uint32_t(cell[2])) * 0xc2b2ae3du;
+  h *= 0x9e3779b97f4a7c15u;
+  return std::size_t(h >> 32);
+}
+
+// The same, with the cells of a cube of 4x4x4 next to each other: what is near in space is near in memory.
+// For a surface the table should have about four slots a point, and at least 64.
+inline std::size_t nearbySlot(int x, int y, int z, std::size_t mask) {
+  const std::size_t cube = cellHash({x >> 2, y >> 2, z >> 2});
+  return (cube << 6 | std::size_t((x & 3) << 4 | (y & 3) << 2 | (z & 3))) & mask;
+}
+
+// Points that stay, for looking up those near a position.
+class PointGrid {
+ public:
+  PointGrid(const std::vector<Vec3f>& points, double cellSize) : m_perLength(1.0 / cellSize) {
+    m_entries.resize(points.size());
+    forEachIndex(points.size(), [&](std::uint32_t i) { m_entries[i] = {cellAt(points[i], m_perLength), i}; });
+    std::sort(m_entries.begin(), m_entries.end());
+  }
+
+  // Calls visit(index) for every point in the 3x3x3 cells around x, in an order that depends on the points
+  // alone.
+  template <typename Visit>
+  void visitNear(const Vec3f& x, const Visit& visit) const {
+    const Cell c = cellAt(x, m_perLength);
+    for (int i = c[0] - 1; i <= c[0] + 1; ++i) {
+      for (int j = c[1] - 1; j <= c[1] + 1; ++j) {  // cells of one column follow each other
+        auto entry = std::lower_bound(m_entries.begin(), m_entries.end(), Entry{{i, j, c[2] - 1}, 0});
+        for (; entry != m_entries.end() && entry->cell <= Cell{i, j, c[2] + 1}; ++entry) visit(entry->index);
+      }
+    }
+  }
+
+ private:
+  struct Entry {
+    Cell cell{};
+    std::uint32_t index = 0;
+    auto operator<=>(const Entry&) const = default;
+  };
+
+  double m_perLength;
+  std::vector<Entry> m_entries;
+};
+
+}  // namespace fluidtex::texture

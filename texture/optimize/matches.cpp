@@ -1,0 +1,276 @@
+// Candidates from neighbours [Ashikhmin01] and at random, from lists of similar windows [Tong02], from a tree
+// [Kwatra05].
+#include "texture/optimize/matches.h"
+
+#include "random/random.h"
+#include "texture/labels/usage.h"
+#include "texture/loops/complex.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fluidtex::texture {
+namespace {
+
+constexpr int kMaxLinks = 8;
+constexpr int kMaxSimilar = 4;
+constexpr int kTreeCandidates = 8;  // of the tree's windows, by descriptor, that are compared in full
+constexpr int kRandomCandidates = 2;
+// Windows are improved in batches, so that later ones see the matches and the usage that earlier ones leave.
+constexpr std::uint64_t kBatches = 8;
+constexpr float kFar = std::numeric_limits<float>::max();
+
+// One neighbourhood's values, gathered once for all its candidates.
+struct Gathered {
+  Values value;
+  std::array<std::span<const Vec2f>, kMostWays> offset;  // by way
+  std::array<std::vector<Vec2f>, kMostWays> turned;      // those of the ways but the first
+  std::span<const float> falloff;
+  float mass = 0.0f;
+};
+
+// Where a window may be matched.
+struct Place {
+  Vec2f center;
+  Way way = 0;
+};
+
+void gather(const Windows& windows, std::size_t p, const Values& value, Gathered& result) {
+  const Neighborhoods& n = windows.neighborhoods;
+  const std::size_t begin = n.first[p], count = n.first[p + 1] - begin;
+  result.value.resize(count);
+  for (std::size_t i = 0; i < count; ++i) result.value[i] = value[n.vertex[begin + i]];
+  result.offset[0] = {n.offset.data() + begin, count};
+  for (int i = 1; i < countOf(windows.ways); ++i) {
+    const Way way = wayAt(windows.ways, i);
+    std::vector<Vec2f>& turned = result.turned[way];
+    turned.resize(count);
+    for (std::size_t k = 0; k < count; ++k) turned[k] = laid(way, n.offset[begin + k]);
+    result.offset[way] = turned;
+  }
+  result.falloff = {windows.falloff.data() + begin, count};
+  result.mass = windows.mass[p];
+}
+
+// D_p / m_p at a match, or something above `bound`.
+float distanceAt(const TexelImage& image, const Gathered& gathered, const Place& match, float bound = kFar) {
+  constexpr std::size_t kBlockSize = 24;  // entries between two looks at the bound; the heaviest come first
+  const float limit = bound < kFar ? bound * gathered.mass : kFar;
+  const std::span<const Vec2f> offset = gathered.offset[match.way];
+  const std::size_t count = gathered.value.size();
+  float total = 0.0f;
+  for (std::size_t begin = 0; begin < count; begin += kBlockSize) {
+    Float8 sum{};
+    const std::size_t end = std::min(count, begin + kBlockSize);
+    for (std::size_t i = begin; i < end; ++i) {
+      const Float8 texel = image.sampleInside(match.center[0] + offset[i][0], match.center[1] + offset[i][1]);
+      const Float8 d = gathered.value[i] - texel;
+      sum += gathered.falloff[i] * d * d;
+    }
+    total += sum8(sum);
+    if (total > limit) break;
+  }
+  return total / gathered.mass;
+}
+
+// What the threads keep while they search.
+struct Searcher {
+  explicit Searcher(const SearchTable* table) {
+    if (table) query.emplace_back(*table);
+  }
+  std::vector<WindowQuery> query;  // one, or none without a table
+  Gathered gathered;
+};
+
+// The tree's windows nearest to neighbourhood p, laid in one way.
+int searchWindows(const Windows& windows, std::size_t p, const Pass& pass, const Values& value, int channels,
+                  Way way, WindowQuery& query, std::span<Match> found) {
+  fillQuery(windows, p, value, query, channels, way);
+  prepareQuery(*pass.table, query);
+  return searchTree(*pass.table, query, pass.probes, found);
+}
+
+}  // namespace
+
+void fillQuery(const Windows& windows, std::size_t p, const Values& value, WindowQuery& query, int channels,
+               Way way) {
+  const std::size_t area = query.mask.size();
+  const int width = windows.neighborhoods.window, middle = width / 2;
+  const PixelSource* pixels = windows.pixels.data() + p * area;
+  for (std::size_t k = 0; k < area; ++k) {
+    const PixelSource& pixel = pixels[k];
+    const Vec2f at = laid(way, Vec2f(float(int(k) % width - middle), float(int(k) / width - middle)));
+    const auto i = std::size_t((int(at[1]) + middle) * width + int(at[0]) + middle);
+    query.mask[i] = pixel.missing() ? 0.0f : 1.0f;
+    const Float8 sum = pixel.weight[0] * value[pixel.vertex[0]] + pixel.weight[1] * value[pixel.vertex[1]] +
+                       pixel.weight[2] * value[pixel.vertex[2]];
+    for (int c = 0; c < channels; ++c) query.pixels[i * std::size_t(channels) + std::size_t(c)] = sum[c];
+  }
+}
+
+Windows makeWindows(const Level& level, const Pass& pass) {
+  Windows windows;
+  windows.ways = level.image.ways;
+  windows.neighborhoods = coverSurface(level.view, pass.window, level.wanted,
+                                       pass.table && pass.probes > 0 ? &windows.pixels : nullptr);
+  const Neighborhoods& n = windows.neighborhoods;
+  windows.links = linkWindows(n, level.view.mesh.positions.size(), kMaxLinks);
+  windows.falloff.resize(n.vertex.size());
+  windows.mass.resize(n.size());
+  windows.match.resize(n.size());
+  windows.way.assign(n.size(), 0);
+  windows.distance.assign(n.size(), 0.0f);
+  windows.demand = demandOn(level.image, level.view.mesh);
+  tbb::parallel_for(std::size_t(0), n.size(), [&](std::size_t p) {
+    float mass = 0.0f;
+    for (std::uint32_t i = n.first[p]; i < n.first[p + 1]; ++i)
+      mass += windows.falloff[i] = windowFalloff(n.window, n.offset[i][0], n.offset[i][1]);
+    windows.mass[p] = mass;
+  });
+  return windows;
+}
+
+void measureMatches(const TexelImage& image, const Values& value, Windows& windows) {
+  tbb::enumerable_thread_specific<Gathered> workspace;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, windows.match.size(), 16),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      Gathered& gathered = workspace.local();
+                      for (std::size_t p = range.begin(); p != range.end(); ++p) {
+                        gather(windows, p, value, gathered);
+                        windows.distance[p] = distanceAt(image, gathered, {windows.match[p], windows.way[p]});
+                      }
+                    });
+}
+
+void findFirstMatches(const Level& level, const Pass& pass, const Values& value, Windows& windows) {
+  tbb::enumerable_thread_specific<Searcher> workspace([&] { return Searcher(pass.table); });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, windows.match.size(), 16),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      Searcher& searcher = workspace.local();
+                      for (std::size_t p = range.begin(); p != range.end(); ++p) {
+                        float least = kFar;
+                        for (int i = 0; i < countOf(windows.ways); ++i) {
+                          const Way way = wayAt(windows.ways, i);
+                          Match found[1];
+                          searchWindows(windows, p, pass, value, level.image.channels, way,
+                                        searcher.query.front(), found);
+                          if (i > 0 && !(found[0].distance < least)) continue;
+                          least = found[0].distance;
+                          windows.match[p] = Vec2f(found[0].center);
+                          windows.way[p] = way;
+                        }
+                      }
+                    });
+  measureMatches(level.image, value, windows);
+}
+
+void improveMatches(const Level& level, const Pass& pass, int iteration, double usage, const Values& value,
+                    Windows& windows) {
+  const Neighborhoods& n = windows.neighborhoods;
+  const TexelImage& image = level.image;
+  const bool useTree = pass.table && pass.probes > 0;
+  const int similarCount = pass.table ? std::min({pass.similar, pass.table->similarCount, kMaxSimilar}) : 0;
+  const std::uint64_t key = randomBits(pass.seed, std::uint64_t(iteration));
+
+  std::vector<std::vector<std::uint32_t>> batches(kBatches);
+  for (std::uint32_t p = 0; p < n.size(); ++p) batches[randomBits(key, p) % kBatches].push_back(p);
+
+  Usage used(image, std::max(8, n.window), n.size(), windows.demand);
+  if (usage > 0.0)
+    for (const Vec2f& match : windows.match) used.add(match, 1.0f);
+
+  tbb::enumerable_thread_specific<Searcher> workspace(
+      [&] { return Searcher(useTree ? pass.table : nullptr); });
+  const Ways& ways = windows.ways;
+  const int wayCount = countOf(ways);
+  std::vector<Place> next;
+  for (const std::vector<std::uint32_t>& batch : batches) {
+    next.resize(batch.size());
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, batch.size(), 16),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          Searcher& searcher = workspace.local();
+          for (std::size_t b = range.begin(); b != range.end(); ++b) {
+            const std::size_t p = batch[b];
+            const float reach = 0.5f * float(n.window - 1);
+            gather(windows, p, value, searcher.gathered);
+            const float present = windows.distance[p];
+            const Place now{windows.match[p], windows.way[p]};
+            Place best = now, nearest = now;
+            float bestScore = kFar, bestDistance = present, nearestDistance = present;
+            std::array<Place, kMaxLinks + kMaxSimilar + kTreeCandidates + kRandomCandidates> tried;
+            std::size_t triedCount = 0;
+            const auto offer = [&](const Vec2f& texel, Way way) {
+              const Place candidate{image.centerFor(texel, reach), way};
+              const auto same = [&](const Place& other) {
+                constexpr float kSame = 0.02f;  // texels, squared distance
+                return way == other.way && (candidate.center - other.center).lengthSqr() < kSame;
+              };
+              if (same(now) || std::any_of(tried.begin(), tried.begin() + triedCount, same)) return;
+              if (triedCount < tried.size()) tried[triedCount++] = candidate;
+              const float penalty =
+                  usage > 0.0 ? 1.0f + float(usage) * std::max(0.0f, used.at(candidate.center) - 1.0f) : 1.0f;
+              const float bound = std::min(present, bestScore / penalty);
+              const float distance = distanceAt(image, searcher.gathered, candidate, bound);
+              if (distance < nearestDistance) nearestDistance = distance, nearest = candidate;
+              if (distance < present && distance * penalty < bestScore)
+                bestScore = distance * penalty, bestDistance = distance, best = candidate;
+            };
+
+            for (std::uint32_t i = windows.links.first[p]; i < windows.links.first[p + 1]; ++i) {
+              const std::uint32_t entry = windows.links.entry[i];
+              const Complexf offset(n.offset[entry][0], n.offset[entry][1]);
+              // From p to the neighbour, in the neighbour's axes.
+              const Complexf towards = conjugateProduct(n.turn[entry], offset);
+              const std::uint32_t q = windows.links.window[i];
+              offer(windows.texelAt(q, Vec2f(-towards.real(), -towards.imag())),
+                    wayCount == 1
+                        ? Way(0)
+                        : nearestWay(ways, seenFrom(layOf(windows.way[q]), std::conj(n.turn[entry]))));
+            }
+            if (useTree) {
+              // As many of each way as of one where there is no other.
+              Match found[kTreeCandidates];
+              for (int w = 0; w < wayCount; ++w) {
+                const Way way = wayAt(ways, w);
+                const int count = searchWindows(windows, p, pass, value, image.channels, way,
+                                                searcher.query.front(), found);
+                for (int i = 0; i < count; ++i) offer(Vec2f(found[i].center), way);
+              }
+            }
+            if (similarCount > 0) {
+              Vec2i similar[kMaxSimilar];
+              const Vec2i center(int(std::lround(nearest.center[0])), int(std::lround(nearest.center[1])));
+              const Vec2f shift = nearest.center - Vec2f(center);
+              const Way way = nearest.way;
+              const int count = similarWindows(*pass.table, validCenter(*pass.table, center),
+                                               std::span(similar, std::size_t(similarCount)));
+              for (int i = 0; i < count; ++i) offer(Vec2f(similar[i]) + shift, way);
+            }
+            const std::uint64_t own = randomBits(key, kBatches + p);
+            const auto random = [&](std::uint64_t i) { return float(randomUnit(own, i)); };
+            offer(Vec2f(random(0) * float(image.width), random(1) * float(image.height)),
+                  wayAt(ways, int(randomBelow(own, 4, std::uint64_t(wayCount)))));
+            const float near = 0.25f * float(n.window);
+            offer(nearest.center + Vec2f((2.0f * random(2) - 1.0f) * near, (2.0f * random(3) - 1.0f) * near),
+                  nearest.way);
+            next[b] = best;
+            windows.distance[p] = bestDistance;  // nobody else reads it
+          }
+        });
+    for (std::size_t b = 0; b < batch.size(); ++b) {
+      Vec2f& match = windows.match[batch[b]];
+      const Vec2f& center = next[b].center;
+      if (usage > 0.0 && center != match) used.add(match, -1.0f), used.add(center, 1.0f);
+      match = center;
+      windows.way[batch[b]] = next[b].way;
+    }
+  }
+}
+
+}  // namespace fluidtex::texture

@@ -1,0 +1,112 @@
+#include "texture/orientation/directions.h"
+
+#include "texture/loops/parallel.h"
+#include "texture/orientation/tangent_field.h"
+
+#include <openvdb/tools/Interpolation.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fluidtex::texture {
+namespace {
+
+// Of a unit vector, as long as the square of its tangent part: where the surface nearly faces it, it says
+// little.
+Vec3f tangentPart(const Vec3f& x, const Vec3f& n) {
+  const Vec3f tangent = x - n * n.dot(x);
+  return tangent * tangent.length();
+}
+
+// A line in the tangent plane as twice its angle (N = 2 of tangent_field.h), as long as the surface bends
+// more along it than across, 1/m.
+Complexf bendAt(const SurfaceMesh& mesh, const VertexGraph& graph, std::uint32_t v, const Vec3f& axis) {
+  // Least squares for the shape operator [a b; b c], which takes edges to the changes of the normal along
+  // them.
+  const Vec3f &x = mesh.positions[v], &n = mesh.normals[v];
+  const Vec3f across = rowAxis(axis, n);
+  double xx = 0.0, xy = 0.0, yy = 0.0, px = 0.0, qy = 0.0, mixed = 0.0;
+  for (const std::uint32_t u : graph.around(v)) {
+    const Vec3f edge = mesh.positions[u] - x, turn = mesh.normals[u] - n;
+    const double ex = edge.dot(axis), ey = edge.dot(across), p = turn.dot(axis), q = turn.dot(across);
+    xx += ex * ex;
+    xy += ex * ey;
+    yy += ey * ey;
+    px += p * ex;
+    qy += q * ey;
+    mixed += p * ey + q * ex;
+  }
+  const openvdb::math::Mat3d normal(xx, xy, 0.0, xy, xx + yy, xy, 0.0, xy, yy);
+  const double size = xx + yy;
+  if (!(normal.det() > 1e-9 * size * size * size)) return {};
+  const openvdb::Vec3d s = normal.inverse() * openvdb::Vec3d(px, mixed, qy);
+  const double mean = 0.5 * (s[0] + s[2]);
+  const std::complex<double> difference(0.5 * (s[0] - s[2]), s[1]);
+  // Bends of mean +- |difference|: the larger in magnitude is along +difference where the mean is positive.
+  const double length = std::abs(difference);
+  if (!(length > 0.0)) return {};
+  const double excess = std::abs(mean + length) - std::abs(mean - length);
+  return Complexf(difference * (excess / length));
+}
+
+}  // namespace
+
+std::vector<Vec3f> alongDirection(const SurfaceMesh& mesh, const Vec3f& direction) {
+  const float length = direction.length();
+  std::vector<Vec3f> result(mesh.positions.size(), Vec3f(0.0f));
+  if (!(length > 0.0f)) return result;
+  const Vec3f unit = direction / length;
+  forEachIndex(result.size(), [&](std::uint32_t v) { result[v] = tangentPart(unit, mesh.normals[v]); });
+  return result;
+}
+
+std::vector<Vec3f> alongFlow(const SurfaceMesh& mesh, const std::vector<Vec3f>& velocity, double still) {
+  std::vector<Vec3f> result(mesh.positions.size());
+  const auto still2 = static_cast<float>(still * still);
+  forEachIndex(result.size(), [&](std::uint32_t v) {
+    const Vec3f& n = mesh.normals[v];
+    const Vec3f tangent = velocity[v] - n * n.dot(velocity[v]);
+    const float speed = tangent.length();
+    result[v] = tangent * (speed / (speed * speed + still2));
+  });
+  return result;
+}
+
+std::vector<Vec3f> alongBend(const SurfaceMesh& mesh) {
+  constexpr int kAverages = 2;
+  // Radii of more spacings than this count for less than half.
+  constexpr float kFarRadius = 20.0f;
+  const VertexGraph graph = buildVertexGraph(mesh);
+  const std::vector<Vec3f> axes = referenceVectors(mesh.normals);
+  const FieldGraph lines = fieldGraph(graph, buildConnection(mesh, graph, axes), 2);
+  std::vector<Complexf> bend(mesh.positions.size()), next(bend.size());
+  forEachIndex(bend.size(), [&](std::uint32_t v) { bend[v] = bendAt(mesh, graph, v, axes[v]); });
+  for (int n = 0; n < kAverages; ++n) {
+    forEachIndex(bend.size(), [&](std::uint32_t v) { next[v] = average(lines, bend, v); });
+    bend.swap(next);
+  }
+  std::vector<Vec3f> result(bend.size());
+  forEachIndex(result.size(), [&](std::uint32_t v) {
+    const float strength = std::abs(bend[v]) * static_cast<float>(mesh.spacingAt(v)) * kFarRadius;
+    const Complexf line = std::polar(strength / (1.0f + strength), 0.5f * std::arg(bend[v]));
+    result[v] = axes[v] * line.real() + rowAxis(axes[v], mesh.normals[v]) * line.imag();
+  });
+  return result;
+}
+
+std::vector<Vec3f> alongField(const SurfaceMesh& mesh, const openvdb::Vec3SGrid& field) {
+  std::vector<Vec3f> result(mesh.positions.size(), Vec3f(0.0f));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, result.size(), kGrain), [&](const auto& range) {
+    const auto accessor = field.getConstAccessor();
+    for (std::size_t v = range.begin(); v != range.end(); ++v) {
+      const Vec3f x =
+          openvdb::tools::BoxSampler::sample(accessor, field.worldToIndex(openvdb::Vec3d(mesh.positions[v])));
+      const float length = x.length();
+      if (std::isfinite(length) && length > 0.0f) result[v] = tangentPart(x / length, mesh.normals[v]);
+    }
+  });
+  return result;
+}
+
+}  // namespace fluidtex::texture
