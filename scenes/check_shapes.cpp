@@ -2,8 +2,6 @@
 #include "scenes/format.h"
 
 namespace fluidtex::scenes {
-namespace {}  // namespace
-
 void checkSequence(const sim::MeshSequence& sequence, const std::string& path, Reader& reader) {
   if (!reader.clean(path)) return;
   if (sequence.last < sequence.first) {

@@ -3,6 +3,7 @@
 // beyond it on sides that are unbounded.
 #pragma once
 
+#include "sim/shape.h"
 #include "sim/vec3.h"
 
 #include <algorithm>
@@ -15,85 +16,6 @@
 #include <vector>
 
 namespace fluidtex::sim {
-
-struct Box {
-  Vec3d min{0.0}, max{1.0};
-};
-
-struct Sphere {
-  Vec3d center{0.0};
-  double radius = 1.0;
-};
-
-// Round, with flat ends at `from` and `to`.
-struct Cylinder {
-  Vec3d from{0.0}, to{0.0, 0.0, 1.0};
-  double radius = 0.5;
-};
-
-// Everything behind the plane: (x - point) . normal < 0.
-struct HalfSpace {
-  Vec3d point{0.0}, normal{0.0, 0.0, 1.0};
-};
-
-// A closed triangle mesh from a file (OBJ, PLY or STL); x_world = scale * x_file + translate.
-struct MeshShape {
-  std::filesystem::path file;
-  double scale = 1.0;
-  Vec3d translate{0.0};
-};
-
-// One surface that changes its shape: closed meshes in numbered files of the same kinds. The file with number
-// `first` shows it at time `start` (seconds), each other one 1/frameRate later than the one before. All have
-// the same vertices and faces in the same order: each vertex goes in straight lines from file to file. Before
-// the first and after the last the surface is at rest. Only a solid changes; what else is made of a sequence
-// stays as in the first file.
-struct MeshSequence {
-  std::filesystem::path files;  // with the number's place in its last part: %d, or %04d for four digits
-  int first = 1, last = 1;
-  double frameRate = 24.0, start = 0.0;
-  double scale = 1.0;
-  Vec3d translate{0.0};
-
-  // Of the n-th file, counted from 0.
-  double timeOf(int n) const { return start + n / frameRate; }
-  std::filesystem::path fileOf(int n) const {
-    std::string name = files.filename().string(), number = std::to_string(first + n);
-    const std::size_t place = name.find('%'), letter = name.find('d', place);
-    if (place == std::string::npos || letter == std::string::npos) return files;
-    const std::size_t digits = letter == place + 3 ? std::size_t(name[place + 2] - '0') : 0;
-    if (number.size() < digits) number.insert(0, digits - number.size(), '0');
-    return files.parent_path() / name.replace(place, letter + 1 - place, number);
-  }
-  int count() const { return last - first + 1; }
-};
-
-// Ground from a grey image of 8 or 16 bits: black lies at height `low`, white at `high`; one pixel is `pixel`
-// metres wide, the picture's top is at high y. translate: of its lower left corner, and of all heights.
-// Between pixel centres the heights are bicubic. All below is inside; where the picture ends at a side of
-// [0, size] or beyond, its rim goes on; on unbounded sides it does so wherever it ends.
-struct HeightField {
-  std::filesystem::path file;
-  double pixel = 1.0;
-  double low = 0.0, high = 1.0;
-  Vec3d translate{0.0};
-};
-
-struct Shape;
-
-struct Union {
-  std::vector<Shape> parts;
-};
-
-// The first part less all the others.
-struct Difference {
-  std::vector<Shape> parts;
-};
-
-struct Shape {
-  std::variant<Box, Sphere, Cylinder, HalfSpace, MeshShape, MeshSequence, HeightField, Union, Difference>
-      kind;
-};
 
 inline constexpr double kForever = std::numeric_limits<double>::infinity();
 

@@ -9,18 +9,14 @@
 
 namespace fluidtex::texture {
 
-// Properties that every vertex has anyway, or may have.
-inline bool isVertexProperty(const std::string& name) {
-  static const std::set<std::string> kNames = {
-      "x",  "y",     "z",   "nx",      "ny",     "nz",     "red",  "green", "blue", "alpha",
-      "s",  "t",     "dx",  "dy",      "dz",     "bx",     "by",   "bz",    "vx",   "vy",
-      "vz", "trust", "age", "contact", "fade_s", "fade_t", "fade", "scale"};
-  return kNames.contains(name);
-}
-
-// Whether a map of one's own may not have that name: that of a property, or of what guidance follows.
+// Whether a map of one's own may not have that name: that of a property which every vertex has anyway, or may
+// have.
 inline bool isReservedName(const std::string& name) {
-  return name == kGuidance || name == kFoam || isVertexProperty(name);
+  static const std::set<std::string> kNames = {
+      "x",  "y",     "z",   "nx",      "ny",     "nz",     "red",  "green", "blue",     "alpha",
+      "s",  "t",     "dx",  "dy",      "dz",     "bx",     "by",   "bz",    "vx",       "vy",
+      "vz", "trust", "age", "contact", "fade_s", "fade_t", "fade", "scale", "guidance", "foam"};
+  return kNames.contains(name);
 }
 
 // The names of a vector's three parts in a PLY.

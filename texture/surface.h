@@ -65,18 +65,24 @@ inline Fading noFading(std::size_t count) {
           std::vector<float>(count, 0.0f), std::vector<float>(count, 0.0f)};
 }
 
-// The earlier frame's texture brought onto a new surface. Every array has one entry per vertex of levels[0],
+// What each vertex shows.
+struct VertexTexture {
+  std::vector<Vec4f> color;  // #V: linear RGBA, straight alpha
+  std::vector<Vec2f>
+      coordinate;  // #V: exemplar coordinate, texels; texel centres at integers, origin top left
+  std::vector<TexelGradient> gradient;  // #V
+  Fading fading;
+  std::vector<float> age;               // #V: s since the texture here was last renewed
+  std::vector<float> trust;             // #V, 0..1: how far what was carried here can be believed
+  std::vector<Vec3f> previousPosition;  // #V: where the vertex was one frame ago, on the old surface
+};
+
+// The earlier frame's texture brought onto a new surface: colours are barycentric means (what method kwatra07
+// carries), gradients those after the flow's deformation. Every array has one entry per vertex of levels[0],
 // or none at all on the first frame.
-struct Carried {
-  std::vector<Vec3f> orientation;       // unit, tangent, turned with the flow
-  std::vector<Vec4f> color;             // linear RGBA, barycentric: what method kwatra07 carries
-  std::vector<Vec2f> coordinate;        // exemplar coordinate, texels; texel centres at integers
-  std::vector<TexelGradient> gradient;  // its gradient after the flow's deformation
-  Fading fading;             // brought along in the same way; weights are those of the earlier frame
-  std::vector<float> age;    // s since the texture here was last renewed
-  std::vector<float> foam;   // 0..1, barycentric; empty where the earlier surface had none
-  std::vector<float> trust;  // 0..1
-  std::vector<Vec3f> previousPosition;  // where the vertex was one frame ago, on the old surface
+struct Carried : VertexTexture {
+  std::vector<Vec3f> orientation;  // unit, tangent, turned with the flow
+  std::vector<float> foam;         // 0..1, barycentric; empty where the earlier surface had none
   bool empty() const { return previousPosition.empty(); }
 };
 
@@ -87,29 +93,15 @@ struct SynthesisStats {
   double renewed = 1.0;  // share of vertices whose exemplar coordinate is not the carried one
 };
 
-// Under these names TexturedSurface::maps holds SurfaceMesh::guidance and SurfaceMesh::foam.
-inline constexpr const char* kGuidance = "guidance";
-inline constexpr const char* kFoam = "foam";
-
-// The end product of a frame: rendered, written, measured, and carried to the next.
-struct TexturedSurface {
-  double spacing = 0.0;
-  std::vector<Vec3f> positions, normals, orientation;
-  std::vector<Vec3I> triangles;
-  std::vector<Vec4f> color;       // linear RGBA, straight alpha
-  std::vector<Vec2f> coordinate;  // exemplar coordinate, texels; texel centres at integers, origin top left
-  std::vector<TexelGradient> gradient;
-  Fading fading;
-  std::vector<float> age, trust;
-  std::vector<Vec3f> previousPosition;
-  std::vector<Vec3f> velocity;                        // m/s
-  std::vector<std::uint8_t> contact;                  // 1 where the vertex touches a solid
-  std::map<std::string, std::vector<float>> maps;     // every further map by name, kGuidance, kFoam
-  std::map<std::string, std::vector<Vec3f>> vectors;  // unit or zero, in space: maps that hold vectors
+// The end product of a frame: rendered, written, measured, and carried to the next. texture/vertex_arrays.h
+// lists its arrays.
+struct TexturedSurface : SurfaceMesh, VertexTexture {
+  std::vector<Vec3f> velocity;                        // #V, m/s
+  std::vector<std::uint8_t> contact;                  // #V: 1 where the vertex touches a solid
+  std::map<std::string, std::vector<float>> maps;     // #V each: further maps of the exemplar by name
+  std::map<std::string, std::vector<Vec3f>> vectors;  // #V each: unit or zero, in space: maps of vectors
   int exemplarWidth = 0, exemplarHeight = 0;          // texels
-  std::vector<float> scale;                           // of the spacing, as in SurfaceMesh; may be empty
   bool empty() const { return positions.empty(); }
-  double spacingAt(std::uint32_t v) const { return scale.empty() ? spacing : spacing * double(scale[v]); }
 };
 
 }  // namespace fluidtex::texture

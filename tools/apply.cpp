@@ -13,6 +13,7 @@
 #include "tools/journal.h"
 #include "tools/out_folder.h"
 #include "tools/ply.h"
+#include "tools/read_ply.h"
 
 #include <fmt/core.h>
 

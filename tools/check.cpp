@@ -1,4 +1,6 @@
 // fluidtex check SCENE: validate only, and print what a run would do.
+#include "pipeline/foreseen_surface.h"
+#include "pipeline/liquid_plan.h"
 #include "sim/grid/mac_grid.h"
 #include "sim/motion/motion.h"
 #include "sim/solids/domain.h"
@@ -8,9 +10,7 @@
 #include "tools/common_options.h"
 #include "tools/console.h"
 #include "tools/errors.h"
-#include "tools/foreseen_surface.h"
 #include "tools/image_notes.h"
-#include "tools/liquid_plan.h"
 #include "tools/memory_plan.h"
 #include "tools/work.h"
 
@@ -36,7 +36,7 @@ void check(const CommonOptions& options) {
   if (options.quiet) return;
   nowAt(kOnMotion);
   const double h = scene.sim.voxelSize();
-  const LiquidPlan liquid = planLiquid(scene.sim);
+  const pipeline::LiquidPlan liquid = pipeline::planLiquid(scene.sim);
   const openvdb::Coord cells = sim::cellCount(scene.sim.size, h);
   print("{}: valid\n", scene.file.string());
   print("frames    {} to {} of {}, {:g} a second, {:.3g} s in all\n", first, last, scene.frames,
@@ -48,7 +48,7 @@ void check(const CommonOptions& options) {
         static_cast<double>(liquid.atStart) * h * h * h);
   if (liquid.cells != liquid.atStart) print("; {} cells once all is poured", liquid.cells);
   print("\n");
-  const double spacing = scene.texture.spacing, foreseen = foreseenSurface(scene);
+  const double spacing = scene.texture.spacing, foreseen = pipeline::foreseenSurface(scene);
   const std::optional<double> points = plannedPoints(scene, liquid);
   if (!points) {
     print("points    one every {:.4g} m, as many as what flows in needs\n", spacing);
@@ -56,7 +56,7 @@ void check(const CommonOptions& options) {
     print("points    one every {:.4g} m, about {:.2g}\n", spacing, *points);
   } else if (foreseen > 0.0) {
     print("points    {} on the {:.2g} m2 that the liquid may come to, one every {:.4g} m or more\n",
-          scene.texture.points, foreseen, foreseenSpacing(scene));
+          scene.texture.points, foreseen, pipeline::foreseenSpacing(scene));
   } else {
     print("points    {} on the first surface; the spacing then stays\n", scene.texture.points);
   }

@@ -4,7 +4,7 @@
 #include "sim/meshes/read_mesh.h"
 #include "sim/shapes/moving_mesh.h"
 #include "sim/shapes/pose.h"
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
 #include "sim/solids/domain.h"
 #include "tools/errors.h"
 

@@ -1,11 +1,9 @@
 #include "tools/frame_loop.h"
 
+#include "pipeline/texture_frame.h"
 #include "render/frame_name.h"
 #include "render/render.h"
 #include "sim/motion/motion.h"
-#include "texture/frames/synthesize.h"
-#include "texture/labels/fresh.h"
-#include "texture/mesh/prepare.h"
 #include "tools/atomic_file.h"
 #include "tools/cache_folder.h"
 #include "tools/check_relief.h"
@@ -15,22 +13,16 @@
 #include "tools/earlier_run.h"
 #include "tools/errors.h"
 #include "tools/fingerprint.h"
-#include "tools/foreseen_surface.h"
 #include "tools/image_notes.h"
 #include "tools/input_files.h"
 #include "tools/journal.h"
 #include "tools/onto_mesh.h"
-#include "tools/orientation_guide.h"
 #include "tools/ply.h"
 #include "tools/progress.h"
 #include "tools/report.h"
 #include "tools/state.h"
-#include "tools/texture_guidance.h"
-#include "tools/texture_scale.h"
-#include "tools/textured.h"
 #include "tools/visible_solids.h"
 #include "tools/work.h"
-#include "transport/carry.h"
 
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
@@ -63,16 +55,20 @@ class Stopwatch {
 // A finished frame: the motion, the surface that came out, what it took.
 struct FrameResult {
   sim::Frame motion;
-  texture::TexturedSurface surface;
-  texture::SynthesisStats synthesis;
-  std::optional<std::vector<texture::Singularity>> singularities;  // not known without a surface
+  pipeline::TexturedFrame textured;
   StageSeconds seconds;
 };
 
-texture::Seeds seedsFor(const texture::TexturedSurface& last, const sim::Frame& frame,
-                        const texture::SurfaceOptions& options) {
-  if (options.points == texture::Points::random) return {};
-  return {transport::moved(last.positions, frame), last.positions, last.triangles, last.scale};
+const char* nameOf(pipeline::Stage stage) {
+  switch (stage) {
+    case pipeline::Stage::prepare:
+      return "prepare";
+    case pipeline::Stage::transport:
+      return "transport";
+    case pipeline::Stage::synthesize:
+      return "synthesize";
+  }
+  return "";
 }
 
 class FrameLoop {
@@ -84,16 +80,10 @@ class FrameLoop {
         m_last(options.lastFrame > 0 ? options.lastFrame : scene.frames),
         m_inputs(contentsOf(scene)),
         m_detail(options.render ? detailOf(scene.texture) : std::nullopt),
-        m_synthesizer(
-            texture::makeSynthesizer(texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis,
-                                                           scene.texture.surface.levels, kept()),
-                                     scene.texture.synthesis, kept())),
-        m_guide(orientationGuide(scene)),
-        m_scale(textureScale(scene)),
-        m_guidance(textureGuidance(scene)),
+        m_texturing(pipeline::makeTexturing(scene, kept())),
         m_solids(scene.sim),
         m_reportFile(options.out) {
-    if (options.render) checkRelief(scene.render.bump, m_synthesizer.exemplar);
+    if (options.render) checkRelief(scene.render.bump, m_texturing.synthesizer.exemplar);
     m_surface.spacing = scene.texture.spacing;
     m_report.scene = Json::parse(scene.resolved);
     m_report.seed = scene.seed;
@@ -143,8 +133,9 @@ class FrameLoop {
     FrameResult result = computeFrame();
     sim::Frame& motion = result.motion;
     StageSeconds& seconds = result.seconds;
-    m_surface = std::move(result.surface);
-    Json record = frameRecord(motion, m_surface, result.singularities, result.synthesis);
+    const pipeline::TexturedFrame& textured = result.textured;
+    m_surface = std::move(result.textured.surface);
+    Json record = frameRecord(motion, m_surface, textured.singularities, textured.synthesis);
     const std::size_t substeps = motion.substeps.size();
     motion.substeps.clear();  // their grids would stay in memory while the picture is drawn
     if (motion.index >= m_options.firstFrame) writeResults(motion.index, motion.time, seconds);
@@ -168,13 +159,12 @@ class FrameLoop {
         "frame {}: {} liquid cells, shortest substep {:.3g} s, {} pressure iterations, residual {:.2g}; "
         "energy {:.5g} to {:.5g} in {} iterations, {:.1f}% renewed",
         motion.index, stats.cells, stats.dtMin, stats.pressureIterations, stats.pressureResidual,
-        result.synthesis.energyStart, result.synthesis.energyEnd, result.synthesis.iterations,
-        100.0 * result.synthesis.renewed);
+        textured.synthesis.energyStart, textured.synthesis.energyEnd, textured.synthesis.iterations,
+        100.0 * textured.synthesis.renewed);
     spdlog::info("frame {}: {}", motion.index, summary);
     m_progress->frameDone(motion.index, summary);
   }
 
-  // sim -> surface -> transport -> orientation -> synthesis: docs/architecture.md, "The way of one frame".
   FrameResult computeFrame() {
     FrameResult result;
     StageSeconds& seconds = result.seconds;
@@ -184,71 +174,21 @@ class FrameLoop {
       result.motion = sim::nextFrame(*m_motion, reporter("simulate"));
     }
     tellWarnings();
-    const sim::Frame& motion = result.motion;
-    const texture::SurfaceOptions& surfaceOptions = m_scene.texture.surface;
-    texture::Surface surface;
-    {
-      Stopwatch watch(seconds.prepare);
-      nowAt(kOnSurface, motion.index);
-      reporter("prepare")(0.0);
-      const texture::PointScale scale = scaleIn(m_scale, motion);
-      if (m_surface.spacing <= 0.0) m_surface.spacing = firstSpacing(motion, scale);
-      if (m_surface.spacing > 0.0)
-        surface = texture::prepareSurface(
-            *motion.surfacePhi, m_surface.spacing, seedsFor(m_surface, motion, surfaceOptions),
-            needsAllLevels(m_scene, m_surface) ? surfaceOptions.levels : 1, surfaceOptions, scale);
-    }
-    if (surface.empty()) {
-      result.surface.spacing = m_surface.spacing;
-      return result;
-    }
-    texture::Carried carried;
-    {
-      Stopwatch watch(seconds.transport);
-      reporter("transport")(0.0);
-      carried =
-          transport::carry(m_surface, motion, surface.levels[0], m_guide.options.symmetry, m_scene.transport);
-    }
-    {
-      Stopwatch watch(seconds.prepare);
-      const int symmetry = m_guide.options.symmetry;
-      const std::vector<int>& windows = m_scene.texture.synthesis.windows;
-      const texture::VertexGraph graph = texture::buildVertexGraph(surface.levels[0]);
-      if (texture::any(texture::wideFresh(graph, texture::freshVertices(carried.trust),
-                                          *std::max_element(windows.begin(), windows.end()))))
-        texture::addCoarserLevels(*motion.surfacePhi, surfaceOptions.levels, surfaceOptions,
-                                  scaleIn(m_scale, motion), surface);
-      texture::orient(surface, carried, {.symmetry = symmetry, .seed = m_scene.seed},
-                      wishesFor(m_guide, motion));
-      result.singularities = texture::singularities(surface.levels[0], symmetry);
-      texture::calmDroplets(surface.levels[0],
-                            texture::droplets(graph, *std::min_element(windows.begin(), windows.end())),
-                            m_scene.texture.synthesis.ways, carried);
-      guide(m_guidance, motion, carried, 1.0 / m_scene.sim.frameRate, surface);
-    }
-    {
-      Stopwatch watch(seconds.synthesize);
-      nowAt(kOnTexture, motion.index);
-      result.surface = textured(m_scene, m_synthesizer, std::move(surface), carried, motion.index,
-                                result.synthesis, reporter("synthesize"));
-    }
-    {
-      Stopwatch watch(seconds.transport);
-      result.surface.velocity = transport::velocityAt(result.surface.positions, motion);
-      result.surface.contact = transport::contactAt(result.surface.positions, motion);
-    }
+    const int frame = result.motion.index;
+    const auto progress = [&](pipeline::Stage stage, double part) {
+      nowAt(stage == pipeline::Stage::synthesize ? kOnTexture : kOnSurface, frame);
+      reporter(nameOf(stage))(part);
+    };
+    result.textured = pipeline::textureFrame(m_texturing, m_surface, result.motion, {progress});
+    seconds.prepare = result.textured.seconds.prepare;
+    seconds.transport = result.textured.seconds.transport;
+    seconds.synthesize = result.textured.seconds.synthesize;
+    const double spacing = result.textured.surface.spacing;
+    if (spacing != m_surface.spacing)
+      spdlog::info("texture: one point every {:.4g} m, {}", spacing,
+                   result.textured.foreseenSpacing ? "for the surface that the liquid is going to have"
+                                                   : "by the first surface");
     return result;
-  }
-
-  // 0 where there is no surface yet.
-  double firstSpacing(const sim::Frame& motion, const texture::PointScale& scale) const {
-    const double here = texture::spacingForPoints(*motion.surfacePhi, m_scene.texture.points, scale);
-    if (!(here > 0.0)) return here;
-    const double spacing = std::max(here, foreseenSpacing(m_scene));
-    spdlog::info(
-        "texture: one point every {:.4g} m, {}", spacing,
-        spacing > here ? "for the surface that the liquid is going to have" : "by the first surface");
-    return spacing;
   }
 
   // The picture and the surfaces of the frame that m_surface is of, and lines of the journal that tell of
@@ -276,7 +216,7 @@ class FrameLoop {
                     [&](const fs::path& file) { writePly(m_surface, file); });
     if (putsOnto()) {
       const texture::TexturedSurface other =
-          ontoMesh(m_surface, m_scene.onto, frame, m_guide.options.symmetry);
+          ontoMesh(m_surface, m_scene.onto, frame, m_texturing.orientation.options.symmetry);
       writeAtomically(m_options.out / "onto" / (name + ".ply"),
                       [&](const fs::path& file) { writePly(other, file); });
     }
@@ -353,10 +293,7 @@ class FrameLoop {
   Json m_inputs;  // known before anything is read of them
   // What pictures show between the points, where it is not their colours.
   std::optional<texture::Detail> m_detail;
-  texture::Synthesizer m_synthesizer;
-  OrientationGuide m_guide;
-  TextureScale m_scale;
-  TextureGuidance m_guidance;
+  pipeline::Texturing m_texturing;
   std::optional<sim::Motion> m_motion;
   std::size_t m_warningsTold = 0;
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty

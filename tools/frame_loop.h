@@ -19,11 +19,12 @@ struct RunOptions {
   int threads = 1;
 };
 
-// Simulates, textures, renders and writes the files of docs/formats.md. `stop`, once true, ends the run by
-// Interrupted. Wrong input is refused before anything of an earlier run is removed: UsageError (also where a
-// run that is to go on began with other files, or what it wrote is no longer there), texture::ExemplarError,
-// sim::MeshError. What fails on the way: sim::SolverError, std::system_error where the disk refuses,
-// std::runtime_error for a damaged state, a picture or a video, openvdb::Exception from the grids.
+// Simulates, textures, renders and writes the files of docs/reference/files.md. `stop`, once true, ends the
+// run by Interrupted. Wrong input is refused before anything of an earlier run is removed: UsageError (also
+// where a run that is to go on began with other files, or what it wrote is no longer there),
+// texture::ExemplarError, sim::MeshError. What fails on the way: sim::SolverError, std::system_error where
+// the disk refuses, std::runtime_error for a damaged state, a picture or a video, openvdb::Exception from the
+// grids.
 void runScene(const scenes::Scene& scene, const RunOptions& options, const std::atomic<bool>& stop);
 
 }  // namespace fluidtex::tools

@@ -1,7 +1,11 @@
 // fluidtex measure OUT: how good the texture of a finished run is, in figures.
 #include "tools/measure.h"
 
+#include "texture/measure/change.h"
+#include "texture/measure/contrast.h"
 #include "texture/measure/measure.h"
+#include "texture/measure/pieces.h"
+#include "texture/measure/wear.h"
 #include "tools/atomic_file.h"
 #include "tools/commands.h"
 #include "tools/console.h"
@@ -9,6 +13,7 @@
 #include "tools/finished_run.h"
 #include "tools/out_folder.h"
 #include "tools/ply.h"
+#include "tools/read_ply.h"
 
 #include <fmt/core.h>
 

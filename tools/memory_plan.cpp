@@ -12,14 +12,14 @@ constexpr double kBytesPerPixel = 18.0;
 
 }  // namespace
 
-std::optional<double> plannedPoints(const scenes::Scene& scene, const LiquidPlan& liquid) {
+std::optional<double> plannedPoints(const scenes::Scene& scene, const pipeline::LiquidPlan& liquid) {
   const double spacing = scene.texture.spacing, h = scene.sim.voxelSize();
   if (spacing <= 0.0) return scene.texture.points;
   if (!scene.sim.sources.empty()) return std::nullopt;
   return static_cast<double>(liquid.surfaceCells) * (h / spacing) * (h / spacing);
 }
 
-double plannedMemory(const scenes::Scene& scene, const LiquidPlan& liquid) {
+double plannedMemory(const scenes::Scene& scene, const pipeline::LiquidPlan& liquid) {
   return kBytesProgram + kBytesPerLiquidCell * static_cast<double>(liquid.cells) +
          kBytesPerPoint * plannedPoints(scene, liquid).value_or(0.0) +
          kBytesPerPixel * scene.render.width * scene.render.height;

@@ -8,6 +8,10 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace fluidtex::tools {
 namespace {
@@ -18,52 +22,6 @@ std::uint8_t toByte(float value) {
   return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
 }
 
-std::string header(const texture::TexturedSurface& surface) {
-  std::string text = "ply\nformat binary_little_endian 1.0\ncomment fluidtex, metres, Z up\n";
-  text += "element vertex " + std::to_string(surface.positions.size()) + "\n";
-  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"})
-    text += std::string("property float ") + name + "\n";
-  for (const char* name : {"red", "green", "blue", "alpha"})
-    text += std::string("property uchar ") + name + "\n";
-  for (const char* name : {"s", "t", "dx", "dy", "dz", "bx", "by", "bz", "vx", "vy", "vz", "trust", "age"})
-    text += std::string("property float ") + name + "\n";
-  text += "property uchar contact\n";
-  for (const char* name : {"fade_s", "fade_t", "fade"}) text += std::string("property float ") + name + "\n";
-  if (!surface.scale.empty()) text += "property float scale\n";
-  for (const auto& [name, values] : surface.maps) text += "property float " + name + "\n";
-  for (const auto& [name, values] : surface.vectors) {
-    for (const std::string& part : texture::vectorNames(name)) text += "property float " + part + "\n";
-  }
-  text += "element face " + std::to_string(surface.triangles.size()) + "\n";
-  text += "property list uchar int vertex_indices\nend_header\n";
-  return text;
-}
-
-// Bytes put one after the other into memory of a size known before.
-class Bytes {
- public:
-  explicit Bytes(std::size_t size) : m_data(size) {}
-  template <typename T>
-  void put(const T& value) {
-    std::memcpy(m_data.data() + m_used, &value, sizeof(T));
-    m_used += sizeof(T);
-  }
-  void put(const texture::Vec3f& v) {
-    put(v.x());
-    put(v.y());
-    put(v.z());
-  }
-  const std::vector<char>& data() const { return m_data; }
-
- private:
-  std::vector<char> m_data;
-  std::size_t m_used = 0;
-};
-
-// Of one vertex without further maps: 22 floats, 4 bytes of colour, 1 of contact. Of a face: its count, 3
-// indices.
-constexpr std::size_t kVertexBytes = 22 * 4 + 4 + 1, kFaceBytes = 1 + 3 * 4;
-
 // Coordinate x in texels as a share of the exemplar's size. On a toroidal exemplar, x reaches up to the size:
 // the half texel then leads over the edge, and it goes on at 0.
 float share(float x, float size) {
@@ -71,45 +29,104 @@ float share(float x, float size) {
   return s - std::floor(s);
 }
 
+// Properties of a vertex that follow one another, all of one type.
+struct Column {
+  std::vector<std::string> names;
+  bool isFloat = true;
+  std::function<void(std::size_t v, char* to)> put;  // writes all of them
+
+  std::size_t bytes() const { return names.size() * (isFloat ? sizeof(float) : 1); }
+};
+
+template <typename T>
+std::function<void(std::size_t, char*)> putting(const std::vector<T>& values) {
+  return [&values](std::size_t v, char* to) { std::memcpy(to, &values[v], sizeof(T)); };
+}
+
+// All that is written of a vertex, in the file's order. Refers to the surface.
+std::vector<Column> columnsOf(const texture::TexturedSurface& surface) {
+  const auto width = static_cast<float>(std::max(surface.exemplarWidth, 1)),
+             height = static_cast<float>(std::max(surface.exemplarHeight, 1));
+  const auto putShare = [=](const texture::Vec2f& texel, char* to) {
+    const float st[2] = {share(texel.x(), width), share(texel.y(), height)};
+    std::memcpy(to, st, sizeof st);
+  };
+  std::vector<Column> columns;
+  const auto add = [&](std::vector<std::string> names, const auto& values) {
+    constexpr bool kBytes = sizeof(values[0]) == 1;
+    columns.push_back({std::move(names), !kBytes, putting(values)});
+  };
+  add({"x", "y", "z"}, surface.positions);
+  add({"nx", "ny", "nz"}, surface.normals);
+  columns.push_back({{"red", "green", "blue", "alpha"}, false, [&surface](std::size_t v, char* to) {
+                       const texture::Vec4f& color = surface.color[v];
+                       for (int c = 0; c < 3; ++c) to[c] = char(toByte(texture::encodeSrgb(color[c])));
+                       to[3] = char(toByte(color[3]));
+                     }});
+  columns.push_back({{"s", "t"}, true, [&surface, putShare](std::size_t v, char* to) {
+                       putShare(surface.coordinate[v], to);
+                     }});
+  add({"dx", "dy", "dz"}, surface.orientation);
+  add({"bx", "by", "bz"}, surface.previousPosition);
+  add({"vx", "vy", "vz"}, surface.velocity);
+  add({"trust"}, surface.trust);
+  add({"age"}, surface.age);
+  add({"contact"}, surface.contact);
+  const texture::Fading& fading = surface.fading;
+  columns.push_back({{"fade_s", "fade_t"}, true, [&, putShare](std::size_t v, char* to) {
+                       const bool fades = !fading.weight.empty() && fading.weight[v] > 0.0f;
+                       putShare(fades ? fading.coordinate[v] : surface.coordinate[v], to);
+                     }});
+  columns.push_back({{"fade"}, true, [&fading](std::size_t v, char* to) {
+                       const float fade = fading.weight.empty() ? 0.0f : fading.weight[v];
+                       std::memcpy(to, &fade, sizeof fade);
+                     }});
+  if (!surface.scale.empty()) add({"scale"}, surface.scale);
+  std::map<std::string, const std::vector<float>*> numbers;
+  for (const auto& [name, values] : surface.maps) numbers[name] = &values;
+  if (!surface.guidance.empty()) numbers["guidance"] = &surface.guidance;
+  if (!surface.foam.empty()) numbers["foam"] = &surface.foam;
+  for (const auto& [name, values] : numbers) add({name}, *values);
+  for (const auto& [name, values] : surface.vectors) add(texture::vectorNames(name), values);
+  return columns;
+}
+
+std::string header(const texture::TexturedSurface& surface, const std::vector<Column>& columns) {
+  std::string text = "ply\nformat binary_little_endian 1.0\ncomment fluidtex, metres, Z up\n";
+  text += "element vertex " + std::to_string(surface.positions.size()) + "\n";
+  for (const Column& column : columns) {
+    for (const std::string& name : column.names)
+      text += std::string("property ") + (column.isFloat ? "float " : "uchar ") + name + "\n";
+  }
+  text += "element face " + std::to_string(surface.triangles.size()) + "\n";
+  text += "property list uchar int vertex_indices\nend_header\n";
+  return text;
+}
+
 }  // namespace
 
 void writePly(const texture::TexturedSurface& surface, const std::filesystem::path& file) {
-  const std::string head = header(surface);
-  Bytes bytes(head.size() +
-              surface.positions.size() * (kVertexBytes + (surface.scale.empty() ? 0 : 4) +
-                                          4 * surface.maps.size() + 12 * surface.vectors.size()) +
-              surface.triangles.size() * kFaceBytes);
-  for (const char c : head) bytes.put(c);
-  const float width = static_cast<float>(std::max(surface.exemplarWidth, 1));
-  const float height = static_cast<float>(std::max(surface.exemplarHeight, 1));
-  for (std::size_t v = 0; v < surface.positions.size(); ++v) {
-    bytes.put(surface.positions[v]);
-    bytes.put(surface.normals[v]);
-    const auto& color = surface.color[v];
-    for (int c = 0; c < 3; ++c) bytes.put(toByte(texture::encodeSrgb(color[c])));
-    bytes.put(toByte(color[3]));
-    bytes.put(share(surface.coordinate[v].x(), width));
-    bytes.put(share(surface.coordinate[v].y(), height));
-    bytes.put(surface.orientation[v]);
-    bytes.put(surface.previousPosition[v]);
-    bytes.put(surface.velocity[v]);
-    bytes.put(surface.trust[v]);
-    bytes.put(surface.age[v]);
-    bytes.put(surface.contact[v]);
-    const float fade = surface.fading.weight.empty() ? 0.0f : surface.fading.weight[v];
-    const texture::Vec2f former = fade > 0.0f ? surface.fading.coordinate[v] : surface.coordinate[v];
-    bytes.put(share(former.x(), width));
-    bytes.put(share(former.y(), height));
-    bytes.put(fade);
-    if (!surface.scale.empty()) bytes.put(surface.scale[v]);
-    for (const auto& [name, values] : surface.maps) bytes.put(values[v]);
-    for (const auto& [name, values] : surface.vectors) bytes.put(values[v]);
+  const std::vector<Column> columns = columnsOf(surface);
+  const std::string head = header(surface, columns);
+  std::size_t stride = 0;
+  for (const Column& column : columns) stride += column.bytes();
+  constexpr std::size_t kFaceBytes = 1 + 3 * sizeof(std::int32_t);  // a count, three indices
+  std::vector<char> bytes(head.size() + surface.positions.size() * stride +
+                          surface.triangles.size() * kFaceBytes);
+  char* to = std::copy(head.begin(), head.end(), bytes.data());
+  for (const Column& column : columns) {
+    for (std::size_t v = 0; v < surface.positions.size(); ++v) column.put(v, to + v * stride);
+    to += column.bytes();
   }
+  to = bytes.data() + head.size() + surface.positions.size() * stride;
   for (const auto& triangle : surface.triangles) {
-    bytes.put(std::uint8_t{3});
-    for (int c = 0; c < 3; ++c) bytes.put(static_cast<std::int32_t>(triangle[c]));
+    *to++ = 3;
+    for (int c = 0; c < 3; ++c, to += sizeof(std::int32_t)) {
+      const auto index = static_cast<std::int32_t>(triangle[c]);
+      std::memcpy(to, &index, sizeof index);
+    }
   }
-  writeBytes(file, {bytes.data().data(), bytes.data().size()});
+  writeBytes(file, {bytes.data(), bytes.size()});
 }
 
 }  // namespace fluidtex::tools

@@ -1,7 +1,7 @@
+#include "tools/read_ply.h"
 #include "texture/exemplar/srgb.h"
 #include "texture/map_names.h"
 #include "tools/errors.h"
-#include "tools/ply.h"
 
 #include <algorithm>
 #include <cstring>
@@ -95,7 +95,7 @@ Header headerOf(const std::string& bytes, const std::filesystem::path& file) {
     if (second != "float" && second != "uchar")
       refuse(file, "has a property of a vertex that is neither float nor uchar");
     const bool isFloat = second == "float";
-    if (!texture::isVertexProperty(third)) {
+    if (!texture::isReservedName(third)) {
       if (!isMapName(third)) refuse(file, "has a property whose name is no map's");
       if (!isFloat) refuse(file, "has a property " + third + " that is no float");
     }
@@ -104,7 +104,8 @@ Header headerOf(const std::string& bytes, const std::filesystem::path& file) {
   }
   if (!binary) refuse(file, "is not in the format binary_little_endian");
   for (const Group& group : kGroups) checkGroup(group, header, file);
-  if (header.property.contains("scale")) checkGroup({true, {"scale"}}, header, file);
+  for (const char* name : {"scale", "guidance", "foam"})
+    if (header.property.contains(name)) checkGroup({true, {name}}, header, file);
   constexpr std::size_t kFace = 1 + 3 * 4;
   const std::size_t body = bytes.size() - header.body;
   if (header.vertices > body / header.stride || header.faces > body / kFace ||
@@ -161,9 +162,14 @@ texture::TexturedSurface readPly(const std::filesystem::path& file, int exemplar
   surface.fading = texture::noFading(header.vertices);
   each("fade_s", surface.fading.coordinate, texel);
   each("fade", surface.fading.weight, number);
-  if (header.property.contains("scale")) each("scale", surface.scale, number);
+  const auto optional = [&](const char* name, std::vector<float>& values) {
+    if (header.property.contains(name)) each(name, values, number);
+  };
+  optional("scale", surface.scale);
+  optional("guidance", surface.guidance);
+  optional("foam", surface.foam);
   for (const auto& [name, property] : header.property)
-    if (!texture::isVertexProperty(name)) each(name, surface.maps[name], number);
+    if (!texture::isReservedName(name)) each(name, surface.maps[name], number);
   surface.gradient.resize(header.vertices);
   const char* at = bytes.data() + header.body + header.vertices * header.stride;
   for (std::size_t f = 0; f < header.faces; ++f, at += 13) {

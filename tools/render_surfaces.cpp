@@ -10,6 +10,7 @@
 #include "tools/finished_run.h"
 #include "tools/out_folder.h"
 #include "tools/ply.h"
+#include "tools/read_ply.h"
 #include "tools/visible_solids.h"
 #include "tools/work.h"
 

@@ -50,7 +50,7 @@ Json frameRecord(const sim::Frame& frame, const texture::TexturedSurface& surfac
   record["dt_min"] = orNull(!frame.substeps.empty(), frame.stats.dtMin);
   record["cells"] = frame.stats.cells;
   record["volume"] = frame.stats.volume;
-  record["owed"] = frame.stats.owed;
+  record["deficit"] = frame.stats.deficit;
   record["vertices"] = surface.positions.size();
   record["triangles"] = surface.triangles.size();
   record["components"] = mesh.components;

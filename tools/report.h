@@ -1,4 +1,4 @@
-// run.json: what ran and what it measured, frame by frame. Keys: docs/formats.md.
+// run.json: what ran and what it measured, frame by frame. Keys: docs/reference/files.md.
 #pragma once
 
 #include "scenes/scene.h"

@@ -37,7 +37,7 @@ void logTo(const std::filesystem::path& file, bool verbose) {
 std::string neededBy(const scenes::Scene& scene) {
   try {
     return fmt::format(" (the scene needs about {:.2g} GB in all)",
-                       plannedMemory(scene, planLiquid(scene.sim)) / 1e9);
+                       plannedMemory(scene, pipeline::planLiquid(scene.sim)) / 1e9);
   } catch (const std::exception&) {
     return {};
   }

@@ -1,6 +1,8 @@
 #include "tools/state.h"
 
 #include "render/frame_name.h"
+#include "sim/step/state_io.h"
+#include "texture/vertex_arrays.h"
 #include "tools/atomic_file.h"
 #include "tools/fingerprint.h"
 #include "tools/journal.h"
@@ -21,7 +23,7 @@ namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr char kMagic[8] = {'f', 't', 'x', 's', 'u', 'r', 'f', '4'};
+constexpr char kMagic[8] = {'f', 't', 'x', 's', 'u', 'r', 'f', '5'};
 
 constexpr const char* kSolver = "solver.vdb";
 constexpr const char* kSurface = "surface.bin";
@@ -32,17 +34,20 @@ constexpr const char* kManifest = "manifest.txt";
   throw std::runtime_error(file.string() + ": " + what + "; remove the state folder to start anew");
 }
 
-// Visits every part of a surface in the one order that both directions share. That it is every part, the
-// compiler sees: the names must be as many as the members.
+// Visits every part of a surface in the one order that both directions share.
 template <typename Surface, typename Visit>
 void eachPart(Surface& surface, Visit&& visit) {
-  auto& [spacing, positions, normals, orientation, triangles, color, coordinate, gradient, fading, age, trust,
-         previousPosition, velocity, contact, maps, vectors, exemplarWidth, exemplarHeight, scale] = surface;
-  auto& [fadingCoordinate, fadingGradient, weight, speed] = fading;
-  const auto each = [&](auto&... parts) { (visit(parts), ...); };
-  each(spacing, exemplarWidth, exemplarHeight, positions, normals, orientation, triangles, color, coordinate,
-       gradient, fadingCoordinate, fadingGradient, weight, speed, age, trust, previousPosition, velocity,
-       contact, scale, maps, vectors);
+  visit(surface.spacing);
+  visit(surface.exemplarWidth);
+  visit(surface.exemplarHeight);
+  visit(surface.triangles);
+  const auto array = [&](auto& values, texture::Array) { visit(values); };
+  texture::forEachMeshArray(surface, array);
+  texture::forEachTextureArray(surface, array);
+  visit(surface.velocity);
+  visit(surface.contact);
+  visit(surface.maps);
+  visit(surface.vectors);
 }
 
 struct Writer {
@@ -111,17 +116,12 @@ struct Reader {
 // Whether every array has a value for each vertex and every corner of a triangle is a vertex.
 bool fitsTogether(const texture::TexturedSurface& surface) {
   const std::size_t count = surface.positions.size();
-  const auto fits = [&](const auto&... arrays) { return ((arrays.size() == count) && ...); };
-  return fits(surface.normals, surface.orientation, surface.color, surface.coordinate, surface.gradient,
-              surface.fading.coordinate, surface.fading.gradient, surface.fading.weight, surface.fading.speed,
-              surface.age, surface.trust, surface.previousPosition, surface.velocity, surface.contact) &&
-         (surface.scale.empty() || fits(surface.scale)) &&
-         std::all_of(surface.maps.begin(), surface.maps.end(),
-                     [&](const auto& map) { return fits(map.second); }) &&
-         std::all_of(surface.vectors.begin(), surface.vectors.end(),
-                     [&](const auto& map) { return fits(map.second); }) &&
-         std::all_of(surface.triangles.begin(), surface.triangles.end(),
-                     [&](const texture::Vec3I& t) { return t[0] < count && t[1] < count && t[2] < count; });
+  bool fitting = true;
+  texture::forEachVertexArray(surface, [&](const auto& values, texture::Array array) {
+    fitting = fitting && texture::fits(values, array, count);
+  });
+  return fitting && std::all_of(surface.triangles.begin(), surface.triangles.end(),
+                                [&](const auto& t) { return t[0] < count && t[1] < count && t[2] < count; });
 }
 
 // A state's frame; nothing for anything else that lies in the folder of states.

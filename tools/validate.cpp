@@ -6,6 +6,7 @@
 #include "tools/errors.h"
 #include "tools/plot.h"
 #include "tools/progress.h"
+#include "tools/validation_page.h"
 #include "tools/work.h"
 
 #include <fmt/core.h>
@@ -15,6 +16,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <set>
 
@@ -28,7 +31,7 @@ using validation::Row;
 
 struct ValidateOptions {
   std::vector<std::string> names;
-  std::filesystem::path json, plots;
+  std::filesystem::path json, plots, page;
   int resolution = 0;
   int threads = 0;
   bool list = false;
@@ -154,6 +157,18 @@ void listCases() {
   }
 }
 
+// Brings a page's tables up to date.
+void updatePage(const std::filesystem::path& page, const std::vector<Row>& rows) {
+  std::ifstream in(page);
+  if (!in) throw UsageError(page.string() + ": cannot be read");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  try {
+    writeTextAtomically(page, updatedPage(text, rows));
+  } catch (const PageError& error) {
+    throw UsageError(page.string() + ": " + error.what());
+  }
+}
+
 int validate(const ValidateOptions& options) {
   if (options.list) {
     listCases();
@@ -166,12 +181,12 @@ int validate(const ValidateOptions& options) {
   const std::vector<Job> jobs = planJobs(options);
   nowAt(kOnMotion);
 
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  std::vector<Row> all;
   bool holds = true;
   std::vector<Row> ofCase;
   const auto take = [&](const Row& row) {
     printRow(row);
-    json.push_back(toJson(row));
+    all.push_back(row);
     holds = holds && row.ok();
     ofCase.push_back(row);
   };
@@ -200,7 +215,12 @@ int validate(const ValidateOptions& options) {
     if (!options.plots.empty()) plotConvergence(job.test->name, ofCase, options.plots);
     ofCase.clear();
   }
-  if (!options.json.empty()) writeTextAtomically(options.json, json.dump(2) + "\n");
+  if (!options.json.empty()) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const Row& row : all) json.push_back(toJson(row));
+    writeTextAtomically(options.json, json.dump(2) + "\n");
+  }
+  if (!options.page.empty()) updatePage(options.page, all);
   return holds ? kDone : kFailed;
 }
 
@@ -214,6 +234,8 @@ void addValidate(CLI::App& app, int& exitCode) {
                       "Tests, or sets of them (level_set, fluid, quick); all when none is named");
   command->add_option("--json", options->json, "Write the figures to this file");
   command->add_option("--plots", options->plots, "Write the plots into this folder, as SVG");
+  command->add_option("--docs", options->page,
+                      "Bring the tables of this page up to date (docs/results/validation.md)");
   command->add_option("--resolution", options->resolution, "Run at this resolution only")
       ->check(CLI::Range(8, 4096));
   command->add_option("--threads", options->threads, "Threads to use; one a core where not given")

@@ -1,7 +1,8 @@
 #include "tools/visible_solids.h"
 
 #include "sim/grid/mac_grid.h"
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
+#include "sim/shapes/shape_triangles.h"
 #include "sim/solids/domain.h"
 
 #include <algorithm>

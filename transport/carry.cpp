@@ -2,12 +2,14 @@
 
 #include "texture/loops/parallel.h"
 #include "texture/orientation/tangent.h"
+#include "texture/vertex_arrays.h"
 #include "transport/backtrace.h"
 #include "transport/closest_point.h"
-#include "transport/coordinate_fields.h"
+#include "transport/cubic_directions.h"
+#include "transport/grid_transport.h"
 #include "transport/pick_up.h"
-#include "transport/smooth_directions.h"
 #include "transport/trust.h"
+#include "transport/turn_with_flow.h"
 #include "transport/velocity_sampler.h"
 
 #include <openvdb/tools/Interpolation.h>
@@ -30,19 +32,6 @@ using texture::Vec3f;
 // trust.
 constexpr double kOtherSide = 4.0;
 
-Vec3f anyTangent(const Vec3f& n) {
-  const Vec3f world = std::abs(n.x()) < 0.9f ? Vec3f(1, 0, 0) : Vec3f(0, 1, 0);
-  return (world - n * n.dot(world)).unit();
-}
-
-// adj(B) = det(B) B^-1; defined where B has no inverse too.
-Mat3d adjugate(const Mat3d& b) {
-  const Vec3d r0 = b.row(0), r1 = b.row(1), r2 = b.row(2);
-  Mat3d result;
-  result.setColumns(r1.cross(r2), r2.cross(r0), r0.cross(r1));
-  return result;
-}
-
 // The length over which trust falls off, at least: what separates surfaces is seen neither below half a voxel
 // nor below the spacing.
 double halfVoxel(const sim::Frame& frame) {
@@ -50,24 +39,6 @@ double halfVoxel(const sim::Frame& frame) {
   if (!frame.substeps.empty()) voxel = VelocitySampler(frame.substeps.back()).voxelSize();
   if (voxel == 0.0 && frame.surfacePhi) voxel = frame.surfacePhi->voxelSize().x();
   return 0.5 * voxel;
-}
-
-// Equation (4) along a path: D d/Dt = (I - d d^T) A d, A = grad u. With D l/Dt = A l and d = l/|l| it follows
-// at once, and l is carried by the gradient of the flow: l_new = (d x_new / d x_old) l_old = B^-1 l_old
-// [Kwatra07 sec. VI]. So the whole frame's turn is one product with the matrix that the trace brings along,
-// exact for the traced map, and |d| = 1 by normalising. What is tangent stays tangent up to the difference of
-// the two meshes, which the projection removes.
-Vec3f turnedWithFlow(const Vec3f& d, const Mat3d& map, const Vec3f& normal) {
-  const Mat3d inverse = adjugate(map);  // times det B, whose sign is all that matters here
-  const double sign = map.det() < 0.0 ? -1.0 : 1.0;
-  return texture::tangentUnit(Vec3f(inverse * Vec3d(d) * sign), normal, anyTangent(normal));
-}
-
-// A normal is a gradient, grad phi_new = grad phi_old B; so the old one is B^-T of the new one, = (adj B)^T
-// up to a factor.
-Vec3f carriedNormal(const Vec3f& normal, const Mat3d& map) {
-  Vec3f old(adjugate(map).transpose() * Vec3d(normal) * (map.det() < 0.0 ? -1.0 : 1.0));
-  return old.normalize(0.0f) ? old : normal;
 }
 
 // The previous surface, and how to find things on it.
@@ -116,15 +87,12 @@ void checkSizes(const TexturedSurface& previous, const SurfaceMesh& next, int sy
   if (symmetry < 1) throw std::invalid_argument("carry: the symmetry must be 1 or more");
   if (next.normals.size() != next.positions.size())
     throw std::invalid_argument("carry: the new mesh must have one normal per vertex");
-  const auto right = [&](std::size_t size) { return size == previous.positions.size(); };
-  const texture::Fading& fading = previous.fading;
-  const auto foam = previous.maps.find(texture::kFoam);
-  if (!right(previous.normals.size()) || !right(previous.orientation.size()) ||
-      !right(previous.color.size()) || !right(previous.coordinate.size()) ||
-      !right(previous.gradient.size()) || !right(previous.age.size()) || !right(fading.coordinate.size()) ||
-      !right(fading.gradient.size()) || !right(fading.weight.size()) || !right(fading.speed.size()) ||
-      (foam != previous.maps.end() && !right(foam->second.size())))
-    throw std::invalid_argument("carry: the last surface's arrays must have one entry per vertex");
+  const auto check = [&](const auto& values, texture::Array array) {
+    if (!texture::fits(values, array, previous.positions.size()))
+      throw std::invalid_argument("carry: the last surface's arrays must have one entry per vertex");
+  };
+  texture::forEachMeshArray(previous, check);
+  texture::forEachTextureArray(previous, check);
 }
 
 }  // namespace
@@ -192,17 +160,11 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   std::vector<Vec3f> fromGrid;
   if (onGrid) fromGrid = gridOrientation(source, frame, next, turning);
 
-  carried.orientation.resize(count);
-  carried.color.resize(count);
-  carried.coordinate.resize(count);
-  carried.gradient.resize(count);
+  texture::forEachTextureArray(carried, [&](auto& values, texture::Array) { values.resize(count); });
   carried.fading = texture::noFading(count);
-  carried.age.resize(count);
-  const auto foam = previous.maps.find(texture::kFoam);
-  if (foam != previous.maps.end()) carried.foam.resize(count);
-  carried.trust.resize(count);
+  carried.orientation.resize(count);
+  if (!previous.foam.empty()) carried.foam.resize(count);
   std::vector<float> stretched(count);
-  carried.previousPosition.resize(count);
   texture::forEachIndex(count, [&](std::uint32_t v) {
     const Mat3d& map = trace.map[v];
     const double scale = std::max(least, next.spacingAt(v));
@@ -223,7 +185,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
     }
     carried.color[v] = colorAt(previous, landing);
     carried.age[v] = valueAt(previous.age, landing);
-    if (!carried.foam.empty()) carried.foam[v] = valueAt(foam->second, landing);
+    if (!carried.foam.empty()) carried.foam[v] = valueAt(previous.foam, landing);
     const Vec3f direction = source.direction(landing);
     if (onGrid)
       carried.orientation[v] = texture::tangentUnit(

@@ -2,7 +2,7 @@
 
 #include "texture/loops/parallel.h"
 #include "texture/orientation/tangent.h"
-#include "transport/smooth_directions.h"
+#include "transport/cubic_directions.h"
 #include "transport/trust.h"
 
 #include <stdexcept>
@@ -71,6 +71,8 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
   result.velocity.assign(count, Vec3f(0.0f));
   result.contact.assign(count, 0);
   if (!surface.scale.empty()) result.scale.assign(count, 1.0f);
+  if (!surface.guidance.empty()) result.guidance.assign(count, 0.0f);
+  if (!surface.foam.empty()) result.foam.assign(count, 0.0f);
   for (const auto& [name, values] : surface.maps) result.maps[name].assign(count, 0.0f);
   for (const auto& [name, values] : surface.vectors) result.vectors[name].assign(count, Vec3f(0.0f));
   if (surface.empty() || surface.triangles.empty()) return result;
@@ -97,6 +99,8 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
     result.previousPosition[v] += before - Vec3f(landing.point.position);
     result.velocity[v] = valueAt(surface.velocity, landing);
     if (!surface.scale.empty()) result.scale[v] = valueAt(surface.scale, landing);
+    if (!surface.guidance.empty()) result.guidance[v] = valueAt(surface.guidance, landing);
+    if (!surface.foam.empty()) result.foam[v] = valueAt(surface.foam, landing);
     result.contact[v] = surface.contact[landing.nearestVertex()];
   });
   for (auto& [name, values] : result.maps) {

@@ -1,6 +1,6 @@
 // Shapes are asked, not put on the grid: only blocks of cells that a surface may cross are cut into eight.
 #include "sim/flows/flows.h"
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
 #include "sim/solids/domain.h"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "sim/grid/leaf_table.h"
 #include "sim/markers/drop_markers.h"
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
 #include "sim/solids/domain.h"
 #include "sim/surface/level_set.h"
 
@@ -170,7 +170,7 @@ double depthOf(const FloatGrid& phi, const SolidField& solid, const CoordBBox& b
 void giveStream(GivenFaces& given, int side, const SolidField& solid, const FloatGrid& phi,
                 const Velocity& before, const Vec3d& gravity, double dt) {
   const int axis = side / 2, out = side % 2 == 0 ? -1 : 1;
-  const FloatGrid* const open[3] = {solid.openU.get(), solid.openV.get(), solid.openW.get()};
+  const auto& open = solid.open.component;
   const auto share = open[axis]->getConstUnsafeAccessor();
   const auto liquid = phi.getConstUnsafeAccessor();
   const auto speed = before.component[axis]->getConstUnsafeAccessor();
@@ -308,9 +308,7 @@ SolidField withFlows(const SolidField& solid, const RunningFlows& flows, const F
       for (auto it = source->velocity[axis]->cbeginValueOn(); it; ++it)
         given.set(axis, it.getCoord(), static_cast<float>(factor * *it));
   }
-  field.givenU = given.grid[0];
-  field.givenV = given.grid[1];
-  field.givenW = given.grid[2];
+  field.given = {given.grid};
   return field;
 }
 

@@ -2,7 +2,10 @@
 
 #include "sim/markers/drop_markers.h"
 #include "sim/solids/solid_layers.h"
+#include "sim/surface/advect_phi.h"
+#include "sim/surface/extend_into_solids.h"
 #include "sim/surface/level_set.h"
+#include "sim/surface/redistance.h"
 
 #include <utility>
 

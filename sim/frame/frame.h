@@ -30,7 +30,7 @@ struct FrameStats {
   double dtMin = 0.0;           // s, shortest substep
   std::int64_t cells = 0;       // liquid cells
   double volume = 0.0;          // m3 of liquid
-  double owed = 0.0;            // m3 that its surface has lost and that is still to be given back
+  double deficit = 0.0;         // m3 that its surface has lost and that is still to be given back
   int pressureIterations = 0;   // summed over the substeps
   int viscosityIterations = 0;  // summed over the substeps
   double pressureResidual = 0;  // largest relative residual of the substeps

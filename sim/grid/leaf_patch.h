@@ -2,6 +2,7 @@
 // cell and its neighbours.
 #pragma once
 
+#include "sim/grid/leaf_block.h"
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/mac_grid.h"
 
@@ -11,20 +12,18 @@
 
 namespace fluidtex::sim {
 
-inline constexpr int kPatchSide = kLeafDim + 2;
-inline constexpr int kPatchStride[3] = {kPatchSide * kPatchSide, kPatchSide, 1};
-using LeafPatch = std::array<float, kPatchSide * kPatchSide * kPatchSide>;  // its edges stay unset
+using LeafPatch = LeafBlock<1>;  // its edges stay unset
+inline constexpr auto& kPatchStride = LeafPatch::kStride;
 
 // Where the voxel at an offset of the leaf is in its patch.
 inline int patchIndex(int offset) {
-  return ((offset >> 6) + 1) * kPatchStride[0] + (((offset >> 3) & 7) + 1) * kPatchStride[1] + (offset & 7) +
-         1;
+  return LeafPatch::index(offset);
 }
 
 // Of a leaf of a tree.
 inline LeafPatch patchOf(const FloatTree& tree, const Coord& origin) {
   LeafPatch patch{};
-  gather(tree, origin, 1, patch.data(), true);
+  patch.load(tree, origin, true);
   return patch;
 }
 

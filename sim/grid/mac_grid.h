@@ -56,10 +56,21 @@ bool isEndless(const CoordBBox& box);
 // The box and `layers` of cells around it.
 CoordBBox grown(CoordBBox box, int layers);
 
-// Face velocities in m/s; three grids of one topology, background 0.
-struct Velocity {
-  std::array<FloatGrid::Ptr, 3> component;  // u, v, w
+// Values at faces: component[a] holds those of the faces normal to axis a, at (i,j,k) that of the cell's
+// lower one.
+template <class Grid>
+struct OnFaces {
+  std::array<typename Grid::Ptr, 3> component;  // u, v, w
+
+  // Whether there are any: all three, or none.
+  explicit operator bool() const { return component[0] != nullptr; }
+  const Grid& operator[](int axis) const { return *component[axis]; }
 };
+using FaceGrids = OnFaces<FloatGrid>;
+using FaceMasks = OnFaces<MaskGrid>;
+
+// Face velocities in m/s; of one topology, background 0.
+using Velocity = FaceGrids;
 
 // Empty grids with the transforms above. phi is marked as a level set.
 FloatGrid::Ptr makePhi(double h, double background);

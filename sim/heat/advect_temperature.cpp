@@ -1,5 +1,7 @@
 // Based on: Selle, Fedkiw, Kim, Liu and Rossignac, "An unconditionally stable MacCormack method", 2008; see
 // advect_velocity.cpp.
+#include "sim/heat/advect_temperature.h"
+
 #include "sim/heat/heat.h"
 
 #include "sim/grid/leaf_table.h"

@@ -162,8 +162,8 @@ bool conductHeat(FloatGrid& temperature, const FloatGrid& phi, const SolidField&
   tbb::parallel_for(tbb::blocked_range<int>(0, n, 512), [&](const tbb::blocked_range<int>& range) {
     using Accessor = openvdb::tree::ValueAccessor<const FloatTree>;
     const Accessor liquid(phi.constTree()), before(temperature.constTree());
-    const Accessor open[3] = {Accessor(solid.openU->constTree()), Accessor(solid.openV->constTree()),
-                              Accessor(solid.openW->constTree())};
+    const Accessor open[3] = {Accessor(solid.open[0].constTree()), Accessor(solid.open[1].constTree()),
+                              Accessor(solid.open[2].constTree())};
     for (int i = range.begin(); i < range.end(); ++i) {
       const Coord cell = system.numbering.cell(i);
       const double t = before.getValue(cell);

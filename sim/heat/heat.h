@@ -27,13 +27,6 @@ void heatBody(FloatGrid& temperature, const std::function<double(const Vec3d&)>&
 // Goes on constant from the liquid's cells into air and solids, for `layers` cells.
 void extendTemperature(FloatGrid& temperature, const FloatGrid& phi, const FloatGrid& solidPhi, int layers);
 
-// The temperature after dt seconds of being carried by `velocity`, in the liquid's cells (phiTo < 0) of the
-// leaves of `like`: semi-Lagrangian with a third-order Runge-Kutta back-trace and MacCormack's correction,
-// limited to the values around the traced point. `from` must be extended as far as the velocity leads. Traces
-// end in solids (see TraceEnd).
-FloatGrid::Ptr advectTemperature(const FloatGrid& from, const Velocity& velocity, const FloatTree& like,
-                                 const FloatGrid& phiTo, const SolidField& solid, double dt);
-
 // Conduction in the liquid, radiation from its surface (Stefan and Boltzmann's law against the surroundings)
 // and loss to walls, for dt seconds; implicit, with the radiation's conductance as it is before, so that no
 // dt is too long and nothing gets colder or hotter than the coldest and the hottest of the liquid, the walls

@@ -1,7 +1,7 @@
 #include "sim/motion/analytic_flow.h"
 
 #include "sim/flows/move_surface.h"
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
 #include "sim/solids/domain.h"
 #include "sim/step/check_options.h"
 #include "sim/step/describe_liquid.h"
@@ -74,9 +74,9 @@ AnalyticFlow::AnalyticFlow(const Options& options, const MotionOptions& motion,
 AnalyticFlow::AnalyticFlow(const Options& options, const MotionOptions& motion)
     : AnalyticFlow(options, motion, Solids(options).at(0.0)) {
   const Velocity nothing = makeVelocity(options.voxelSize());
-  m_state.u = nothing.component[0];
-  m_state.v = nothing.component[1];
-  m_state.w = nothing.component[2];
+  m_state.velocity.component[0] = nothing.component[0];
+  m_state.velocity.component[1] = nothing.component[1];
+  m_state.velocity.component[2] = nothing.component[2];
   m_state.phi = start(0.0);
   if (carriesSurface(motion.flow))
     m_state.markers =

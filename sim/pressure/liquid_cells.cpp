@@ -1,5 +1,6 @@
 #include "sim/pressure/liquid_cells.h"
 
+#include "sim/grid/leaf_patch.h"
 #include "sim/grid/leaf_table.h"
 #include "sim/surface/level_set.h"
 
@@ -18,32 +19,21 @@ using Range = tbb::blocked_range<int>;
 // the distance along each axis is bounded, so that the pressure's slope keeps its direction there.
 constexpr float kLeastDepth = 1e-5f;
 
-constexpr int kSide = kLeafDim + 2;  // a leaf's values and one more layer around them
-constexpr int kStride[3] = {kSide * kSide, kSide, 1};
-using Patch = std::array<float, kSide * kSide * kSide>;
+using Patch = LeafPatch;
+constexpr auto& kStride = Patch::kStride;
 
 Coord localOf(int offset) {
   return Coord(offset >> 6, (offset >> 3) & 7, offset & 7);
 }
 
-int patchIndex(int local) {
-  return ((local >> 6) + 1) * kStride[0] + (((local >> 3) & 7) + 1) * kStride[1] + (local & 7) + 1;
-}
-
-Patch patchOf(const FloatTree& tree, const Coord& origin) {
-  Patch patch{};
-  gather(tree, origin, 1, patch.data(), true);
-  return patch;
-}
-
 // Open shares of the three kinds of faces around one block.
 std::array<Patch, 3> openPatches(const SolidField& solid, const Coord& origin) {
-  return {patchOf(solid.openU->constTree(), origin), patchOf(solid.openV->constTree(), origin),
-          patchOf(solid.openW->constTree(), origin)};
+  return {patchOf(solid.open[0].constTree(), origin), patchOf(solid.open[1].constTree(), origin),
+          patchOf(solid.open[2].constTree(), origin)};
 }
 
 // A field that is 0 where there is none, or of which there may be no tree.
-Patch patchOf(const FloatGrid::Ptr& grid, const Coord& origin, float without) {
+Patch patchOr(const FloatGrid::Ptr& grid, const Coord& origin, float without) {
   if (grid != nullptr) return patchOf(grid->constTree(), origin);
   Patch patch;
   patch.fill(without);
@@ -52,8 +42,9 @@ Patch patchOf(const FloatGrid::Ptr& grid, const Coord& origin, float without) {
 
 // Velocities that are given around one block, kNotGiven elsewhere.
 std::array<Patch, 3> givenPatches(const SolidField& solid, const Coord& origin) {
-  return {patchOf(solid.givenU, origin, kNotGiven), patchOf(solid.givenV, origin, kNotGiven),
-          patchOf(solid.givenW, origin, kNotGiven)};
+  return {patchOr(solid.given.component[0], origin, kNotGiven),
+          patchOr(solid.given.component[1], origin, kNotGiven),
+          patchOr(solid.given.component[2], origin, kNotGiven)};
 }
 
 // Cells of the domain with phi < 0 and an open face whose velocity is not given.
@@ -131,9 +122,9 @@ LiquidCells gatherLiquid(const FloatGrid& phiGrid, const SolidField& solid,
       const auto open = openPatches(solid, origin);
       const std::array<Patch, 3> speed{patchOf(*velocity[0], origin), patchOf(*velocity[1], origin),
                                        patchOf(*velocity[2], origin)};
-      const std::array<Patch, 3> solidSpeed{patchOf(solid.speedU, origin, 0.0f),
-                                            patchOf(solid.speedV, origin, 0.0f),
-                                            patchOf(solid.speedW, origin, 0.0f)};
+      const std::array<Patch, 3> solidSpeed{patchOr(solid.speed.component[0], origin, 0.0f),
+                                            patchOr(solid.speed.component[1], origin, 0.0f),
+                                            patchOr(solid.speed.component[2], origin, 0.0f)};
       const auto given = givenPatches(solid, origin);
       for (int c = 0; c < kLeafSize; ++c) {
         if (numbers[c] < 0) continue;

@@ -9,7 +9,7 @@
 #include "sim/poisson/poisson.h"
 #include "sim/pressure/liquid_cells.h"
 #include "sim/pressure/pressure_system.h"
-#include "sim/pressure/surface_pressure.h"
+#include "sim/pressure/tension_pressure.h"
 #include "sim/solids/solid_layers.h"
 #include "sim/surface/level_set.h"
 
@@ -182,10 +182,9 @@ std::vector<FloatLeaf*> faceLeaves(const LiquidCells& liquid, FloatGrid& grid) {
 MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surface, const SolidField& solid,
                           const std::vector<double>& q, const std::vector<char>& detached, int axis,
                           FloatGrid& grid) {
-  const FloatGrid* const solidSpeed =
-      std::array{solid.speedU.get(), solid.speedV.get(), solid.speedW.get()}[axis];
-  const FloatGrid* const given = std::array{solid.givenU.get(), solid.givenV.get(), solid.givenW.get()}[axis];
-  const FloatGrid& open = *std::array{solid.openU.get(), solid.openV.get(), solid.openW.get()}[axis];
+  const FloatGrid* const solidSpeed = solid.speed.component[axis].get();
+  const FloatGrid* const given = solid.given.component[axis].get();
+  const FloatGrid& open = solid.open[axis];
   auto valid = MaskGrid::create();
   valid->setTransform(faceTransform(solid.voxelSize, axis));
   const std::vector<FloatLeaf*> leaves = faceLeaves(liquid, grid);
@@ -360,15 +359,15 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   }
 
   if (options.keepBefore) result.before = {{u.deepCopy(), v.deepCopy(), w.deepCopy()}};
-  result.valid.u = updateFaces(liquid, surface, solid, q, detached, 0, u);
-  result.valid.v = updateFaces(liquid, surface, solid, q, detached, 1, v);
-  result.valid.w = updateFaces(liquid, surface, solid, q, detached, 2, w);
+  result.valid.component[0] = updateFaces(liquid, surface, solid, q, detached, 0, u);
+  result.valid.component[1] = updateFaces(liquid, surface, solid, q, detached, 1, v);
+  result.valid.component[2] = updateFaces(liquid, surface, solid, q, detached, 2, w);
   if (!growing.empty()) {
-    result.swelling = makeVelocity(solid.voxelSize);
+    result.expansion = makeVelocity(solid.voxelSize);
     const SolidField still = atRest(solid);
     const std::vector<char> none(n, 0);
     for (int axis = 0; axis < 3; ++axis)
-      updateFaces(liquid, {}, still, growing, none, axis, *result.swelling.component[axis]);
+      updateFaces(liquid, {}, still, growing, none, axis, *result.expansion.component[axis]);
   }
   result.separating = separatingCells(liquid, solid, detached);
   for (const Edge& edge : liquid.edges) {

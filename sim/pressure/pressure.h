@@ -41,7 +41,7 @@ struct Face {
 
 struct Projection {
   PressureReport report;
-  // Faces whose velocity is now right: open faces that touch liquid, but not those between it and the air of
+  // Faces whose velocity is now right: open ones that touch liquid, but not those between it and the air of
   // which a solid leaves less than kLeastOpen, and closed ones that touch liquid and lie square to the solid
   // (0 there, or the speed at which liquid leaves it). All others are for the caller to extrapolate.
   FaceMasks valid;
@@ -52,7 +52,7 @@ struct Projection {
   // What makes the liquid grow (PressureOptions::growth), on the valid faces: a potential flow beside the
   // velocity, 0 at solids and at faces with a given velocity. It moves the surface, and is no part of the
   // liquid's momentum. Null grids without growth.
-  Velocity swelling;
+  Velocity expansion;
   openvdb::DoubleGrid::Ptr
       pressure;  // Pa at the centres of liquid cells, active there; null unless asked for
   // The velocity before; null grids unless asked for. Copied after the solve, which takes the most memory.

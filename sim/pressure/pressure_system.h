@@ -1,4 +1,7 @@
-// The linear system of the pressure.
+// The linear system of the pressure. At the free surface it has ghost-fluid rows (Gibou, Fedkiw, Cheng and
+// Kang, "A second-order-accurate symmetric discretization of the Poisson equation on irregular domains",
+// 2002): the distance to the surface comes with the cells (sim/pressure/liquid_cells.h, `theta`), and stands
+// on the diagonal here; the right-hand side is in sim/pressure/pressure.cpp.
 #pragma once
 
 #include "sim/poisson/poisson.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/meshes/triangle_mesh.h"
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
 
 #include <vector>
 

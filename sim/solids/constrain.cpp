@@ -1,6 +1,9 @@
 // Velocity that does not run into solids, where the pressure has had no say: Houston, Bond, Wiebe, "A unified
 // approach for modeling complex occlusions in fluid simulations", 2003; Batty, Bertails, Bridson, 2007,
 // section 4.4.
+#include "sim/solids/constrain.h"
+
+#include "sim/grid/leaf_block.h"
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/mac_grid.h"
 #include "sim/solids/solids.h"
@@ -20,14 +23,8 @@ namespace {
 using Range = tbb::blocked_range<std::size_t>;
 using MaskAccessor = openvdb::tree::ValueAccessor<const MaskGrid::TreeType>;
 
-// A leaf's values and one more layer around them.
-constexpr int kSide = kLeafDim + 2;
-constexpr int kStride[3] = {kSide * kSide, kSide, 1};
-using Block = std::array<float, kSide * kSide * kSide>;
-
-int blockIndex(int offset) {
-  return ((offset >> 6) + 1) * kStride[0] + (((offset >> 3) & 7) + 1) * kStride[1] + (offset & 7) + 1;
-}
+using Block = LeafBlock<1>;
+constexpr auto& kStride = Block::kStride;
 
 // Component `other` at a face normal to `axis`: the mean of the four faces around it.
 float across(const float* other, int axis, int otherAxis) {
@@ -71,11 +68,11 @@ FloatLeaf::NodeMaskType closedFaces(const FloatLeaf& leaf, const FloatTree& open
 void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
                        const SolidField& solid, const FaceMasks& valid, const MaskGrid& separating) {
   FloatGrid* const grids[3] = {&u, &v, &w};
-  const FloatGrid* const open[3] = {solid.openU.get(), solid.openV.get(), solid.openW.get()};
-  const MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
+  const auto& open = solid.open.component;
+  const auto& masks = valid.component;
 
-  const bool moving = solid.speedU != nullptr, anyLeaving = !separating.empty();
-  const FloatGrid* const solidSpeed[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};
+  const bool moving = bool(solid.speed), anyLeaving = !separating.empty();
+  const auto& solidSpeed = solid.speed.component;
 
   // All new values are found from the old ones before any is written.
   struct Change {
@@ -100,18 +97,18 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
         any = any || !asked[axis].isOff();
       }
       if (!any) continue;
-      gather(solid.phi->constTree(), origin, 1, distance.data());
+      distance.load(solid.phi->constTree(), origin);
       // Deep inside a solid the distance is cut off.
       const auto [least, most] = std::minmax_element(distance.begin(), distance.end());
       if (*most - *least < 1e-3f * static_cast<float>(solid.voxelSize)) continue;
-      gather(phi.constTree(), origin, 1, liquid.data());
+      liquid.load(phi.constTree(), origin);
       for (int a = 0; a < 3; ++a) {
-        gather(grids[a]->constTree(), origin, 1, speed[a].data());
-        if (moving) gather(solidSpeed[a]->constTree(), origin, 1, push[a].data());
+        speed[a].load(grids[a]->constTree(), origin);
+        if (moving) push[a].load(solidSpeed[a]->constTree(), origin);
       }
       for (int axis = 0; axis < 3; ++axis) {
         for (auto it = asked[axis].beginOn(); it; ++it) {
-          const int offset = static_cast<int>(it.pos()), at = blockIndex(offset);
+          const int offset = static_cast<int>(it.pos()), at = Block::index(offset);
           const Coord c = origin + Coord(offset >> 6, (offset >> 3) & 7, offset & 7);
           if (beyondOpening(solid, c, axis)) continue;
           const float *here = distance.data() + at, *below = here - kStride[axis];

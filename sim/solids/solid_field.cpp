@@ -122,8 +122,8 @@ FloatGrid::Ptr cellDistances(const SolidDistance& distance, const CoordBBox& dom
 }
 
 // The three grids of open shares.
-std::array<FloatGrid::Ptr, 3> openFaces(const SolidDistance& distance, const CoordBBox& domain,
-                                        const Chunks& chunks, const FloatTree& phi, double h) {
+FaceGrids openFaces(const SolidDistance& distance, const CoordBBox& domain, const Chunks& chunks,
+                    const FloatTree& phi, double h) {
   struct Piece {
     Coord origin;
     int size;
@@ -146,7 +146,7 @@ std::array<FloatGrid::Ptr, 3> openFaces(const SolidDistance& distance, const Coo
       return true;
     });
   });
-  std::array<FloatGrid::Ptr, 3> open;
+  FaceGrids open;
   static constexpr const char* kNames[3] = {"openU", "openV", "openW"};
   for (int axis = 0; axis < 3; ++axis) {
     FloatGrid::Ptr grid = FloatGrid::create(0.0f);
@@ -166,7 +166,7 @@ std::array<FloatGrid::Ptr, 3> openFaces(const SolidDistance& distance, const Coo
       }
     }
     grid->tree().prune();
-    open[axis] = grid;
+    open.component[axis] = grid;
   }
   return open;
 }
@@ -174,8 +174,7 @@ std::array<FloatGrid::Ptr, 3> openFaces(const SolidDistance& distance, const Coo
 // Gaps between solids that are narrower than a cell, so that no corner of the grid lies in them, are closed:
 // nothing gets into a cell without an open face, or out of it. It is made part of the solids: liquid that was
 // poured into it would be there for ever, and make surface beside it anew in each step.
-void closeNarrowGaps(FloatGrid& phi, const std::array<FloatGrid::Ptr, 3>& open, const CoordBBox& domain,
-                     double h) {
+void closeNarrowGaps(FloatGrid& phi, const FaceGrids& open, const CoordBBox& domain, double h) {
   const auto leaves = leavesOf(phi.tree());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     FloatLeaf& leaf = *leaves[n];
@@ -187,7 +186,7 @@ void closeNarrowGaps(FloatGrid& phi, const std::array<FloatGrid::Ptr, 3>& open, 
       if (!(value > 0.0f) || value >= edge || !domain.isInside(cell)) continue;
       bool any = false;
       for (int axis = 0; axis < 3 && !any; ++axis) {
-        if (!faces[axis]) faces[axis].emplace(open[axis]->constTree());
+        if (!faces[axis]) faces[axis].emplace(open[axis].constTree());
         Coord above = cell;
         above[axis] += 1;
         any = faces[axis]->getValue(cell) > 0.0f || faces[axis]->getValue(above) > 0.0f;
@@ -206,14 +205,10 @@ SolidField makeSolidField(const SolidDistance& distance, const SolidDistance& op
   field.domain = domain;
   field.phi = cellDistances(distance, domain, chunks, h);
   field.phiMirrored = mirrored ? cellDistances(mirrored, domain, chunks, h) : field.phi;
-  const std::array<FloatGrid::Ptr, 3> open = openFaces(openDistance, domain, chunks, field.phi->tree(), h);
-  const auto& [u, v, w] = open;
-  field.openU = u;
-  field.openV = v;
-  field.openW = w;
-  closeNarrowGaps(*field.phi, open, domain, h);
-  if (field.phiMirrored != field.phi) closeNarrowGaps(*field.phiMirrored, open, domain, h);
-  field.visibility = visibilityOf(*field.phi, {u.get(), v.get(), w.get()});
+  field.open = openFaces(openDistance, domain, chunks, field.phi->tree(), h);
+  closeNarrowGaps(*field.phi, field.open, domain, h);
+  if (field.phiMirrored != field.phi) closeNarrowGaps(*field.phiMirrored, field.open, domain, h);
+  field.visibility = visibilityOf(*field.phi, field.open);
   field.chunks = std::move(chunks);
   return field;
 }

@@ -43,11 +43,11 @@ ShapeDistance shapeAt(const MovingMesh& mesh, int file, double part, const Solid
 
 SolidField atRest(const SolidField& solid) {
   SolidField still = solid;
-  still.speedU = still.speedV = still.speedW = nullptr;
-  for (FloatGrid::Ptr* given : {&still.givenU, &still.givenV, &still.givenW}) {
-    if (*given == nullptr) continue;
-    *given = (*given)->deepCopy();
-    for (auto it = (*given)->beginValueOn(); it; ++it) it.setValue(0.0f);
+  still.speed = {};
+  for (FloatGrid::Ptr& given : still.given.component) {
+    if (given == nullptr) continue;
+    given = given->deepCopy();
+    for (auto it = given->beginValueOn(); it; ++it) it.setValue(0.0f);
   }
   return still;
 }
@@ -231,7 +231,6 @@ void Solids::addSpeeds(SolidField& field, const std::vector<Placed>& solids) con
   std::vector<Coord> origins;
   for (auto leaf = field.phi->constTree().cbeginLeaf(); leaf; ++leaf)
     if (near(leaf->origin())) origins.push_back(leaf->origin());
-  FloatGrid::Ptr* const grids[3] = {&field.speedU, &field.speedV, &field.speedW};
   for (int axis = 0; axis < 3; ++axis) {
     FloatGrid::Ptr grid = FloatGrid::create(0.0f);
     grid->setTransform(faceTransform(h, axis));
@@ -255,7 +254,7 @@ void Solids::addSpeeds(SolidField& field, const std::vector<Placed>& solids) con
         leaves[n]->setValueOn(c, static_cast<float>(speed));
       }
     });
-    *grids[axis] = grid;
+    field.speed.component[axis] = grid;
   }
 }
 

@@ -2,11 +2,11 @@
 // and how they move.
 #pragma once
 
-#include "sim/grid/grids.h"
+#include "sim/grid/mac_grid.h"
 #include "sim/options.h"
 #include "sim/shapes/moving_mesh.h"
 #include "sim/shapes/pose.h"
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
 #include "sim/solids/chunks.h"
 #include "sim/solids/visibility.h"
 
@@ -48,24 +48,23 @@ struct SolidField {
   // The same of all but the sides of symmetry, beyond which it is its own mirror image; phi itself where
   // there are none.
   FloatGrid::Ptr phiMirrored;
-  // Open share of each face's area, 0 (closed) to 1; the index of a face as in Substep: (i,j,k) of openU is
-  // the lower x face of cell (i,j,k). Background 0; tiles of 1 where all is open; every face that is not
-  // closed is active.
-  FloatGrid::Ptr openU, openV, openW;
+  // Open share of each face's area, 0 (closed) to 1. Background 0; tiles of 1 where all is open; every face
+  // that is not closed is active.
+  FaceGrids open;
   // Where walls are so thin that stencils reach through them; null where none is.
   std::shared_ptr<const Visibility> visibility;
-  // Velocity of the solids at faces, m/s, near their surface; null where all are at rest.
-  FloatGrid::Ptr speedU, speedV, speedW;
+  // Velocity of the solids at faces, m/s, near their surface; none where all are at rest.
+  FaceGrids speed;
   // Velocity of faces where it is given, m/s, active there, else kNotGiven: the pressure has no say there.
-  // Null where there are none.
-  FloatGrid::Ptr givenU, givenV, givenW;
+  // None where nothing is given.
+  FaceGrids given;
   // What viscous liquid meets at the solids' surfaces (see sim/solids/walls.h). Slip length in metres at cell
   // centres within 3 voxels of a surface: 0 where liquid sticks, infinite where it slips freely; null where
   // it does so everywhere.
   FloatGrid::Ptr slipLength;
-  // Velocity of the surfaces along themselves, on top of that of the solids: u, v, w at faces, m/s; null
-  // where none slides.
-  std::array<FloatGrid::Ptr, 3> slide;
+  // Velocity of the surfaces along themselves, on top of that of the solids, at faces, m/s; each component
+  // null where none slides along it.
+  FaceGrids slide;
 };
 
 // The same solids with no speed, and given faces with none.
@@ -148,18 +147,5 @@ class Solids {
   std::vector<Placed> m_cachedSet;
   std::shared_ptr<const SolidField> m_cached;
 };
-
-// Which faces a projection has given a value; indices as those of u, v, w.
-struct FaceMasks {
-  MaskGrid::Ptr u, v, w;
-};
-
-// After extrapolation: takes the normal component out of the velocity at closed faces (those not in `valid`),
-// so that liquid slides along solids and does not enter them; all relative to the solid's own speed. Beside
-// cells active in `separating` (liquid that leaves a wall) and where no liquid touches, only motion into the
-// solid is taken out. Faces between the two sides of a thin wall, which both read, move with the wall.
-// Touches active faces only.
-void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
-                       const SolidField& solid, const FaceMasks& valid, const MaskGrid& separating);
 
 }  // namespace fluidtex::sim

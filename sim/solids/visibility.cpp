@@ -27,14 +27,14 @@ struct Surroundings {
   std::vector<float> distance;                 // in cells
   std::array<std::vector<float>, 3> openness;  // of the lower faces
 
-  Surroundings(const FloatGrid& solidPhi, const std::array<const FloatGrid*, 3>& open, const Coord& origin)
+  Surroundings(const FloatGrid& solidPhi, const FaceGrids& open, const Coord& origin)
       : distance(kSide * kSide * kSide) {
     gather(solidPhi.constTree(), origin, kHalo, distance.data());
     const float scale = static_cast<float>(1.0 / solidPhi.voxelSize()[0]);
     for (float& d : distance) d *= scale;
     for (int a = 0; a < 3; ++a) {
       openness[a].resize(distance.size());
-      gather(open[a]->constTree(), origin, kHalo, openness[a].data());
+      gather(open[a].constTree(), origin, kHalo, openness[a].data());
     }
   }
 
@@ -281,8 +281,7 @@ bool Visibility::touches(const openvdb::CoordBBox& box) const {
   return false;
 }
 
-std::shared_ptr<const Visibility> visibilityOf(const FloatGrid& solidPhi,
-                                               const std::array<const FloatGrid*, 3>& open) {
+std::shared_ptr<const Visibility> visibilityOf(const FloatGrid& solidPhi, const FaceGrids& open) {
   // Blocks that hold a solid's surface, and those around them.
   std::set<Coord> origins;
   for (auto leaf = solidPhi.constTree().cbeginLeaf(); leaf; ++leaf) {

@@ -54,7 +54,6 @@ class Visibility {
 // solidPhi, open: as in SolidField. A cell in the open sees another one where a path leads there that turns
 // back along no axis and passes through open faces only. Cells deeper in the solid than kDeepInSolid, whose
 // values go on from the nearest cell in the open, see and are seen as that one. Null where all see all.
-std::shared_ptr<const Visibility> visibilityOf(const FloatGrid& solidPhi,
-                                               const std::array<const FloatGrid*, 3>& open);
+std::shared_ptr<const Visibility> visibilityOf(const FloatGrid& solidPhi, const FaceGrids& open);
 
 }  // namespace fluidtex::sim

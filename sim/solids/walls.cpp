@@ -39,14 +39,14 @@ void setWalls(SolidField& field, const std::function<const Wall&(const Vec3d&)>&
   field.slipLength = FloatGrid::create(kFree);
   field.slipLength->setTransform(cellTransform(h));
   for (int a = 0; a < 3; ++a) {
-    field.slide[a] = FloatGrid::create(0.0f);
-    field.slide[a]->setTransform(faceTransform(h, a));
+    field.slide.component[a] = FloatGrid::create(0.0f);
+    field.slide.component[a]->setTransform(faceTransform(h, a));
   }
   std::vector<FloatLeaf*> slip;
   std::array<std::vector<FloatLeaf*>, 3> slide;
   for (const Coord& origin : origins) {
     slip.push_back(field.slipLength->tree().touchLeaf(origin));
-    for (int a = 0; a < 3; ++a) slide[a].push_back(field.slide[a]->tree().touchLeaf(origin));
+    for (int a = 0; a < 3; ++a) slide[a].push_back(field.slide.component[a]->tree().touchLeaf(origin));
   }
   std::vector<char> sliding(origins.size(), 0);
   tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
@@ -55,7 +55,7 @@ void setWalls(SolidField& field, const std::function<const Wall&(const Vec3d&)>&
       slip[n]->setValueOn(it.pos(),
                           static_cast<float>(slipLength(wallAt(field.phi->indexToWorld(it.getCoord())))));
       for (int a = 0; a < 3; ++a) {
-        const Vec3d x = field.slide[a]->indexToWorld(it.getCoord());
+        const Vec3d x = field.slide.component[a]->indexToWorld(it.getCoord());
         const Wall& wall = wallAt(x);
         if (!grips(wall) || wall.velocity.length() == 0.0) continue;
         const Vec3d normal = normalAt(distance, x, 0.1 * h);
@@ -71,9 +71,7 @@ void setWalls(SolidField& field, const std::function<const Wall&(const Vec3d&)>&
 void stickToWalls(Velocity& velocity, const SolidField& solid, const FaceMasks& valid) {
   if (!solid.slipLength) return;
   const float h = static_cast<float>(solid.voxelSize);
-  const FloatGrid::Ptr open[3] = {solid.openU, solid.openV, solid.openW};
-  const FloatGrid::Ptr moving[3] = {solid.speedU, solid.speedV, solid.speedW};
-  const MaskGrid::Ptr masks[3] = {valid.u, valid.v, valid.w};
+  const auto& masks = valid.component;
   for (int axis = 0; axis < 3; ++axis) {
     const auto leaves = leavesOf(velocity.component[axis]->tree());
     tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
@@ -89,10 +87,10 @@ void stickToWalls(Velocity& velocity, const SolidField& solid, const FaceMasks& 
         if (depth < 0.0f) continue;
         const float slipHere = slip.getValue(d1 < d0 ? face : below) / h;
         if (!std::isfinite(slipHere)) continue;
-        if (open[axis]->constTree().getValue(face) >= kLeastOpen || known.isValueOn(face)) continue;
+        if (solid.open[axis].constTree().getValue(face) >= kLeastOpen || known.isValueOn(face)) continue;
         float wall = 0.0f;
-        if (moving[axis]) wall += moving[axis]->constTree().getValue(face);
-        if (solid.slide[axis]) wall += solid.slide[axis]->constTree().getValue(face);
+        if (solid.speed) wall += solid.speed[axis].constTree().getValue(face);
+        if (solid.slide) wall += solid.slide[axis].constTree().getValue(face);
         // The value here is the one of the liquid's last face, which lies a whole number of cells away. Of a
         // profile that is steep beside that face no more than its mirror image is taken.
         const float beyond = std::ceil(depth + 1e-3f) - depth;

@@ -5,7 +5,7 @@
 #include "sim/grid/mac_grid.h"
 #include "sim/grid/require.h"
 #include "sim/heat/heat.h"
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
 #include "sim/solids/domain.h"
 #include "sim/solids/solids.h"
 #include "sim/step/check_options.h"
@@ -16,8 +16,8 @@
 #include "sim/surface/level_set.h"
 #include "sim/surface/poured_surface.h"
 #include "sim/velocity/advect_velocity.h"
-#include "sim/volume/owed_volume.h"
 #include "sim/volume/poured_volume.h"
+#include "sim/volume/volume_deficit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ namespace fluidtex::sim {
 namespace {
 
 // More of the liquid than this share should never be owed; less than so many cells goes unmentioned.
-constexpr double kMostOwed = 0.02, kFewCells = 8.0;
+constexpr double kMostDeficit = 0.02, kFewCells = 8.0;
 // Solids that come over no more than this share of the liquid go unmentioned.
 constexpr double kMentioned = 1e-3;
 // How often a step that fails is halved.
@@ -35,84 +35,18 @@ constexpr int kMaxHalvings = 6;
 // Times closer than this share of a frame are one.
 constexpr double kSameTime = 1e-6;
 
-Liquid liquidOf(const State& state, FloatGrid::Ptr phi, Markers markers) {
-  return {std::move(phi),
-          {{state.u, state.v, state.w}},
-          std::move(markers),
-          state.steps,
-          state.ahead,
-          {{state.au, state.av, state.aw}},
-          state.temperature,
-          state.owed,
-          {{state.su, state.sv, state.sw}}};
-}
-
-// A state's liquid, lent: the state has no markers and no acceleration meanwhile, which are too much to keep
-// twice. What a step leaves of them goes back in the end unless it gets others.
-class LentLiquid {
- public:
-  explicit LentLiquid(State& state)
-      : m_state(state), m_liquid(liquidOf(state, state.phi, std::move(state.markers))) {
-    state.au = state.av = state.aw = nullptr;
-  }
-  ~LentLiquid() {
-    if (!m_lent) return;
-    m_state.markers = std::move(m_liquid.markers);
-    const auto& [au, av, aw] = m_liquid.acceleration.component;
-    m_state.au = au;
-    m_state.av = av;
-    m_state.aw = aw;
-  }
-  LentLiquid(const LentLiquid&) = delete;
-  LentLiquid& operator=(const LentLiquid&) = delete;
-
-  Liquid& operator*() { return m_liquid; }
-  // Nothing goes back.
-  void drop() {
-    m_liquid.markers = {};
-    m_lent = false;
-  }
-
- private:
-  State& m_state;
-  Liquid m_liquid;
-  bool m_lent = true;
-};
-
-// Copying a grid, or writing and reading it, can change the last bits of its transform, and with them all
-// that is sampled: a state's grids get theirs anew.
-void setTransforms(State& state, double h) {
-  state.phi->setTransform(cellTransform(h));
-  state.u->setTransform(faceTransform(h, 0));
-  state.v->setTransform(faceTransform(h, 1));
-  state.w->setTransform(faceTransform(h, 2));
-  FloatGrid* const more[2][3] = {{state.au.get(), state.av.get(), state.aw.get()},
-                                 {state.su.get(), state.sv.get(), state.sw.get()}};
-  for (const auto& field : more) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (field[axis] != nullptr) field[axis]->setTransform(faceTransform(h, axis));
-    }
-  }
-  if (state.temperature) state.temperature->setTransform(cellTransform(h));
-  if (state.owed) state.owed->setTransform(cellTransform(h));
+// A copy of all but the markers, which are too much to keep twice; with a phi of its own.
+Liquid withoutMarkers(State& state) {
+  Markers markers = std::move(state.markers);
+  Liquid liquid = state;
+  state.markers = std::move(markers);
+  liquid.markers = {};
+  liquid.phi = state.phi->deepCopy();
+  return liquid;
 }
 
 void store(State& state, Liquid liquid, double h) {
-  state.phi = liquid.phi;
-  state.markers = std::move(liquid.markers);
-  state.steps = liquid.steps;
-  state.ahead = liquid.ahead;
-  state.temperature = liquid.temperature;
-  state.owed = liquid.owed;
-  state.u = liquid.velocity.component[0];
-  state.v = liquid.velocity.component[1];
-  state.w = liquid.velocity.component[2];
-  state.au = liquid.acceleration.component[0];
-  state.av = liquid.acceleration.component[1];
-  state.aw = liquid.acceleration.component[2];
-  state.su = liquid.swelling.component[0];
-  state.sv = liquid.swelling.component[1];
-  state.sw = liquid.swelling.component[2];
+  static_cast<Liquid&>(state) = std::move(liquid);
   setTransforms(state, h);
 }
 
@@ -138,13 +72,12 @@ double evenPart(double time, double longest) {
 }
 
 double speedOf(const SolidField& solid) {
-  return solid.speedU == nullptr ? 0.0 : maxAbs({{solid.speedU, solid.speedV, solid.speedW}});
+  return solid.speed ? maxAbs(solid.speed) : 0.0;
 }
 
 // No part of the surface moves faster, in m/s along an axis.
 double fastest(const Liquid& liquid) {
-  const bool swells = liquid.swelling.component[0] != nullptr;
-  return maxAbs(liquid.velocity) + (swells ? maxAbs(liquid.swelling) : 0.0);
+  return maxAbs(liquid.velocity) + (liquid.expansion ? maxAbs(liquid.expansion) : 0.0);
 }
 
 }  // namespace
@@ -168,7 +101,7 @@ Solver::Solver(const Options& options)
 
 Solver::Solver(const Options& options, State state)
     : m_options(checked(options)), m_state(std::move(state)), m_solids(std::make_shared<Solids>(options)) {
-  require(m_state.phi && m_state.u && m_state.v && m_state.w, "a state needs a surface and a velocity");
+  require(m_state.phi && m_state.velocity, "a state needs a surface and a velocity");
   checkResolution(m_state, options);
   setTransforms(m_state, options.voxelSize());
   if (options.heat.simulated && !m_state.temperature)
@@ -182,7 +115,7 @@ void Solver::prepare() {
   m_flows = std::make_shared<Flows>(m_options);
   m_active = m_solids->active(m_state.time);
   m_solid = solidsAround(m_state.time, *m_state.phi);
-  m_whole = liquidVolume(*m_state.phi, *m_solid) + (m_state.owed ? totalOwed(*m_state.owed) : 0.0);
+  m_whole = liquidVolume(*m_state.phi, *m_solid) + (m_state.deficit ? totalDeficit(*m_state.deficit) : 0.0);
   m_warnings = m_solids->warnings();
   for (std::string& warning : flowWarnings(m_options, *m_solids)) m_warnings.push_back(std::move(warning));
 }
@@ -191,7 +124,7 @@ std::shared_ptr<const SolidField> Solver::solidsAround(double time, const FloatG
                                                        const FloatGrid* more) {
   std::vector<const FloatGrid*> phis = m_flows->places();
   phis.push_back(&phi);
-  if (m_state.owed != nullptr) phis.push_back(m_state.owed.get());
+  if (m_state.deficit != nullptr) phis.push_back(m_state.deficit.get());
   if (more != nullptr) phis.push_back(more);
   return m_solids->around(phis, time, m_active);
 }
@@ -201,7 +134,7 @@ void Solver::applyEvents() {
   const double now = m_state.time;
   const double h = m_options.voxelSize();
   bool changed = m_state.frame == 0;
-  Liquid liquid = liquidOf(m_state, m_state.phi->deepCopy(), {});
+  Liquid liquid = withoutMarkers(m_state);
   std::vector<std::pair<const LiquidBody*, ShapeDistance>> due;
   std::vector<bool> poured = m_state.poured;
   FloatGrid dueLiquid(liquid.phi->background());
@@ -229,7 +162,7 @@ void Solver::applyEvents() {
   for (const auto& [body, shape] : due) {
     // As far ahead of the present as the velocity of what is there.
     pour(liquid, shape, pouredSurface(shape, m_solids->distanceAt(now), h),
-         body->velocity + m_options.gravity * liquid.ahead, body->temperature, *m_solid);
+         body->velocity + m_options.gravity * liquid.leapfrogOffset, body->temperature, *m_solid);
     changed = true;
   }
   if (!changed) return;
@@ -238,7 +171,7 @@ void Solver::applyEvents() {
   const FloatGrid::Ptr whole = liquid.phi->deepCopy();
   // Up to the middle of the first step.
   const double first = longestStep(m_options, fastest(liquid), speedOf(*m_solid));
-  double kick = liquid.ahead > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
+  double kick = liquid.leapfrogOffset > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
   StepReport report;
   for (int halving = 0;; ++halving) {
     Liquid settled = liquid;
@@ -260,8 +193,8 @@ void Solver::applyEvents() {
     }
   }
   if (!start) {
-    liquid.owed =
-        owedVolume(*whole, *liquid.phi, liquid.owed.get(), makeVelocity(h), *before, *m_solid, flows, 0.0);
+    liquid.deficit = volumeDeficit(*whole, *liquid.phi, liquid.deficit.get(), makeVelocity(h), *before,
+                                   *m_solid, flows, 0.0);
   }
   if (!due.empty()) {
     const auto distance = [&](const Vec3d& x) {
@@ -269,24 +202,25 @@ void Solver::applyEvents() {
       for (const auto& [body, shape] : due) nearest = std::min(nearest, shape(x));
       return nearest;
     };
-    liquid.owed =
-        withPoured(liquid.owed.get(), {dueLiquid, *whole, distance, start}, *liquid.phi, *m_solid, flows);
+    liquid.deficit =
+        withPoured(liquid.deficit.get(), {dueLiquid, *whole, distance, start}, *liquid.phi, *m_solid, flows);
   }
   store(m_state, std::move(liquid), h);
   m_state.poured = std::move(poured);
 }
 
 void Solver::tellOfDeficit() {
-  if (m_toldOfDeficit || m_state.owed == nullptr) return;
-  const double owed = totalOwed(*m_state.owed);
-  if (std::abs(owed) <= std::max(kMostOwed * m_whole, kFewCells * std::pow(m_options.voxelSize(), 3))) return;
+  if (m_toldOfDeficit || m_state.deficit == nullptr) return;
+  const double deficit = totalDeficit(*m_state.deficit);
+  if (std::abs(deficit) <= std::max(kMostDeficit * m_whole, kFewCells * std::pow(m_options.voxelSize(), 3)))
+    return;
   m_toldOfDeficit = true;
-  const Vec3d place = placeOfMost(*m_state.owed);
+  const Vec3d place = placeOfMost(*m_state.deficit);
   std::ostringstream text;
-  text << "at time " << m_state.time << " s the surface holds " << std::abs(owed) << " m3 "
-       << (owed > 0.0 ? "less" : "more") << " than it should, of " << m_whole << " m3, most of it near ("
+  text << "at time " << m_state.time << " s the surface holds " << std::abs(deficit) << " m3 "
+       << (deficit > 0.0 ? "less" : "more") << " than it should, of " << m_whole << " m3, most of it near ("
        << place[0] << ", " << place[1] << ", " << place[2] << "); "
-       << (owed > 0.0
+       << (deficit > 0.0
                ? "a solid may press on liquid that has no way out, or the liquid is in drops and films "
                  "thinner than a cell"
                : "jets and drops may be thinner than a few cells")
@@ -305,20 +239,19 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
   while (m_state.time < time) {
     if (m_state.phi->empty()) {
       m_state.time = time;
-      m_state.ahead = 0.0;
+      m_state.leapfrogOffset = 0.0;
       m_solid = solidsAround(time, *m_state.phi);
       return;
     }
     m_solid = solidsAround(m_state.time, *m_state.phi);
-    LentLiquid lent(m_state);
-    Liquid& liquid = *lent;
+    Liquid& liquid = m_state;  // whose markers and acceleration a step uses up
     const double remaining = time - m_state.time;
     const double speed = fastest(liquid), solids = speedOf(*m_solid);
     const double longest = longestStep(m_options, speed, solids);
     if (capillaryStep(m_options) < kShortest / m_options.frameRate) failRippling(m_state.time);
     if (longest < kShortest / m_options.frameRate) failFast(m_state.time, speed, solids);
     // The velocity is that of the middle of a step of this length.
-    const double planned = 2.0 * liquid.ahead;
+    const double planned = 2.0 * liquid.leapfrogOffset;
     const bool asPlanned =
         planned > 0.0 && planned <= longest * (1.0 + kSameTime) && planned <= remaining * (1.0 + kSameTime);
     double dt = asPlanned ? planned : evenPart(remaining, longest);
@@ -356,7 +289,6 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
     stats.pressureIterations += solves.pressure.iterations;
     stats.pressureResidual = std::max(stats.pressureResidual, solves.pressure.residual);
     stats.viscosityIterations += solves.viscosity.iterations;
-    lent.drop();
     store(m_state, std::move(*next), m_options.voxelSize());
     m_state.time = last ? time : m_state.time + dt;
     m_solid = solid;
@@ -395,8 +327,8 @@ Frame Solver::next(const std::function<void(double)>& progress) {
   }
   m_state.frame = frame.index;
   describeLiquid(frame, *m_state.phi, *m_solid);
-  if (m_state.owed) frame.stats.owed = totalOwed(*m_state.owed);
-  m_whole = frame.stats.volume + frame.stats.owed;
+  if (m_state.deficit) frame.stats.deficit = totalDeficit(*m_state.deficit);
+  m_whole = frame.stats.volume + frame.stats.deficit;
   if (m_state.temperature) frame.fields["temperature"] = m_state.temperature;
   if (progress) progress(1.0);
   return frame;

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "sim/frame/frame.h"
-#include "sim/markers/markers.h"
 #include "sim/options.h"
+#include "sim/step/liquid.h"
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -17,23 +16,6 @@ namespace fluidtex::sim {
 class Flows;
 class Solids;
 struct SolidField;
-
-// All that the next step needs; writing and reading it back continues bit for bit.
-struct State {
-  int frame = 0;               // last finished frame, 0 before the first
-  double time = 0.0;           // s
-  FloatGrid::Ptr phi;          // liquid, narrow band, metres, negative inside
-  FloatGrid::Ptr u, v, w;      // face velocities, m/s, of one topology; transforms as in Substep
-  FloatGrid::Ptr au, av, aw;   // m/s2 there, by pressure and friction, in the last step; or null
-  FloatGrid::Ptr temperature;  // K at cell centres; null where heat is not simulated
-  Markers markers;             // on both sides of the surface
-  std::int64_t steps = 0;      // substeps so far
-  FloatGrid::Ptr owed;         // see sim/volume/owed_volume.h; null for nothing
-  FloatGrid::Ptr su, sv, sw;   // m/s, by which the liquid grows meanwhile: see Liquid::swelling; or null
-  double ahead = 0.0;  // s: u, v, w are those of so much later than `time`, the middle of the next substep
-  // Bodies of Options::liquid that have been put in already, by index.
-  std::vector<bool> poured;
-};
 
 // Thrown when a step cannot be made right (the pressure solve does not converge even after halving the step,
 // a velocity is not finite); the message says what happened, at which time, and what may help.
@@ -83,10 +65,5 @@ class Solver {
 
 // Throws SolverError when the state was made with cells of another size than the options ask for.
 void checkResolution(const State& state, const Options& options);
-
-// The state as one .vdb file, uncompressed so that every value returns bit for bit.
-// Throws openvdb::IoError when the file cannot be written or read.
-void writeState(const State& state, const std::filesystem::path& file);
-State readState(const std::filesystem::path& file);
 
 }  // namespace fluidtex::sim

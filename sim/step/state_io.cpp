@@ -1,4 +1,4 @@
-#include "sim/step/solver.h"
+#include "sim/step/state_io.h"
 
 #include <openvdb/io/File.h>
 
@@ -6,19 +6,17 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace fluidtex::sim {
 namespace {
 
-// The first four are in every state.
-constexpr int kAlways = 4;
-constexpr std::pair<const char*, FloatGrid::Ptr State::*> kGrids[] = {
-    {"phi", &State::phi},   {"u", &State::u},   {"v", &State::v},   {"w", &State::w},
-    {"au", &State::au},     {"av", &State::av}, {"aw", &State::aw}, {"temperature", &State::temperature},
-    {"owed", &State::owed}, {"su", &State::su}, {"sv", &State::sv}, {"sw", &State::sw}};
+// In every state; the others only where there are any.
+constexpr std::string_view kAlways[] = {"phi", "u", "v", "w"};
 
 // What openvdb::io::File writes, to a stream of ours: File looks at its own no more once it is open, and says
 // nothing where the disk refuses.
@@ -94,18 +92,18 @@ void writeMarkers(const Markers& markers, openvdb::MetaMap& metadata) {
 
 void writeState(const State& state, const std::filesystem::path& file) {
   openvdb::GridCPtrVec out;
-  for (const auto& [name, member] : kGrids) {
-    if (state.*member == nullptr) continue;
-    const auto grid = toOpenVdb(*(state.*member));
+  forEachGrid(state, [&](const char* name, const FloatGrid::Ptr& from, int) {
+    if (from == nullptr) return;
+    const auto grid = toOpenVdb(*from);
     grid->setName(name);
     grid->setSaveFloatAsHalf(false);
     out.push_back(grid);
-  }
+  });
   openvdb::MetaMap metadata;
   metadata.insertMeta("frame", openvdb::Int32Metadata(state.frame));
   metadata.insertMeta("steps", openvdb::Int64Metadata(state.steps));
   metadata.insertMeta("time", openvdb::DoubleMetadata(state.time));
-  metadata.insertMeta("ahead", openvdb::DoubleMetadata(state.ahead));
+  metadata.insertMeta("leapfrog_offset", openvdb::DoubleMetadata(state.leapfrogOffset));
   std::string poured;
   for (const bool done : state.poured) poured += done ? '1' : '0';
   metadata.insertMeta("poured", openvdb::StringMetadata(poured));
@@ -135,17 +133,17 @@ State readState(const std::filesystem::path& file) {
     state.frame = metadata->metaValue<std::int32_t>("frame");
     state.steps = metadata->metaValue<std::int64_t>("steps");
     state.time = metadata->metaValue<double>("time");
-    state.ahead = metadata->metaValue<double>("ahead");
+    state.leapfrogOffset = metadata->metaValue<double>("leapfrog_offset");
     for (const char digit : metadata->metaValue<std::string>("poured")) state.poured.push_back(digit == '1');
     for (int part = 0; part < metadata->metaValue<std::int32_t>("marker_parts"); ++part)
       extract(metadata->metaValue<std::string>(partName(part)), state.markers);
-    for (int n = 0; n < static_cast<int>(std::size(kGrids)); ++n) {
-      const auto& [name, member] = kGrids[n];
-      if (n >= kAlways && !vdb.hasGrid(name)) continue;
+    forEachGrid(state, [&](const char* name, FloatGrid::Ptr& to, int) {
+      const bool always = std::find(std::begin(kAlways), std::end(kAlways), name) != std::end(kAlways);
+      if (!always && !vdb.hasGrid(name)) return;
       const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(vdb.readGrid(name));
       if (grid == nullptr) throw openvdb::TypeError(std::string("grid ") + name + " is not of floats");
-      state.*member = fromOpenVdb(*grid);
-    }
+      to = fromOpenVdb(*grid);
+    });
   } catch (const std::exception& error) {
     // A file cut short fails in many ways (no memory, unknown types); for the caller it is one.
     throw openvdb::IoError(file.string() + " does not hold a state of the solver: " + error.what());

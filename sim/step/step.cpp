@@ -3,7 +3,9 @@
 #include "sim/flows/move_surface.h"
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/require.h"
+#include "sim/heat/advect_temperature.h"
 #include "sim/heat/heat.h"
+#include "sim/solids/constrain.h"
 #include "sim/solids/solid_layers.h"
 #include "sim/solids/walls.h"
 #include "sim/step/keep_substep.h"
@@ -14,9 +16,9 @@
 #include "sim/velocity/advect_velocity.h"
 #include "sim/velocity/air_layers.h"
 #include "sim/velocity/extrapolate.h"
-#include "sim/viscosity/friction.h"
-#include "sim/volume/owed_volume.h"
+#include "sim/viscosity/viscous_step.h"
 #include "sim/volume/regained_surface.h"
+#include "sim/volume/volume_deficit.h"
 
 #include <tbb/parallel_for.h>
 
@@ -34,7 +36,7 @@ constexpr int kMargin = kLeafDim;
 constexpr int kTemperatureLayers = 6;
 
 // How far the surface goes at most in a step to give back what is owed, in cells.
-constexpr double kMostSwelling = 0.5;
+constexpr double kMostExpansion = 0.5;
 
 double voxelSize(const Liquid& liquid) {
   return liquid.phi->voxelSize()[0];
@@ -136,16 +138,13 @@ bool moveHeat(const Liquid& liquid, Liquid& next, const SolidField& solid, const
 // little is what shuts an open side.
 FaceMasks drivenFaces(const Projection& projection, const SolidField& solid) {
   const FaceMasks& valid = projection.valid;
-  const auto driven = [](const MaskGrid::Ptr& mask, const FloatGrid::Ptr& open, const FloatGrid::Ptr& given) {
-    const MaskGrid::Ptr free = mask->deepCopy();
-    free->tree().topologyIntersection(open->constTree());
-    if (given) free->tree().topologyDifference(given->constTree());
-    return free;
-  };
-  FaceMasks faces{driven(valid.u, solid.openU, solid.givenU), driven(valid.v, solid.openV, solid.givenV),
-                  driven(valid.w, solid.openW, solid.givenW)};
-  for (const auto& [axis, at] : projection.shut)
-    std::array{faces.u, faces.v, faces.w}[axis]->tree().setValueOff(at);
+  FaceMasks faces;
+  for (int a = 0; a < 3; ++a) {
+    faces.component[a] = valid[a].deepCopy();
+    faces.component[a]->tree().topologyIntersection(solid.open[a].constTree());
+    if (solid.given) faces.component[a]->tree().topologyDifference(solid.given[a].constTree());
+  }
+  for (const auto& [axis, at] : projection.shut) faces.component[axis]->tree().setValueOff(at);
   return faces;
 }
 
@@ -178,22 +177,22 @@ void extrapolateAll(Liquid& liquid, Projection& projection, const SolidField& so
                     Velocity arrived) {
   const FaceMasks& valid = projection.valid;
   const FaceMasks free = driven ? drivenFaces(projection, solid) : FaceMasks{};
-  const bool swells = projection.swelling.component[0] != nullptr;
-  liquid.acceleration = liquid.swelling = {};
+  const bool expands = projection.expansion.component[0] != nullptr;
+  liquid.acceleration = liquid.expansion = {};
   if (driven) liquid.acceleration = accelerationBy(std::move(arrived), liquid.velocity, free, dt);
 
   std::vector<Extrapolated> fields{{liquid.velocity, valid}};
   if (driven) fields.push_back({liquid.acceleration, free});
-  if (swells) {
+  if (expands) {
     // Where a wall leaves little of a face open, what grows behind it would shoot out; it can wait.
-    limitTo(projection.swelling, static_cast<float>(kMostSwelling * voxelSize(liquid) / dt));
-    fields.push_back({projection.swelling, valid});
+    limitTo(projection.expansion, static_cast<float>(kMostExpansion * voxelSize(liquid) / dt));
+    fields.push_back({projection.expansion, valid});
   }
   extrapolate(fields, *liquid.phi, *solid.phi);
-  if (!swells) return;
-  const auto& [u, v, w] = projection.swelling.component;
+  if (!expands) return;
+  const auto& [u, v, w] = projection.expansion.component;
   constrainToSolids(*u, *v, *w, *liquid.phi, atRest(solid), valid, *projection.separating);
-  liquid.swelling = nearSurface(projection.swelling, *liquid.phi, {});
+  liquid.expansion = nearSurface(projection.expansion, *liquid.phi, {});
 }
 
 // Of a projection over dt seconds in which forces act for `kick` seconds.
@@ -211,9 +210,10 @@ PressureOptions pressureOf(const Options& options, double h, double dt, double k
 // Friction acts for `kick` seconds, as forces do. False where a solve does not converge.
 bool rub(Liquid& liquid, const SolidField& solid, double kick, const Options& options,
          const FloatGrid* viscosity, StepReport& report) {
-  const FrictionReport friction = applyFriction(liquid.velocity, *liquid.phi, solid, kick, options.density,
-                                                {.constant = options.viscosity, .variable = viscosity},
-                                                pressureOf(options, voxelSize(liquid), kick, kick));
+  const ViscousStepReport friction =
+      applyViscousStep(liquid.velocity, *liquid.phi, solid, kick, options.density,
+                       {.constant = options.viscosity, .variable = viscosity},
+                       pressureOf(options, voxelSize(liquid), kick, kick));
   report.viscosity = friction.viscosity;
   if (!friction.viscosity.skipped) report.pressure = friction.pressure;
   return friction.converged();
@@ -227,8 +227,8 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, double kick, co
   PressureOptions pressure = pressureOf(options, voxelSize(liquid), dt, kick);
   pressure.keepBefore = driven && arrived.component[0] == nullptr;
   // Within about a frame; in less than two steps it would overshoot.
-  if (liquid.owed != nullptr && !liquid.owed->empty())
-    pressure.growth = growthOf(*liquid.owed, std::max(1.0 / options.frameRate, 2.0 * dt));
+  if (liquid.deficit != nullptr && !liquid.deficit->empty())
+    pressure.growth = growthOf(*liquid.deficit, std::max(1.0 / options.frameRate, 2.0 * dt));
   auto& [u, v, w] = liquid.velocity.component;
   Projection projection = project(*u, *v, *w, *liquid.phi, solid, dt, options.density, pressure);
   if (report != nullptr) {
@@ -237,7 +237,7 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, double kick, co
   }
   if (!projection.report.converged) return false;
   uniteTopology(liquid.velocity);  // the projection may have added faces to one component
-  for (const FloatGrid::Ptr& grid : projection.swelling.component) {
+  for (const FloatGrid::Ptr& grid : projection.expansion.component) {
     if (grid != nullptr) grid->topologyUnion(*u);
   }
   if (pressure.keepBefore) arrived = std::move(projection.before);
@@ -248,7 +248,7 @@ bool project(Liquid& liquid, const SolidField& solid, double dt, double kick, co
   const bool lets = driven && !projection.separating->empty();
   const ShownLiquid shown = lets ? shownAround(*projection.separating, *liquid.phi, solid) : ShownLiquid{};
   openGaps(*liquid.phi, liquid.velocity, solid, *projection.separating, options.gravity * dt, dt);
-  if (lets) oweChange(*liquid.owed, shown, *liquid.phi, solid);
+  if (lets) oweChange(*liquid.deficit, shown, *liquid.phi, solid);
   const double fastest = maxAbs(liquid.velocity);
   if (!std::isfinite(fastest)) return false;
   boundInactive(liquid.velocity, static_cast<float>(fastest));
@@ -296,31 +296,23 @@ double capillaryStep(const Options& options) {
   return std::sqrt(options.density * h * h * h / (4.0 * std::numbers::pi * options.surfaceTension));
 }
 
-Velocity movingVelocity(const Liquid& liquid) {
-  const bool swells = liquid.swelling.component[0] != nullptr;
-  return swells ? plus(liquid.velocity, liquid.swelling, 1.0) : liquid.velocity;
-}
-
-bool isEmpty(const Liquid& liquid) {
-  return liquid.phi->empty();
-}
-
 std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const SolidField& solid, double dt,
                            double nextDt, const Options& options, StepReport* report,
                            const RunningFlows& flows) {
   require(dt > 0.0 && nextDt >= 0.0, "step: the time step must be positive, the next one not negative");
-  const double kick = std::max(0.0, dt - liquid.ahead + 0.5 * nextDt);
-  Liquid next{liquid.phi->deepCopy(), {}, {}, liquid.steps + 1, liquid.ahead - dt + kick, {}};
+  const double kick = std::max(0.0, dt - liquid.leapfrogOffset + 0.5 * nextDt);
+  Liquid next{liquid.phi->deepCopy(), {}, {}, liquid.steps + 1, liquid.leapfrogOffset - dt + kick, {}};
   next.markers = std::move(liquid.markers);
   liquid.markers = {};
   {
     const Velocity moving = movingVelocity(liquid);
     moveSurface(*next.phi, next.markers, moving, solid, dt, markerSeed(options.seed, next.steps), flows,
-                before.phi != solid.phi && solid.speedU != nullptr ? before.phi.get() : nullptr);
+                before.phi != solid.phi && solid.speed ? before.phi.get() : nullptr);
     dropBeyond(next.markers, solid);
-    next.owed = owedVolume(*liquid.phi, *next.phi, liquid.owed.get(), moving, before, solid, flows, dt);
-    withdrawSurface(*next.phi, next.markers, *next.owed, solid);
-    regainSurface(*next.phi, next.markers, *next.owed, solid);
+    next.deficit =
+        volumeDeficit(*liquid.phi, *next.phi, liquid.deficit.get(), moving, before, solid, flows, dt);
+    withdrawSurface(*next.phi, next.markers, *next.deficit, solid);
+    regainSurface(*next.phi, next.markers, *next.deficit, solid);
   }
   next.velocity = velocityFor(*next.phi, solid);
   carryVelocity(liquid, next, solid, flows, dt);
@@ -347,7 +339,7 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
     // What is left of the band has no surface that could renew it.
     next.phi->clear();
     next.markers.clear();
-    next.acceleration = next.swelling = {};
+    next.acceleration = next.expansion = {};
   }
   return next;
 }
@@ -412,7 +404,7 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   }
   if (isEmpty(liquid)) return true;
   addGravity(liquid.velocity, options.gravity * kick);
-  liquid.ahead += kick;
+  liquid.leapfrogOffset += kick;
   const SolidField around = withFlows(solid, flows, phi, before, options.gravity, 0.0);
   if (liquid.temperature) {
     liquid.temperature = makeTemperature(*liquid.temperature, liquid.velocity.component[0]->constTree());

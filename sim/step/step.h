@@ -4,9 +4,9 @@
 
 #include "sim/flows/flows.h"
 #include "sim/grid/mac_grid.h"
-#include "sim/markers/markers.h"
 #include "sim/pressure/pressure.h"
 #include "sim/solids/solids.h"
+#include "sim/step/liquid.h"
 #include "sim/viscosity/viscosity.h"
 
 #include <functional>
@@ -14,36 +14,10 @@
 
 namespace fluidtex::sim {
 
-// phi, the velocity that belongs to it (projected, extrapolated, at rest relative to solids) and the markers
-// that keep phi right.
-struct Liquid {
-  FloatGrid::Ptr phi;
-  Velocity velocity;
-  Markers markers;
-  std::int64_t steps = 0;  // taken so far: the seed of the markers to come
-  double ahead = 0.0;      // s: the velocity is that of so much later than phi
-  // m/s2 at the velocity's faces, extrapolated: what pressure and friction did in the last step; null grids
-  // where there was none.
-  Velocity acceleration;
-  // K at cell centres of the velocity's leaves, extended into air and solids; null where heat is not
-  // simulated.
-  FloatGrid::Ptr temperature = nullptr;
-  FloatGrid::Ptr owed = nullptr;  // see sim/volume/owed_volume.h; null for nothing
-  // m/s at the velocity's faces near the surface, by which the liquid grows to give back what it owes; null
-  // grids for nothing. It moves the surface, and no momentum.
-  Velocity swelling = {};
-};
-
-// With which the surface moves: velocity and swelling.
-Velocity movingVelocity(const Liquid& liquid);
-
 // The longest step in which the shortest wave of surface tension that the grid holds cannot grow, s; infinite
 // without surface tension. Brackbill, Kothe, Zemach, "A continuum method for modeling surface tension", 1992,
 // eq. 61, with no liquid on the other side.
 double capillaryStep(const Options& options);
-
-// Whether there is none.
-bool isEmpty(const Liquid& liquid);
 
 struct StepReport {
   PressureReport pressure;

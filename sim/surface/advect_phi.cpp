@@ -1,5 +1,7 @@
 // Based on: Strain, "Semi-Lagrangian methods for level set equations", 1999; Ralston, "Runge-Kutta methods
 // with minimum error bounds", 1962 (third-order trace).
+#include "sim/surface/advect_phi.h"
+
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/local_reach.h"
 #include "sim/grid/velocity_window.h"

@@ -54,7 +54,7 @@ void openShares(const SolidField& solid, const Coord& origin, LeafShares& open) 
   }
   if (!anyNear) return;
   std::array<LeafPatch, 3> faces;
-  const FloatGrid* const grids[3] = {solid.openU.get(), solid.openV.get(), solid.openW.get()};
+  const auto& grids = solid.open.component;
   for (int a = 0; a < 3; ++a) faces[a] = patchOf(grids[a]->constTree(), origin);
   for (int i = 0; i < kLeafSize; ++i) {
     const int at = patchIndex(i);

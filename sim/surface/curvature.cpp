@@ -1,5 +1,6 @@
 #include "sim/surface/curvature.h"
 
+#include "sim/grid/leaf_block.h"
 #include "sim/grid/trilinear.h"
 
 #include <tbb/parallel_for.h>
@@ -12,8 +13,9 @@ namespace fluidtex::sim {
 namespace {
 
 constexpr int kHalo = 1;
-constexpr int kSide = kLeafDim + 2 * kHalo;
-constexpr int kStride[3] = {kSide * kSide, kSide, 1};
+using Block = LeafBlock<kHalo>;
+constexpr int kSide = Block::kSide;
+constexpr auto& kStride = Block::kStride;
 
 // Cells deeper in solids, in cells, are taken as this deep; their images lie within kWideHalo of a leaf.
 constexpr float kDeepest = 1.5f;
@@ -170,7 +172,7 @@ FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi,
   const auto leaves = leavesOf(phi.constTree());
   std::vector<std::unique_ptr<FloatLeaf>> made(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    static thread_local float block[kSide * kSide * kSide], seen[kSide * kSide * kSide];
+    static thread_local float block[Block::kCount], seen[Block::kCount];
     const Coord origin = leaves[n]->origin();
     gather(phi.constTree(), origin, kHalo, block);
     const auto [low, high] = std::minmax_element(std::begin(block), std::end(block));
@@ -178,8 +180,7 @@ FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi,
     mirrorInSolids(phi, solidPhi, origin, block);
     for (float& value : block) value /= h;
     for (int c = 0; c < kLeafSize; ++c) {
-      const int at =
-          ((c >> 6) + kHalo) * kStride[0] + (((c >> 3) & 7) + kHalo) * kStride[1] + (c & 7) + kHalo;
+      const int at = Block::index(c);
       const Coord cell = leaves[n]->offsetToGlobalCoord(static_cast<openvdb::Index>(c));
       const VisibleCells* visible = visibility != nullptr ? visibility->around(cell) : nullptr;
       const float* values = block;

@@ -1,9 +1,12 @@
 // Based on: Aslam, "A partial differential equation approach to multidimensional extrapolation", 2004
 // (constant and linear extension), solved upwind in the order of depth instead of in artificial time.
+#include "sim/surface/extend_into_solids.h"
+
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/voxel_mask.h"
 #include "sim/solids/solid_layers.h"
 #include "sim/surface/level_set.h"
+#include "sim/surface/mirror_sides.h"
 
 #include <tbb/parallel_for.h>
 
@@ -219,6 +222,12 @@ void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const GapRules&
       out[i] = std::clamp(extension.value[n * kLeafSize + i], -background, background);
     }
   });
+}
+
+void extendBeyond(FloatGrid& phi, const SolidField& solid, const GapRules& rules, float deep,
+                  const FloatGrid* left) {
+  extendIntoSolids(phi, *solid.phi, rules, deep, solid.visibility.get(), left);
+  mirrorAtSides(phi, solid);
 }
 
 }  // namespace fluidtex::sim

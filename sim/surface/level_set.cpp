@@ -3,7 +3,9 @@
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/require.h"
 #include "sim/solids/chunks.h"
+#include "sim/solids/solid_layers.h"
 #include "sim/surface/cell_volume.h"
+#include "sim/surface/redistance.h"
 
 #include <openvdb/tools/Prune.h>
 
@@ -193,7 +195,7 @@ FloatGrid::Ptr visibleSurface(const FloatGrid& phi, const SolidField& solid, int
           }
         });
   const auto nothing = FloatGrid::create(static_cast<float>(3.0 * h));
-  reinitialize(*surface, *nothing, 2 * halfWidth + 2);
+  redistance(*surface, *nothing, 2 * halfWidth + 2);
   setBand(surface->tree(), nullptr, static_cast<float>(h));
   return surface;
 }

@@ -1,6 +1,4 @@
-// Sides of symmetry for the level set: phi goes on beyond them as its own mirror image, so that a surface
-// that meets them is smooth there and its distance as good as elsewhere.
-#include "sim/surface/level_set.h"
+#include "sim/surface/mirror_sides.h"
 
 #include <tbb/parallel_for.h>
 
@@ -27,22 +25,11 @@ void mirrorAt(FloatGrid& phi, const SolidField& solid, int side) {
   });
 }
 
+}  // namespace
+
 void mirrorAtSides(FloatGrid& phi, const SolidField& solid) {
   for (int side = 0; side < 6; ++side)
     if (solid.sides[side] == Side::symmetry) mirrorAt(phi, solid, side);
-}
-
-}  // namespace
-
-void extendBeyond(FloatGrid& phi, const SolidField& solid, const GapRules& rules, float deep,
-                  const FloatGrid* left) {
-  extendIntoSolids(phi, *solid.phi, rules, deep, solid.visibility.get(), left);
-  mirrorAtSides(phi, solid);
-}
-
-void redistance(FloatGrid& phi, const SolidField& solid, int iterations) {
-  reinitialize(phi, *solid.phiMirrored, iterations, solid.visibility.get());
-  mirrorAtSides(phi, solid);
 }
 
 }  // namespace fluidtex::sim

@@ -1,6 +1,7 @@
 #include "sim/surface/open_gaps.h"
 
 #include "sim/solids/solid_layers.h"
+#include "sim/surface/extend_into_solids.h"
 
 #include <openvdb/tools/Morphology.h>
 
@@ -28,7 +29,7 @@ constexpr double kLeaves = 0.05, kStands = 1e-3;
 bool leavesSolid(const FloatGrid& phi, const Velocity& velocity, const SolidField& solid, const Coord& cell,
                  const Vec3d& kick) {
   const FloatGrid& solidPhi = *solid.phi;
-  const FloatGrid* const push[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};
+  const auto& push = solid.speed.component;
   const float deep = -kDeepInSolid * static_cast<float>(solidPhi.voxelSize()[0]);
   bool onFloor = false;
   // Liquid beside it moves the film with itself, and at rest holds it up.
@@ -56,7 +57,7 @@ bool leavesSolid(const FloatGrid& phi, const Velocity& velocity, const SolidFiel
 // adds to its velocity in a step. One that stands on a floor has the floor's velocity, whatever gap is left.
 bool closesOn(const Velocity& velocity, const SolidField& solid, const Coord& cell, const Vec3d& kick,
               double slowest) {
-  const FloatGrid* const push[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};
+  const auto& push = solid.speed.component;
   Vec3d normal(0.0), speed = kick;  // out of the solid; against it
   for (int axis = 0; axis < 3; ++axis) {
     Coord low = cell, high = cell;

@@ -1,7 +1,7 @@
 // Where a body of liquid that is poured has a surface of its own.
 #pragma once
 
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
 
 #include <functional>
 

@@ -1,7 +1,9 @@
 #include "sim/surface/settle_surface.h"
 
 #include "sim/grid/leaf_table.h"
+#include "sim/surface/extend_into_solids.h"
 #include "sim/surface/level_set.h"
+#include "sim/surface/redistance.h"
 
 namespace fluidtex::sim {
 namespace {
@@ -21,7 +23,7 @@ void settleSurface(FloatGrid& phi, const SolidField& solid) {
   // it keeps its surface: both go straight on.
   const auto never = [](const Coord&) { return false; };
   const GapRules rules{never, never};
-  const int rounds = static_cast<int>(phi.background() / (h * kReinitReach * kIterations)) + 2;
+  const int rounds = static_cast<int>(phi.background() / (h * kRedistanceReach * kIterations)) + 2;
   for (int n = 0; n < rounds; ++n) {
     extendBeyond(phi, solid, rules, kInSolid);
     redistance(phi, solid, kIterations);

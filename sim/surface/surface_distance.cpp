@@ -1,5 +1,7 @@
 #include "sim/surface/surface_distance.h"
 
+#include "sim/grid/leaf_block.h"
+
 #include <immintrin.h>
 
 #include <algorithm>
@@ -10,10 +12,10 @@
 namespace fluidtex::sim {
 namespace {
 
-constexpr int kReach = 3;                    // cells: how far the surface may be along an axis
-constexpr int kHalo = kReach + 3;            // and two more for the interpolation's stencil there
-constexpr int kSide = kLeafDim + 2 * kHalo;  // 20
-constexpr int kStride[3] = {kSide * kSide, kSide, 1};
+constexpr int kReach = 3;                       // cells: how far the surface may be along an axis
+constexpr int kHalo = kReach + 3;               // and two more for the interpolation's stencil there
+constexpr int kSide = LeafBlock<kHalo>::kSide;  // 20
+constexpr auto& kStride = LeafBlock<kHalo>::kStride;
 constexpr int kMaxIterations = 12;
 constexpr double kTolerance = 1e-3;  // cells: of the last step
 // Second differences above this share of the slope are corners, or the middle of a film or a gap.
@@ -48,13 +50,8 @@ struct Weights {
 };
 
 // phi / h around one leaf; positions in cells from the leaf's first cell centre.
-struct Block {
-  std::array<float, kSide * kSide * kSide> value;
-
-  const float* cell(int offset) const {
-    return value.data() + ((offset >> 6) + kHalo) * kStride[0] + (((offset >> 3) & 7) + kHalo) * kStride[1] +
-           (offset & 7) + kHalo;
-  }
+struct Block : LeafBlock<kHalo> {
+  const float* cell(int offset) const { return data() + index(offset); }
 
   // The lower corner of the cube of cell centres around x; null where the stencil would leave the block.
   const float* corner(const Vec3& x, double* t) const {
@@ -227,7 +224,7 @@ std::vector<CellDistance> surfaceDistances(const FloatTree& phi, const Coord& or
                                            const std::array<bool, kLeafSize>& notAsked) {
   thread_local Block block;
   thread_local std::vector<Search> searches;
-  gather(phi, origin, kHalo, block.value.data());
+  block.load(phi, origin);
   std::array<std::uint8_t, 64> near;
   std::vector<CellDistance> distances;
   if (!block.nearCells(near)) return distances;

@@ -23,7 +23,7 @@ Velocity plus(const Velocity& u, const Velocity& a, double time) {
 }
 
 Velocity accelerationBy(Velocity before, const Velocity& after, const FaceMasks& valid, double dt) {
-  const MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
+  const auto& masks = valid.component;
   const float rate = static_cast<float>(1.0 / dt);
   for (int axis = 0; axis < 3; ++axis) {
     before.component[axis]->tree().topologyUnion(after.component[axis]->constTree());

@@ -129,7 +129,7 @@ void balanceAirLayers(Velocity& velocity, const FaceMasks& valid, const FloatGri
   const VoxelMask open =
       maskOf(table, sampleOn(table, solidPhi.constTree()), [](float s) { return s > 0.0f; });
   number(layers, liquid, open);
-  const MaskGrid* const masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
+  const auto& masks = valid.component;
   for (int axis = 0; axis < 3; ++axis) {
     layers.speed[axis] = valuesOf(velocity.component[axis]->tree());
     VoxelMask& free = layers.free[axis];

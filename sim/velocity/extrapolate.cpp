@@ -90,7 +90,7 @@ void extrapolateAxis(const std::vector<Extrapolated>& fields, int axis, const Le
   tbb::parallel_for(std::size_t{0}, table.size(), [&](std::size_t n) {
     for (int f = 0; f < kFields; ++f) {
       const auto& masks = fields[f].valid;
-      const MaskTree& valid = (axis == 0 ? masks.u : axis == 1 ? masks.v : masks.w)->constTree();
+      const MaskTree& valid = masks[axis].constTree();
       const auto* validLeaf = valid.probeConstLeaf(table.origins[n]);
       const bool validTile = validLeaf == nullptr && valid.isValueOn(table.origins[n]);
       const float* from = leaves[f][n]->buffer().data();

@@ -8,6 +8,7 @@
 //   taken over the distance to the wall, and volumes end there. For walls along an axis this is second order.
 #include "sim/viscosity/viscous_system.h"
 
+#include "sim/grid/leaf_block.h"
 #include "sim/viscosity/volume_fraction.h"
 
 #include <tbb/parallel_for.h>
@@ -19,25 +20,18 @@
 namespace fluidtex::sim {
 namespace {
 
-constexpr int kHalo = 2, kSide = kLeafDim + 2 * kHalo;
-constexpr int kStride[3] = {kSide * kSide, kSide, 1};
+constexpr auto& kStride = LeafBlock<2>::kStride;
 
 // The values of a grid around one leaf.
-struct Patch {
-  float values[kSide * kSide * kSide];
+struct Patch : LeafBlock<2> {
+  Patch(const FloatTree& tree, const Coord& origin) { load(tree, origin); }
 
-  Patch(const FloatTree& tree, const Coord& origin) { gather(tree, origin, kHalo, values); }
-
-  static int index(int offset) {
-    return ((offset >> 6) + kHalo) * kStride[0] + (((offset >> 3) & 7) + kHalo) * kStride[1] + (offset & 7) +
-           kHalo;
-  }
-  float cell(int at) const { return values[at]; }
+  float cell(int at) const { return value[at]; }
   // At the lower face of a cell normal to an axis, and at its lower edge between two axes.
-  float face(int at, int axis) const { return 0.5f * (values[at] + values[at - kStride[axis]]); }
+  float face(int at, int axis) const { return 0.5f * (value[at] + value[at - kStride[axis]]); }
   float edge(int at, int p, int q) const {
-    return 0.25f * (values[at] + values[at - kStride[p]] + values[at - kStride[q]] +
-                    values[at - kStride[p] - kStride[q]]);
+    return 0.25f * (value[at] + value[at - kStride[p]] + value[at - kStride[q]] +
+                    value[at - kStride[p] - kStride[q]]);
   }
 
   // Share of the cube around a place where the values are negative. The place lies half a cell below the
@@ -50,12 +44,12 @@ struct Patch {
       int c = at;
       for (int a = 0; a < 3; ++a) c -= ((corner >> a) & 1) * kStride[a];
       ++count;
-      middle += values[c];
+      middle += value[c];
       for (int a = 0; a < 3; ++a) {
         if (((lower >> a) & 1) != 0) {
-          slope[a] += ((corner >> a) & 1) != 0 ? -2.0 * values[c] : 2.0 * values[c];
+          slope[a] += ((corner >> a) & 1) != 0 ? -2.0 * value[c] : 2.0 * value[c];
         } else {
-          slope[a] += 0.5 * (static_cast<double>(values[c + kStride[a]]) - values[c - kStride[a]]);
+          slope[a] += 0.5 * (static_cast<double>(value[c + kStride[a]]) - value[c - kStride[a]]);
         }
       }
     }
@@ -94,26 +88,20 @@ struct Walls {
 
   // Whether a face in the open has a velocity of its own (a source, a stream's end).
   bool given(const Coord& face, int axis) const {
-    const FloatGrid::Ptr fixed[3] = {solid.givenU, solid.givenV, solid.givenW};
-    return fixed[axis] && fixed[axis]->constTree().isValueOn(face);
+    return solid.given && solid.given[axis].constTree().isValueOn(face);
   }
 
-  bool open(const Coord& face, int axis) const {
-    const FloatGrid::Ptr share[3] = {solid.openU, solid.openV, solid.openW};
-    return share[axis]->constTree().getValue(face) > 0.5f;
-  }
+  bool open(const Coord& face, int axis) const { return solid.open[axis].constTree().getValue(face) > 0.5f; }
 
   // Of the solid as a whole, also beside it.
   double motion(const Coord& face, int axis) const {
-    const FloatGrid::Ptr moving[3] = {solid.speedU, solid.speedV, solid.speedW};
-    return moving[axis] ? moving[axis]->constTree().getValue(face) : 0.0f;
+    return solid.speed ? solid.speed[axis].constTree().getValue(face) : 0.0f;
   }
 
   double speed(const Coord& face, int axis) const {
-    const FloatGrid::Ptr fixed[3] = {solid.givenU, solid.givenV, solid.givenW};
-    if (given(face, axis)) return fixed[axis]->constTree().getValue(face);
+    if (given(face, axis)) return solid.given[axis].constTree().getValue(face);
     double value = motion(face, axis);
-    if (solid.slide[axis]) value += solid.slide[axis]->constTree().getValue(face);
+    if (solid.slide) value += solid.slide[axis].constTree().getValue(face);
     return value;
   }
 };
@@ -271,7 +259,7 @@ class Sampler {
   // Of the difference second - first, which is multiplied by `factor`: a solid that turns has another speed
   // at its surface than at the given face, and a motion that liquid and solid share has no strain.
   float offset(std::int32_t first, std::int32_t second, float factor, int axis) const {
-    if (factor == 1.0f || !m_solid.speedU) return 0.0f;
+    if (factor == 1.0f || !m_solid.speed) return 0.0f;
     const Walls walls{m_solid, static_cast<float>(m_solid.voxelSize)};
     return static_cast<float>((1.0f - factor) * (walls.motion(m_system.coord[second], axis) -
                                                  walls.motion(m_system.coord[first], axis)));

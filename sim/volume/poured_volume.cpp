@@ -33,12 +33,12 @@ float shareOf(const std::function<double(const Vec3d&)>& body, float far, const 
 
 }  // namespace
 
-FloatGrid::Ptr withPoured(const FloatGrid* owed, const PouredLiquid& poured, const FloatGrid& settled,
+FloatGrid::Ptr withPoured(const FloatGrid* deficit, const PouredLiquid& poured, const FloatGrid& settled,
                           const SolidField& solid, const RunningFlows& flows) {
   const float h = static_cast<float>(solid.voxelSize);
-  FloatGrid::Ptr result = owed != nullptr ? owed->deepCopy() : FloatGrid::create(0.0f);
+  FloatGrid::Ptr result = deficit != nullptr ? deficit->deepCopy() : FloatGrid::create(0.0f);
   result->setTransform(cellTransform(solid.voxelSize));
-  result->setName("owed");
+  result->setName("deficit");
   const auto leaves = leavesOf(poured.bodies.constTree());
   std::vector<LeafShares> more(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {

@@ -20,7 +20,7 @@ struct PouredLiquid {
 // drops that no cell's centre is in; and, at the start and away from solids, what settling, which makes phi a
 // distance, wears off edges and bodies of a few cells. settled: phi after that. Nothing within a cell of
 // sources and drains.
-FloatGrid::Ptr withPoured(const FloatGrid* owed, const PouredLiquid& poured, const FloatGrid& settled,
+FloatGrid::Ptr withPoured(const FloatGrid* deficit, const PouredLiquid& poured, const FloatGrid& settled,
                           const SolidField& solid, const RunningFlows& flows);
 
 }  // namespace fluidtex::sim

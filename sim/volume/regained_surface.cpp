@@ -4,7 +4,7 @@
 #include "sim/grid/mac_grid.h"
 #include "sim/markers/drop_markers.h"
 #include "sim/surface/cell_volume.h"
-#include "sim/volume/owed_volume.h"
+#include "sim/volume/volume_deficit.h"
 
 #include <tbb/parallel_for.h>
 
@@ -33,19 +33,19 @@ struct Regained {
   float share;  // of it that is liquid
 };
 
-std::vector<Regained> regainedIn(const FloatLeaf& owed, const FloatTree& phi, const SolidField& solid) {
-  const float* due = owed.buffer().data();
+std::vector<Regained> regainedIn(const FloatLeaf& deficit, const FloatTree& phi, const SolidField& solid) {
+  const float* due = deficit.buffer().data();
   std::vector<Regained> found;
   if (std::none_of(due, due + kLeafSize, [](float v) { return v > kFills; })) return found;
   LeafShares open;
-  openShares(solid, owed.origin(), open);
-  const LeafPatch distance = patchOf(phi, owed.origin());
-  const LeafPatch wall = patchOf(solid.phi->constTree(), owed.origin());
+  openShares(solid, deficit.origin(), open);
+  const LeafPatch distance = patchOf(phi, deficit.origin());
+  const LeafPatch wall = patchOf(solid.phi->constTree(), deficit.origin());
   // Behind a solid's surface phi says how the liquid would go on.
   const auto isLiquid = [&](int at) { return distance[at] < 0.0f && wall[at] > 0.0f; };
   for (int i = 0; i < kLeafSize; ++i) {
     const int at = patchIndex(i);
-    const Coord cell = owed.offsetToGlobalCoord(i);
+    const Coord cell = deficit.offsetToGlobalCoord(i);
     if (due[i] <= kFills || open[i] < kRoomy || !solid.domain.isInside(cell)) continue;
     bool dry = distance[at] >= 0.0f;
     for (const int stride : kPatchStride) dry = dry && !isLiquid(at - stride) && !isLiquid(at + stride);
@@ -63,13 +63,13 @@ std::array<Coord, 7> star(const Coord& cell) {
 }
 
 // Cells that show liquid where next to none is.
-std::vector<Coord> emptyIn(const FloatLeaf& owed, const FloatGrid& phi, const SolidField& solid) {
-  const float* due = owed.buffer().data();
+std::vector<Coord> emptyIn(const FloatLeaf& deficit, const FloatGrid& phi, const SolidField& solid) {
+  const float* due = deficit.buffer().data();
   std::vector<Coord> found;
   if (std::none_of(due, due + kLeafSize, [](float v) { return v < kEmpty - kShows; })) return found;
   LeafShares shown;
-  liquidShares(phi, solid, owed.origin(), shown);
-  const LeafPatch distance = patchOf(phi.constTree(), owed.origin());
+  liquidShares(phi, solid, deficit.origin(), shown);
+  const LeafPatch distance = patchOf(phi.constTree(), deficit.origin());
   const float deep = -kShallow * static_cast<float>(solid.voxelSize);
   for (int i = 0; i < kLeafSize; ++i) {
     const int at = patchIndex(i);
@@ -77,15 +77,15 @@ std::vector<Coord> emptyIn(const FloatLeaf& owed, const FloatGrid& phi, const So
     for (const int stride : kPatchStride)
       shallow = shallow && distance[at - stride] > deep && distance[at + stride] > deep;
     if (shallow && shown[i] > kShows && shown[i] + due[i] < kEmpty)
-      found.push_back(owed.offsetToGlobalCoord(i));
+      found.push_back(deficit.offsetToGlobalCoord(i));
   }
   return found;
 }
 
 }  // namespace
 
-void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const SolidField& solid) {
-  const auto leaves = leavesOf(owed.constTree());
+void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& deficit, const SolidField& solid) {
+  const auto leaves = leavesOf(deficit.constTree());
   std::vector<std::vector<Regained>> parts(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(),
                     [&](std::size_t n) { parts[n] = regainedIn(*leaves[n], phi.constTree(), solid); });
@@ -111,11 +111,11 @@ void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const Soli
   }
   dropMarkers(markers,
               [&](const Marker& m, const Coord& cell) { return m.radius > 0.0f && cells.contains(cell); });
-  oweChange(owed, before, phi, solid);
+  oweChange(deficit, before, phi, solid);
 }
 
-void withdrawSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const SolidField& solid) {
-  const auto leaves = leavesOf(owed.constTree());
+void withdrawSurface(FloatGrid& phi, Markers& markers, FloatGrid& deficit, const SolidField& solid) {
+  const auto leaves = leavesOf(deficit.constTree());
   std::vector<std::vector<Coord>> parts(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(),
                     [&](std::size_t n) { parts[n] = emptyIn(*leaves[n], phi, solid); });
@@ -133,7 +133,7 @@ void withdrawSurface(FloatGrid& phi, Markers& markers, FloatGrid& owed, const So
   for (const Coord& cell : cells) phi.tree().setValueOn(cell, dry);
   dropMarkers(markers,
               [&](const Marker& m, const Coord& cell) { return m.radius < 0.0f && cells.contains(cell); });
-  oweChange(owed, before, phi, solid);
+  oweChange(deficit, before, phi, solid);
 }
 
 }  // namespace fluidtex::sim

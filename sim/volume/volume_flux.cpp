@@ -119,9 +119,9 @@ std::vector<float> carriedAlong(const VolumeFlux& all, bool last, const std::vec
       for (int k = 0; k < kLeafDim; ++k) net[k] = last ? netOutflow(all.flux[n], row + k) : 0.0f;
       for (int k = 0; k < kLeafDim; ++k) {
         const int at = patchIndex(row) + k;
-        const float swells = through[k + kNextFace[kAxis]] - through[k];
+        const float expands = through[k + kNextFace[kAxis]] - through[k];
         gain[k] = liquid[at] - liquid[at + kStride];
-        gain[k] = isFull[k] != 0 ? gain[k] + swells - net[k] : gain[k];
+        gain[k] = isFull[k] != 0 ? gain[k] + expands - net[k] : gain[k];
       }
       // What solids sweep out, or make room for, is neither lost nor gained.
       for (int k = 0; swept != nullptr && k < kLeafDim; ++k) {
@@ -149,11 +149,11 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
   result.flux.resize(leaves.size());
   result.open = result.room = openRoom(solid, leaves);
   result.phi.resize(leaves.voxels());
-  const bool moving = solid.speedU != nullptr;
+  const bool moving = bool(solid.speed);
   if (moving) result.swept.resize(leaves.voxels());
   std::vector<float> leaving(leaves.voxels()), most(leaves.size(), 0.0f);
-  const FloatGrid* const open[3] = {solid.openU.get(), solid.openV.get(), solid.openW.get()};
-  const FloatGrid* const push[3] = {solid.speedU.get(), solid.speedV.get(), solid.speedW.get()};
+  const auto& open = solid.open.component;
+  const auto& push = solid.speed.component;
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     const Coord& origin = leaves.origins[n];
     float fromScratch[kLeafSize], toScratch[kLeafSize];

@@ -1,5 +1,5 @@
 // How much liquid there is in each cell after a step, by fluxes: exact in sum, but not sharp. The other half
-// of sim/volume/owed_volume.h.
+// of sim/volume/volume_deficit.h.
 #pragma once
 
 #include "sim/grid/leaf_table.h"

@@ -1,7 +1,7 @@
 // A mesh, up to the triangles of a solid: the first byte says of which kind the rest is, o(bj), p(ly) or
 // s(tl).
 #include "sim/meshes/read_mesh.h"
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
 #include "tests/fuzz/reader.h"
 
 using namespace fluidtex;

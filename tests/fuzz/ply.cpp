@@ -2,6 +2,7 @@
 #include "tools/ply.h"
 #include "tests/fuzz/reader.h"
 #include "tools/errors.h"
+#include "tools/read_ply.h"
 
 using namespace fluidtex;
 

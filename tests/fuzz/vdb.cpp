@@ -1,6 +1,6 @@
 // A volume of floats.
+#include "pipeline/read_grid.h"
 #include "tests/fuzz/reader.h"
-#include "tools/read_grid.h"
 
 using namespace fluidtex;
 
@@ -8,7 +8,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const bool once = (openvdb::initialize(), true);
   const auto file = fuzz::written("a.vdb", data, size);
   return fuzz::outcomeFromAfar<std::runtime_error>([&] {
-    const openvdb::FloatGrid::Ptr grid = once ? tools::readGrid<openvdb::FloatGrid>(file) : nullptr;
+    const openvdb::FloatGrid::Ptr grid = once ? pipeline::readGrid<openvdb::FloatGrid>(file) : nullptr;
     return fuzz::magnitude(double(grid->activeVoxelCount())) + fuzz::magnitude(grid->tree().leafCount());
   });
 }

@@ -9,7 +9,7 @@
 #include "sim/surface/level_set.h"
 #include "sim/velocity/extrapolate.h"
 #include "sim/viscosity/viscosity.h"
-#include "sim/volume/owed_volume.h"
+#include "sim/volume/volume_deficit.h"
 #include "tests/sim/step/solver_scenes.h"
 #include "tests/sim/velocity/velocity_field.h"
 

@@ -2,6 +2,7 @@
 #include "tests/tools/program.h"
 #include "tools/errors.h"
 #include "tools/ply.h"
+#include "tools/read_ply.h"
 
 #include <OpenImageIO/imageio.h>
 #include <catch2/catch.hpp>

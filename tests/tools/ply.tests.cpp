@@ -3,6 +3,7 @@
 #include "tests/scratch.h"
 #include "tests/tools/sample_surface.h"
 #include "tools/errors.h"
+#include "tools/read_ply.h"
 
 #include <catch2/catch.hpp>
 
@@ -24,8 +25,10 @@ T valueAt(const std::string& bytes, std::size_t offset) {
 
 }  // namespace
 
-TEST_CASE("PLY: has the properties of docs/formats.md in their order, and the bytes of every vertex and face",
-          "[tools]") {
+TEST_CASE(
+    "PLY: has the properties of docs/reference/files.md in their order, and the bytes of every vertex and "
+    "face",
+    "[tools]") {
   const Scratch scratch;
   const texture::TexturedSurface surface = sampleSurface();
   tools::writePly(surface, scratch.path / "a.ply");

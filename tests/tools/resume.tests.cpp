@@ -1,6 +1,7 @@
 // fluidtex run --resume: after kills, interrupts and other wishes.
 #include "tests/tools/program.h"
 #include "tools/ply.h"
+#include "tools/read_ply.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -156,7 +157,7 @@ TEST_CASE("fluidtex run --resume: foam goes on as it was", "[tools]") {
   run("4", out, {"--resume"});
   CHECK(differing(resultsIn(out), resultsIn(whole)).empty());
   const auto last = fluidtex::tools::readPly(whole / "surface" / "0004.ply", 384, 384);
-  const std::vector<float>& foam = last.maps.at("foam");
+  const std::vector<float>& foam = last.foam;
   CHECK(*std::max_element(foam.begin(), foam.end()) > 0.5f);
 }
 

@@ -38,7 +38,7 @@ double volumeOf(std::vector<std::string> args, const fs::path& out) {
   INFO(run.all());
   REQUIRE(run.exitCode == 0);
   const nlohmann::json frame = nlohmann::json::parse(readBytes(out / "run.json")).at("frames").at(0);
-  return frame.at("volume").get<double>() + frame.at("owed").get<double>();
+  return frame.at("volume").get<double>() + frame.at("deficit").get<double>();
 }
 
 }  // namespace

@@ -181,7 +181,7 @@ TEST_CASE("carry: surfaces whose arrays do not fit are refused", "[transport]") 
   refused([](TexturedSurface& s) { s.gradient.pop_back(); });
   refused([](TexturedSurface& s) { s.fading.weight.clear(); });
   refused([](TexturedSurface& s) { s.age.emplace_back(); });
-  refused([](TexturedSurface& s) { s.maps[texture::kFoam] = {0.5f}; });
+  refused([](TexturedSurface& s) { s.foam = {0.5f}; });
   refused([](TexturedSurface& s) { s.triangles[0][1] = 1u << 30; });
   SurfaceMesh bare = mesh;
   bare.normals.clear();

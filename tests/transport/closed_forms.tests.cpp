@@ -1,4 +1,4 @@
-// Both methods of transport beside closed forms; docs/transport.md has the whole table.
+// Both methods of transport beside closed forms; docs/results/validation.md has the whole table.
 #include "tests/transport/orientation_flows.h"
 #include "transport/carry.h"
 

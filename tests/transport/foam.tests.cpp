@@ -70,7 +70,7 @@ TEST_CASE("foam: carried along with the surface, where there is any", "[transpor
   const SurfaceMesh before = sphereMesh(24), after = sphereMesh(19, 1.0, shift);
   TexturedSurface previous = texturedMesh(before, constantDirection({0.3, 0.5, 0.8}));
   CHECK(carry(previous, frame, after).foam.empty());
-  std::vector<float>& foam = previous.maps[texture::kFoam];
+  std::vector<float>& foam = previous.foam;
   for (const Vec3f& x : before.positions) foam.push_back(0.5f + 0.4f * x.z());
   const Carried carried = carry(previous, frame, after);
   REQUIRE(carried.foam.size() == after.positions.size());

@@ -3,7 +3,7 @@
 #include "tests/transport/orientation_flows.h"
 #include "transport/band.h"
 #include "transport/carry.h"
-#include "transport/coordinate_fields.h"
+#include "transport/grid_transport.h"
 
 #include <cstring>
 

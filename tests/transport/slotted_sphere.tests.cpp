@@ -2,7 +2,7 @@
 // slot 5 wide and 12.5 deep; by the trace and by the paper's fields on the grid.
 #include "tests/transport/velocity_grids.h"
 #include "transport/backtrace.h"
-#include "transport/coordinate_fields.h"
+#include "transport/grid_transport.h"
 
 #include <catch2/catch.hpp>
 

@@ -33,23 +33,11 @@ inline Vec3f projected(const Vec3f& x, const Vec3f& n) {
 
 // The state that the next frame starts from, with nothing synthesised in between.
 inline TexturedSurface continued(const Carried& carried, const SurfaceMesh& mesh) {
-  return {.spacing = mesh.spacing,
-          .positions = mesh.positions,
-          .normals = mesh.normals,
-          .orientation = carried.orientation,
-          .triangles = mesh.triangles,
-          .color = carried.color,
-          .coordinate = carried.coordinate,
-          .gradient = carried.gradient,
-          .fading = carried.fading,
-          .age = carried.age,
-          .trust = carried.trust,
-          .previousPosition = carried.previousPosition,
-          .velocity = {},
-          .contact = {},
-          .maps = {},
-          .vectors = {},
-          .scale = {}};
+  TexturedSurface result;
+  static_cast<SurfaceMesh&>(result) = mesh;
+  static_cast<texture::VertexTexture&>(result) = carried;
+  result.orientation = carried.orientation;
+  return result;
 }
 
 // Exemplar coordinates that are one linear function of position all over; colour and age likewise.

@@ -60,7 +60,7 @@ Result film(int resolution, const Progress& progress) {
     level.points.push_back({x, z});
     if (x > 0.25 * kLength && x < 0.75 * kLength) depth = std::max(depth, std::abs(z - 1.0));
   }
-  const auto u = state.u->getConstUnsafeAccessor();
+  const auto u = state.velocity.component[0]->getConstUnsafeAccessor();
   const int middle = options.resolution / 2;
   Curve found{fmt::format("{} cells", resolution), {}, Curve::Style::marks},
       exact{"exact", {}, Curve::Style::line};

@@ -45,8 +45,7 @@ double pressureAt(const sim::State& state, const sim::SolidField& solid, const s
                   const Vec3d& place) {
   constexpr double kDt = 1e-3;
   const double h = solid.voxelSize;
-  sim::Velocity before{{state.u, state.v, state.w}},
-      after{{state.u->deepCopy(), state.v->deepCopy(), state.w->deepCopy()}};
+  sim::Velocity before = state.velocity, after = sim::copyOf(state.velocity);
   sim::advectVelocity(before, before, after, *state.phi, *solid.phi, kDt, solid.visibility.get());
   for (int a = 0; a < 3; ++a) {
     const float change = static_cast<float>(options.gravity[a] * kDt);

@@ -93,7 +93,7 @@ Result manufactured(int resolution, const Progress&) {
     if ((x - shell.middle).length() < Shell::kBall) continue;
     pressureMost = std::max(pressureMost, std::abs(*it / kToPressure - shell.pressure(x)));
   }
-  const sim::MaskGrid::Ptr valid[3] = {projection.valid.u, projection.valid.v, projection.valid.w};
+  const auto& valid = projection.valid.component;
   for (int a = 0; a < 3; ++a) {
     for (auto it = valid[a]->cbeginValueOn(); it; ++it) {
       const Vec3d x = velocity.component[a]->indexToWorld(it.getCoord());

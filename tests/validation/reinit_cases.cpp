@@ -2,6 +2,7 @@
 #include "tests/validation/reinit_cases.h"
 
 #include "sim/surface/level_set.h"
+#include "sim/surface/redistance.h"
 #include "tests/validation/measure.h"
 #include "tests/validation/order.h"
 
@@ -62,7 +63,7 @@ void level(sim::FloatGrid& phi) {
 void reinitializeOften(sim::FloatGrid& phi, int calls, const Progress& progress) {
   const auto solid = noSolid(phi.voxelSize()[0]);
   for (int n = 0; n < calls; ++n) {
-    sim::reinitialize(phi, *solid);
+    sim::redistance(phi, *solid);
     level(phi);
     if (progress) progress((n + 1.0) / calls);
   }
@@ -148,7 +149,7 @@ Result ellipse(int resolution, const Progress& progress) {
   };
   const auto solid = noSolid(h);
   auto phi = slabOf(upright(field), resolution, h);
-  sim::reinitialize(*phi, *solid, 2 * resolution);
+  sim::redistance(*phi, *solid, 2 * resolution);
   const BandError error = bandError(*phi, distance, resolution, 1.2 * h);
   level(*phi);
   const sim::FloatGrid::Ptr once = phi->deepCopy();

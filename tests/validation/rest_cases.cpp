@@ -141,7 +141,7 @@ Result fall(const std::string& test, const Vec3d& down, const Vec3d& start, int 
     if (progress) progress((n + 1.0) / kFrames);
   }
   // The velocity is that of the middle of the next substep.
-  const Vec3d speed = kGravity * (duration + solver.state().ahead) * down;
+  const Vec3d speed = kGravity * (duration + solver.state().leapfrogOffset) * down;
   const double error = farthestFrom(solver.state(), [&](const Vec3d&) { return speed; });
   const ShapeError shape = compare(*solver.state().phi, sphere(start + kWay * down, kRadius), cells, samples);
   Result result;

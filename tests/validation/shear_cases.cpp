@@ -36,13 +36,8 @@ class Basin {
   }
 
   // How the walls' surfaces slide along themselves, and how the solids move as a whole.
-  void setWalls(const Field& speed) { m_solid.slide = fieldOf(speed).component; }
-  void setSolids(const Field& speed) {
-    const sim::Velocity field = fieldOf(speed);
-    m_solid.speedU = field.component[0];
-    m_solid.speedV = field.component[1];
-    m_solid.speedW = field.component[2];
-  }
+  void setWalls(const Field& speed) { m_solid.slide = fieldOf(speed); }
+  void setSolids(const Field& speed) { m_solid.speed = fieldOf(speed); }
 
   void push(double change) {
     for (auto it = velocity.component[0]->beginValueOn(); it; ++it)

@@ -14,19 +14,23 @@ sim::Solver startedWith(const sim::Options& options, const std::function<Vec3d(c
   sim::Solver first(options);
   first.next();
   sim::State state = first.state();
-  for (const auto& [grid, axis] : {std::pair(&state.u, 0), std::pair(&state.v, 1), std::pair(&state.w, 2)}) {
+  for (const auto& [grid, axis] :
+       {std::pair(&state.velocity.component[0], 0), std::pair(&state.velocity.component[1], 1),
+        std::pair(&state.velocity.component[2], 2)}) {
     *grid = (*grid)->deepCopy();
     for (auto it = (*grid)->beginValueOn(); it; ++it)
       it.setValue(static_cast<float>(velocity((*grid)->indexToWorld(it.getCoord()))[axis]));
   }
-  state.ahead = 0.0;
+  state.leapfrogOffset = 0.0;
   return sim::Solver(options, std::move(state));
 }
 
 double farthestFrom(const sim::State& state, const std::function<Vec3d(const Vec3d&)>& field) {
   const auto phi = state.phi->getConstUnsafeAccessor();
   double most = 0.0;
-  for (const auto& [grid, axis] : {std::pair(&state.u, 0), std::pair(&state.v, 1), std::pair(&state.w, 2)}) {
+  for (const auto& [grid, axis] :
+       {std::pair(&state.velocity.component[0], 0), std::pair(&state.velocity.component[1], 1),
+        std::pair(&state.velocity.component[2], 2)}) {
     for (auto it = (*grid)->cbeginValueOn(); it; ++it) {
       Coord below = it.getCoord();
       below[axis] -= 1;

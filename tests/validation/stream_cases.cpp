@@ -42,8 +42,8 @@ double surfaceHeight(const State& state, int i) {
 // m3/s through the faces normal to x in the plane of index i.
 double fluxThrough(const State& state, const SolidField& solid, int i) {
   const double h = solid.voxelSize;
-  const auto u = state.u->getConstUnsafeAccessor();
-  const auto open = solid.openU->getConstUnsafeAccessor();
+  const auto u = state.velocity.component[0]->getConstUnsafeAccessor();
+  const auto open = solid.open.component[0]->getConstUnsafeAccessor();
   const auto phi = state.phi->getConstUnsafeAccessor();
   double sum = 0.0;
   for (int j = 0; j <= solid.domain.max()[1]; ++j) {
@@ -79,7 +79,8 @@ Result slug(int resolution, const Progress& progress) {
   for (int n = 1; n <= frames; ++n) {
     volume = solver.next().stats.volume;
     const State& state = solver.state();
-    const FloatGrid* const grids[3] = {state.u.get(), state.v.get(), state.w.get()};
+    const FloatGrid* const grids[3] = {state.velocity.component[0].get(), state.velocity.component[1].get(),
+                                       state.velocity.component[2].get()};
     const auto phi = state.phi->getConstUnsafeAccessor();
     for (int axis = 0; axis < 3; ++axis) {
       for (auto it = grids[axis]->cbeginValueOn(); it; ++it) {
@@ -123,8 +124,9 @@ Result outflowWave(int resolution, const Progress& progress) {
     };
     for (auto it = state.phi->beginValueOn(); it; ++it)
       it.setValue(*it - float(wave(state.phi->indexToWorld(it.getCoord()).x())));
-    for (auto it = state.u->beginValueOn(); it; ++it)
-      it.setValue(*it + float(speed / kDepth * wave(state.u->indexToWorld(it.getCoord()).x())));
+    for (auto it = state.velocity.component[0]->beginValueOn(); it; ++it)
+      it.setValue(*it +
+                  float(speed / kDepth * wave(state.velocity.component[0]->indexToWorld(it.getCoord()).x())));
     state.markers.clear();
     Solver solver(options, state);
     const int frames = static_cast<int>(time * options.frameRate);

@@ -4,6 +4,7 @@
 #include "sim/pressure/pressure.h"
 #include "sim/step/step.h"
 #include "sim/surface/level_set.h"
+#include "sim/surface/redistance.h"
 #include "tests/validation/solver_run.h"
 
 #include <fmt/format.h>
@@ -59,14 +60,16 @@ sim::Solver shaped(const sim::Options& options, bool flat,
   for (auto it = state.phi->beginValueOn(); it; ++it)
     it.setValue(static_cast<float>(distance(state.phi->indexToWorld(it.getCoord()))));
   const auto nothing = sim::makePhi(options.voxelSize(), 3.0 * options.voxelSize());
-  sim::reinitialize(*state.phi, *nothing, 30);
+  sim::redistance(*state.phi, *nothing, 30);
   state.markers = sim::seedMarkers(*state.phi, *nothing, 0);
-  for (auto* grid : {&state.u, &state.v, &state.w}) {
+  for (auto* grid :
+       {&state.velocity.component[0], &state.velocity.component[1], &state.velocity.component[2]}) {
     *grid = (*grid)->deepCopy();
     for (auto it = (*grid)->beginValueOn(); it; ++it) it.setValue(0.0f);
   }
-  state.au = state.av = state.aw = nullptr;
-  state.ahead = 0.0;
+  state.acceleration.component[0] = state.acceleration.component[1] = state.acceleration.component[2] =
+      nullptr;
+  state.leapfrogOffset = 0.0;
   within.liquid.clear();
   return sim::Solver(within, std::move(state));
 }

@@ -42,7 +42,8 @@ Result viscousVortices(int resolution, const Progress& progress) {
   });
   const auto energy = [&] {
     double sum = 0.0;
-    const auto u = solver.state().u->getConstUnsafeAccessor(), v = solver.state().v->getConstUnsafeAccessor();
+    const auto u = solver.state().velocity.component[0]->getConstUnsafeAccessor(),
+               v = solver.state().velocity.component[1]->getConstUnsafeAccessor();
     for (int i = 0; i < resolution; ++i) {
       for (int j = 0; j < resolution; ++j)
         sum += std::pow(u.getValue(Coord(i, j, 4)), 2) + std::pow(v.getValue(Coord(i, j, 4)), 2);
@@ -55,7 +56,7 @@ Result viscousVortices(int resolution, const Progress& progress) {
     if (progress) progress((n + 1.0) / kFrames);
   }
   // The energy falls as exp(-16 pi^2 nu t).
-  const double rate = -std::log(energy() / before) / (16.0 * pi * pi * (1.0 + solver.state().ahead));
+  const double rate = -std::log(energy() / before) / (16.0 * pi * pi * (1.0 + solver.state().leapfrogOffset));
   return {{{"taylor_green_viscous",
             resolution,
             "rate of decay, error, %",
@@ -94,13 +95,16 @@ std::function<Vec3d(const Vec3d&)> interpolated(const sim::State& state) {
     return (1.0 - t[0]) * ((1.0 - t[1]) * value(0, 0) + t[1] * value(0, 1)) +
            t[0] * ((1.0 - t[1]) * value(1, 0) + t[1] * value(1, 1));
   };
-  return [=, u = state.u, v = state.v](const Vec3d& x) { return Vec3d(sampled(*u, x), sampled(*v, x), 0.0); };
+  return [=, u = state.velocity.component[0], v = state.velocity.component[1]](const Vec3d& x) {
+    return Vec3d(sampled(*u, x), sampled(*v, x), 0.0);
+  };
 }
 
 // Extremum of u (or v) along the middle line, by a parabola through three faces.
 double extremum(const sim::State& state, int resolution, bool ofU, double sign) {
   const int middle = resolution / 2;
-  const auto grid = (ofU ? state.u : state.v)->getConstUnsafeAccessor();
+  const auto grid =
+      (ofU ? state.velocity.component[0] : state.velocity.component[1])->getConstUnsafeAccessor();
   const auto at = [&](int i) {
     return sign * grid.getValue(ofU ? Coord(middle, i, 4) : Coord(i, middle, 4));
   };
@@ -216,8 +220,9 @@ Result spinningDisc(int resolution, const Progress& progress) {
   sim::Solver solver = startedWith(options, [&](const Vec3d& x) { return spin * up.cross(x - middle); });
   const auto momentum = [&] {
     const sim::State& state = solver.state();
-    const auto phi = state.phi->getConstUnsafeAccessor(), u = state.u->getConstUnsafeAccessor(),
-               v = state.v->getConstUnsafeAccessor();
+    const auto phi = state.phi->getConstUnsafeAccessor(),
+               u = state.velocity.component[0]->getConstUnsafeAccessor(),
+               v = state.velocity.component[1]->getConstUnsafeAccessor();
     double sum = 0.0;
     for (int n = 0; n < resolution * resolution * 8; ++n) {
       const Coord c(n / 8 / resolution, n / 8 % resolution, n % 8);

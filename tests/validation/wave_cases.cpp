@@ -42,7 +42,8 @@ Result taylorGreen(int resolution, const Progress& progress) {
   double energyMost = 0.0, energy = 0.0, mean = 0.0, square = 0.0, most = 0.0, energyFirst = 0.0;
   const auto measure = [&] {
     const sim::State& state = solver.state();
-    const auto u = state.u->getConstUnsafeAccessor(), v = state.v->getConstUnsafeAccessor();
+    const auto u = state.velocity.component[0]->getConstUnsafeAccessor(),
+               v = state.velocity.component[1]->getConstUnsafeAccessor();
     energy = mean = square = most = 0.0;
     for (int i = 0; i < resolution; ++i) {
       for (int j = 0; j < resolution; ++j) {

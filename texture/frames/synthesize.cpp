@@ -9,6 +9,7 @@
 #include "texture/shown/maps.h"
 #include "texture/shown/plain.h"
 #include "texture/shown/shown_color.h"
+#include "texture/vertex_arrays.h"
 
 #include <algorithm>
 #include <numeric>
@@ -55,11 +56,10 @@ void checkSizes(const SurfaceMesh& mesh, const Carried& carried) {
   if (!mesh.guidance.empty() && !right(mesh.guidance.size()))
     throw std::invalid_argument("synthesize: guidance must have one value per vertex");
   if (carried.empty()) return;
-  if (!right(carried.color.size()) || !right(carried.coordinate.size()) || !right(carried.gradient.size()) ||
-      !right(carried.fading.coordinate.size()) || !right(carried.fading.gradient.size()) ||
-      !right(carried.fading.weight.size()) || !right(carried.fading.speed.size()) ||
-      !right(carried.age.size()) || !right(carried.trust.size()) || !right(carried.previousPosition.size()))
-    throw std::invalid_argument("synthesize: carried arrays must have one entry per vertex");
+  forEachTextureArray(carried, [&](const auto& values, Array array) {
+    if (!fits(values, array, count))
+      throw std::invalid_argument("synthesize: carried arrays must have one entry per vertex");
+  });
 }
 
 // What fades after a frame. A vertex renewed now shows what it showed before, and that gives way; where
@@ -116,7 +116,6 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
   }
   stats.renewed = double(std::accumulate(renewed.begin(), renewed.end(), std::size_t(0))) / double(count);
 
-  result.spacing = mesh.spacing;
   result.color.resize(count);
   result.coordinate.resize(count);
   result.gradient.resize(count);
@@ -140,7 +139,7 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
   if (progress) progress(1.0);
   result.trust = carried.empty() ? std::vector<float>(count, 0.0f) : carried.trust;
   result.previousPosition = carried.empty() ? mesh.positions : carried.previousPosition;
-  takeMesh(mesh, result);
+  static_cast<SurfaceMesh&>(result) = std::move(mesh);
   for (const auto& [name, map] : synthesizer.exemplar.maps)
     lookUp(name, map, synthesizer.exemplar.toroidal, result);
   return result;

@@ -1,6 +1,6 @@
 // The minimum cut of a graph whose nodes have two labels, found as a maximum flow by growing search trees
 // from both terminals [Boykov04]: on the small, densely weighted graphs of label expansion it is several
-// times faster than a library's general flow (docs/benchmarks.md).
+// times faster than a library's general flow.
 #pragma once
 
 #include <cstddef>

@@ -9,7 +9,8 @@ namespace fluidtex::texture {
 namespace {
 
 // A slip of half a texel is spread over about two rings to each side. With 16 sweeps and four rings as much
-// texture is drawn out by 1.4, and more windows are unlike the exemplar's (docs/synthesis.md).
+// texture is drawn out by 1.4, and more windows are unlike the exemplar's
+// (docs/notebook/2026-11-23-synthesis-variants.md).
 constexpr int kSweeps = 4;
 // The Jacobian before counts as much as this share of an edge of one pixel in each direction.
 constexpr float kInertia = 0.5f;

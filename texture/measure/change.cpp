@@ -1,8 +1,10 @@
+#include "texture/measure/change.h"
+
 #include "texture/exemplar/srgb.h"
 #include "texture/labels/coordinate_gradient.h"
 #include "texture/loops/parallel.h"
 #include "texture/loops/point_grid.h"
-#include "texture/measure/measure.h"
+#include "texture/measure/new_surface.h"
 #include "texture/measure/tiles.h"
 
 #include <algorithm>

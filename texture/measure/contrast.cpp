@@ -1,4 +1,4 @@
-#include "texture/measure/measure.h"
+#include "texture/measure/contrast.h"
 #include "texture/measure/tiles.h"
 
 #include <algorithm>

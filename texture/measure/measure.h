@@ -38,50 +38,6 @@ struct Likeness {
   int tile = 0, tiles = 0;  // size and number of the tiles
 };
 
-// What one frame's exemplar coordinates show. Two neighbours cohere where each one's gradient, fitted to its
-// neighbours, puts the other within 0.75 texels (mean of both) of where it is; pieces are what coheres.
-// Surface that is new in its frame (trust below kNewSurface) is left out, unless all is.
-struct Pieces {
-  // 95th percentile of max(s1, 1 / s2), s the singular values of the fitted gradients (texels a texel), over
-  // vertices that cohere with three neighbours or more; 1 is undistorted.
-  double shape = 0.0;
-  // rms difference of colour a texel across edges between pieces, over that between texels side by side in
-  // the exemplar; 0 without such edges.
-  double seams = 0.0;
-  double joints = 0.0;  // share of the edges that lie between pieces
-  double chips = 0.0;   // share of the vertices in pieces of fewer than 25
-  int pieces = 0;
-};
-
-// What is new from one frame to the next. Vertices of new surface are left out.
-struct Change {
-  // 99.9th percentile of a vertex's change along the flow: mean over R, G, B of the difference from the last
-  // frame's colour where the vertex was, read between its vertices.
-  double pop = 0.0;
-  // rms difference of luminance between what is shown and the last picture merely carried: the exemplar at
-  // the carried coordinate (at the shown one where it is the same within half a texel), plus what the last
-  // picture differed from the exemplar at its own, as in a fade. What resampling costs is not in it.
-  double change = 0.0;
-  double renewed = 0.0;  // share of the vertices whose coordinate is not the carried one
-  double alongFlow =
-      0.0;             // mean change along the flow, R, G and B, with the last frame read by a smooth kernel
-  double ratio = 0.0;  // the same less what that reading costs, over shuffled vertices': 0 carried, 1 fresh
-};
-
-// What the flow alone asks for in a frame, whatever the texture: by what `renewed` and `change` can be
-// judged.
-struct FlowWear {
-  // Share of the texture that the frame wears out, if none is to be squeezed or drawn out by more than 1.4:
-  // mean over the vertices of min(1, e / (2 log 1.4)), e being the greater principal strain (logarithmic) of
-  // the surface since the last frame.
-  double worn = 0.0;
-  // `change` if all that is worn gives way over its whole life, evenly, to texture that has nothing to do
-  // with it: sqrt(2) times the deviation of the exemplar's luminance times the rms of the same share.
-  double change = 0.0;
-};
-
-inline constexpr float kNewSurface = 0.5f;
-
 // Judges frames against one exemplar. What it says of a frame does not depend on which frames it has judged
 // before.
 class LikenessJudge {
@@ -98,27 +54,5 @@ class LikenessJudge {
   struct Internals;
   std::unique_ptr<Internals> m_internals;
 };
-
-// Squared gradient of an exemplar's luminance, as it is seen, averaged over 3 x 3 texels, over the mean of
-// the whole: one channel. 1 everywhere where the exemplar is of one luminance. Edges are edges, whether it
-// wraps or not. color: linear RGBA.
-Image contrastOf(const Image& color);
-// Mean of that over the texels that the vertices show, new surface's too, what fades in but not what fades
-// out: 1 where all of the exemplar is shown alike, less where what has little contrast was chosen. Nothing
-// without a surface.
-std::optional<double> measureContrast(const TexturedSurface& surface, const Image& contrast);
-
-// Nothing without a surface.
-std::optional<Pieces> measurePieces(const TexturedSurface& surface, const Image& color, bool toroidal);
-
-// after.previousPosition lies on `before`. Nothing where no vertex was there before.
-std::optional<Change> measureChange(const TexturedSurface& before, const TexturedSurface& after,
-                                    const Image& color, bool toroidal);
-
-// Standard deviation of an exemplar's luminance, as it is seen. color: linear RGBA.
-double deviationOfLuminance(const Image& color);
-
-// Nothing where no vertex was there before. deviation: the exemplar's, as above.
-std::optional<FlowWear> measureFlowWear(const TexturedSurface& surface, double deviation);
 
 }  // namespace fluidtex::texture

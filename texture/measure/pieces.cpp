@@ -1,7 +1,8 @@
-#include "texture/labels/pieces.h"
+#include "texture/measure/pieces.h"
+
 #include "texture/labels/chips.h"
 #include "texture/labels/coordinate_gradient.h"
-#include "texture/measure/measure.h"
+#include "texture/labels/pieces.h"
 #include "texture/measure/tiles.h"
 
 #include <algorithm>

@@ -155,17 +155,6 @@ void readTile(const Tile& tile, const std::vector<float>& values, int channels, 
 
 }  // namespace
 
-SurfaceMesh meshOf(const TexturedSurface& surface) {
-  SurfaceMesh mesh;
-  mesh.spacing = surface.spacing;
-  mesh.positions = surface.positions;
-  mesh.normals = surface.normals;
-  mesh.orientation = surface.orientation;
-  mesh.scale = surface.scale;
-  mesh.triangles = surface.triangles;
-  return mesh;
-}
-
 double Dice::unit() {
   return randomUnit(m_seed, m_counter++);
 }
@@ -181,7 +170,7 @@ double Dice::normal() {
 }
 
 TileGround::TileGround(const TexturedSurface& textured)
-    : surface(textured), graph(buildVertexGraph(meshOf(textured))) {
+    : surface(textured), graph(buildVertexGraph(textured)) {
   const std::size_t count = surface.positions.size();
   around.first.assign(1, 0);
   std::vector<std::uint32_t> list;

@@ -73,9 +73,6 @@ double readAt(const TileGround& ground, const Vec3f& x, std::uint32_t at, bool w
 // 12 times as many vertices do not give them: a tile bends by at most 40 degrees in the mean.
 std::vector<Tile> flatTiles(const TileGround& ground, int size, int count, Dice& dice);
 
-// The surface as a mesh, oriented.
-SurfaceMesh meshOf(const TexturedSurface& surface);
-
 // sRGB-encoded picture of the exemplar: 3 channels, or 4 where alpha varies.
 Image encodedPicture(const Image& color);
 

@@ -1,5 +1,7 @@
+#include "texture/measure/wear.h"
+
 #include "texture/frames/look_ahead.h"
-#include "texture/measure/measure.h"
+#include "texture/measure/new_surface.h"
 #include "texture/measure/tiles.h"
 #include "texture/optimize/passes.h"
 
@@ -23,7 +25,7 @@ double deviationOfLuminance(const Image& color) {
 }
 
 std::optional<FlowWear> measureFlowWear(const TexturedSurface& surface, double deviation) {
-  const SurfaceMesh mesh = meshOf(surface);
+  const SurfaceMesh& mesh = surface;
   const PreparedMesh prepared(mesh);
   const std::vector<Strain> strain =
       strainRates(prepared.view(), surface.previousPosition, surface.trust, 1.0);

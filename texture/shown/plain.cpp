@@ -7,31 +7,20 @@ namespace {
 
 const Vec4f kPale(0.42f, 0.55f, 0.62f, 1.0f);  // linear
 
-TexturedSurface meshOf(Surface surface) {
+TexturedSurface untexturedMesh(Surface surface) {
   TexturedSurface result;
   if (surface.empty()) return result;
   SurfaceMesh& mesh = surface.levels.front();
   if (mesh.orientation.size() != mesh.positions.size())
     throw std::invalid_argument("a surface without orientation cannot be textured");
-  result.spacing = mesh.spacing;
-  takeMesh(mesh, result);
+  static_cast<SurfaceMesh&>(result) = std::move(mesh);
   return result;
 }
 
 }  // namespace
 
-void takeMesh(SurfaceMesh& mesh, TexturedSurface& result) {
-  result.positions = std::move(mesh.positions);
-  result.normals = std::move(mesh.normals);
-  result.orientation = std::move(mesh.orientation);
-  result.triangles = std::move(mesh.triangles);
-  result.scale = std::move(mesh.scale);
-  if (!mesh.guidance.empty()) result.maps[kGuidance] = std::move(mesh.guidance);
-  if (!mesh.foam.empty()) result.maps[kFoam] = std::move(mesh.foam);
-}
-
 TexturedSurface untextured(Surface surface, const Carried& carried) {
-  TexturedSurface result = meshOf(std::move(surface));
+  TexturedSurface result = untexturedMesh(std::move(surface));
   const std::size_t count = result.positions.size();
   result.color.assign(count, kPale);
   result.coordinate.assign(count, Vec2f(0.0f));
@@ -44,17 +33,12 @@ TexturedSurface untextured(Surface surface, const Carried& carried) {
 }
 
 TexturedSurface advected(Surface surface, const Carried& carried, double secondsSinceLast) {
-  TexturedSurface result = meshOf(std::move(surface));
+  TexturedSurface result = untexturedMesh(std::move(surface));
   if (carried.trust.size() != result.positions.size())
     throw std::invalid_argument("advected: carried arrays must have one entry per vertex");
-  result.color = carried.color;
-  result.coordinate = carried.coordinate;
-  result.gradient = carried.gradient;
+  static_cast<VertexTexture&>(result) = carried;
   result.fading = noFading(result.positions.size());
-  result.age = carried.age;
   for (float& age : result.age) age += float(secondsSinceLast);
-  result.trust = carried.trust;
-  result.previousPosition = carried.previousPosition;
   return result;
 }
 

@@ -13,7 +13,4 @@ TexturedSurface untextured(Surface surface, const Carried& carried);
 // advection. carried must not be empty.
 TexturedSurface advected(Surface surface, const Carried& carried, double secondsSinceLast);
 
-// Moves a mesh's arrays to where a textured surface has them.
-void takeMesh(SurfaceMesh& mesh, TexturedSurface& result);
-
 }  // namespace fluidtex::texture

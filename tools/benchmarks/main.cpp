@@ -1,4 +1,5 @@
-// The benchmarks: Google Benchmark's program, with ratios to the peers at the end. See docs/benchmarks.md.
+// The benchmarks: Google Benchmark's program, with ratios to the peers at the end. See
+// docs/results/benchmarks.md.
 #include "tools/benchmarks/measure.h"
 #include "tools/keep_memory.h"
 

@@ -58,12 +58,14 @@ PoissonProblem damBreakProblem(int resolution, int frames) {
   for (int frame = 1; frame <= frames; ++frame) solver.next();
   const sim::State& state = solver.state();
   // What gravity adds in a step is what the pressure takes out again.
-  sim::FloatGrid::Ptr w = state.w->deepCopy();
+  sim::FloatGrid::Ptr w = state.velocity.component[2]->deepCopy();
   for (auto it = w->beginValueOn(); it; ++it)
     it.setValue(*it + static_cast<float>(options.gravity[2] / options.frameRate));
   const auto solid = sim::Solids(options).at(state.time);
   const sim::LiquidCells liquid =
-      sim::gatherLiquid(*state.phi, *solid, {&state.u->constTree(), &state.v->constTree(), &w->constTree()});
+      sim::gatherLiquid(*state.phi, *solid,
+                        {&state.velocity.component[0]->constTree(), &state.velocity.component[1]->constTree(),
+                         &w->constTree()});
   PoissonProblem problem;
   std::vector<int> liquidOf;
   problem.system =

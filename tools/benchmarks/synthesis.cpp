@@ -1,13 +1,11 @@
 // Synthesis: what an exemplar costs before its first window is matched, without and with what an earlier run
 // has kept; a first frame; and later frames of a texture that is drawn out evenly, neighbourhoods included.
 // Processor time of one thread, but for the preparation, which is wall time on all.
+#include "pipeline/texture_frame.h"
 #include "sim/motion/motion.h"
 #include "texture/frames/synthesize.h"
-#include "texture/mesh/prepare.h"
-#include "texture/orientation/orient.h"
 #include "tools/benchmarks/measure.h"
 #include "tools/benchmarks/textured_samples.h"
-#include "transport/carry.h"
 
 #include <tbb/global_control.h>
 #include <unistd.h>
@@ -21,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kLevels = 3;
-constexpr double kFrame = 1.0 / 24.0;  // s
 // A texture as it is laid has nothing to renew: these bring it to where as much is renewed as is stretched.
 constexpr int kFramesBefore = 12, kFramesTimed = 6;
 
@@ -76,68 +73,42 @@ void firstFrame(benchmark::State& state, int points, int size) {
   }
 }
 
-// A level sheet that is drawn out evenly, as in scenes/flows/stretch.toml.
-class StretchedSheet {
- public:
-  explicit StretchedSheet(int points) : m_motion(sim::makeMotion(liquid(points), flow())) {
-    m_spacing = texture::spacingForPoints(*sim::nextFrame(m_motion).surfacePhi, points);
-    m_motion = sim::makeMotion(liquid(points), flow());
-  }
-
-  // The next frame's synthesis, alone, is what is timed: seconds.
-  double next(texture::Synthesizer& made, texture::SynthesisStats& stats) {
-    const sim::Frame frame = sim::nextFrame(m_motion);
-    const texture::Seeds seeds{transport::moved(m_last.positions, frame), m_last.positions, m_last.triangles,
-                               m_last.scale};
-    texture::Surface surface =
-        texture::prepareSurface(*frame.surfacePhi, m_spacing, seeds, m_last.empty() ? kLevels : 1, {});
-    const texture::Carried carried = transport::carry(m_last, frame, surface.levels[0]);
-    texture::orient(surface, carried);
-    const double from = processorSeconds();
-    m_last = texture::synthesize(made, std::move(surface), carried, frame.index, kFrame, stats);
-    const double seconds = processorSeconds() - from;
-    m_last.velocity = transport::velocityAt(m_last.positions, frame);
-    m_last.contact = transport::contactAt(m_last.positions, frame);
-    return seconds;
-  }
-  std::size_t vertices() const { return m_last.positions.size(); }
-
- private:
-  static sim::Options liquid(int points) {
-    sim::Options options;
-    options.size = {1.5, 1.5, 0.4};
-    // As many cells as points along a side.
-    options.resolution = std::max(48, int(std::sqrt(0.5 * points)));
-    sim::LiquidBody sheet;
-    sheet.shape = {sim::Box{{-0.5, -0.5, 0.16}, {2.0, 2.0, 0.24}}};
-    options.liquid.push_back(sheet);
-    return options;
-  }
-  static sim::MotionOptions flow() {
-    sim::MotionOptions motion;
-    motion.flow = sim::MotionKind::stretch;
-    return motion;
-  }
-
-  sim::Motion m_motion;
-  double m_spacing = 0.0;
-  texture::TexturedSurface m_last;
-};
+// A level sheet that is drawn out evenly, as in scenes/flows/stretch.toml, on as many cells as points along a
+// side.
+scenes::Scene stretchedSheet(int points) {
+  scenes::Scene scene;
+  scene.sim.size = {1.5, 1.5, 0.4};
+  scene.sim.resolution = std::max(48, int(std::sqrt(0.5 * points)));
+  scene.sim.liquid.push_back({{sim::Box{{-0.5, -0.5, 0.16}, {2.0, 2.0, 0.24}}}});
+  scene.motion.flow = sim::MotionKind::stretch;
+  scene.texture.points = points;
+  return scene;
+}
 
 void laterFrames(benchmark::State& state, int points, int size) {
-  texture::Synthesizer made = synthesizer(size, {});
-  made.options.firstIterations = {1, 1, 1};  // the first frame is not what is timed
-  StretchedSheet sheet(points);
-  texture::SynthesisStats stats;
-  for (int frame = 0; frame < kFramesBefore; ++frame) sheet.next(made, stats);
+  const scenes::Scene scene = stretchedSheet(points);
+  pipeline::Texturing texturing = pipeline::makeTexturing(
+      scene, texture::makeExemplar(scales(size), true, scene.texture.synthesis, kLevels));
+  texture::prepareTables(texturing.synthesizer);
+  texturing.synthesizer.options.firstIterations = {1, 1, 1};  // the first frame is not what is timed
+  sim::Motion motion = sim::makeMotion(scene.sim, scene.motion);
+  texture::TexturedSurface last;
+  const auto next = [&] {
+    pipeline::TexturedFrame frame =
+        pipeline::textureFrame(texturing, last, sim::nextFrame(motion), {{}, processorSeconds});
+    last = std::move(frame.surface);
+    return frame;
+  };
+  for (int frame = 0; frame < kFramesBefore; ++frame) next();
   for ([[maybe_unused]] auto _ : state) {
     const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
     double seconds = 0.0, renewed = 0.0;
-    for (int frame = 0; frame < kFramesTimed; ++frame) {
-      seconds += sheet.next(made, stats) / kFramesTimed;
-      renewed += stats.renewed / kFramesTimed;
+    for (int i = 0; i < kFramesTimed; ++i) {
+      const pipeline::TexturedFrame frame = next();
+      seconds += frame.seconds.synthesize / kFramesTimed;
+      renewed += frame.synthesis.renewed / kFramesTimed;
     }
-    count(state, seconds, double(sheet.vertices()));
+    count(state, seconds, double(last.positions.size()));
     state.counters["renewed"] = renewed;
   }
 }

@@ -1,7 +1,7 @@
 #include "tools/stress_scenes/budget.h"
 
 #include "sim/grid/mac_grid.h"
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
 #include "sim/solids/domain.h"
 #include "sim/solids/solids.h"
 
@@ -37,7 +37,7 @@ double frontRate(const sim::Source& source, const sim::Options& options, double 
   const sim::ShapeDistance shape(source.shape, h, sim::domainBox(options));
   sim::Solids solids(options);
   const auto field = solids.at(t);
-  const sim::FloatGrid* const open[3] = {field->openU.get(), field->openV.get(), field->openW.get()};
+  const auto& open = field->open.component;
   const sim::CoordBBox domain = sim::domainCells(options);
   const auto inside = [&](const Coord& cell) {
     return domain.isInside(cell) && shape((cell.asVec3d() + Vec3d(0.5)) * h) < 0.0;

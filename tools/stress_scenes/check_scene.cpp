@@ -4,6 +4,7 @@
 #include "sim/grid/leaf_table.h"
 #include "sim/solids/domain.h"
 #include "sim/step/solver.h"
+#include "sim/step/state_io.h"
 #include "sim/surface/level_set.h"
 #include "tools/stress_scenes/budget.h"
 #include "tools/stress_scenes/measures.h"
@@ -22,17 +23,17 @@ namespace {
 
 // Of the liquid's volume, in each of so many frames. An impact takes more (6% of the dam break's at a cfl of
 // 3, scenes/README.md), which the liquid beside it gives back within a frame or two.
-constexpr double kMostOwed = 0.02;
-constexpr int kOwedFrames = 4;
+constexpr double kMostDeficit = 0.02;
+constexpr int kDeficitFrames = 4;
 // And in any frame.
-constexpr double kMostOwedAtOnce = 0.1;
+constexpr double kMostDeficitAtOnce = 0.1;
 // Besides, of a cell for each cell's face of the surface: by so much phi knows where it is. It counts for
 // spray.
-constexpr double kOwedOfSurface = 0.03;
+constexpr double kDeficitOfSurface = 0.03;
 // And a drop of a cell's radius, in cells: no grid sees one.
 constexpr double kDrop = 4.2;
 // Of what sheets and threads of a cell or two show so much may be wrong: no grid knows how thick they are.
-constexpr double kOwedOfThin = 0.5;
+constexpr double kDeficitOfThin = 0.5;
 // Cells: surface over less liquid than that is that of films.
 constexpr double kFilmThickness = 0.6;
 // Liquid that meets a wall within a step goes into it until the step ends, by `cfl` cells at most. So much of
@@ -168,24 +169,25 @@ class Checks {
 
  private:
   void volume(const sim::Frame& frame, const Measures& now) {
-    const double sum = frame.stats.volume + frame.stats.owed;
+    const double sum = frame.stats.volume + frame.stats.deficit;
     const double outside = m_frame == 1 ? m_budget.start(sum) : m_budget.advance(m_time, frame.time, sum);
     const double whole = m_budget.most();
     if (outside != 0.0)
       fail(m_frame == 1 ? "poured" : "volume",
            fmt::format("{:+.3g} m3, {:+.1f}% of {:.4g} m3", outside, 100.0 * outside / whole, whole));
-    const double h = m_options.voxelSize(), owed = std::abs(frame.stats.owed);
-    const double always = kOwedOfSurface * h * now.area + kDrop * h * h * h + kOwedOfThin * now.thin;
-    const double atOnce = kMostOwedAtOnce * whole + kImpact * m_options.cfl * h * now.area;
+    const double h = m_options.voxelSize(), deficit = std::abs(frame.stats.deficit);
+    const double always = kDeficitOfSurface * h * now.area + kDrop * h * h * h + kDeficitOfThin * now.thin;
+    const double atOnce = kMostDeficitAtOnce * whole + kImpact * m_options.cfl * h * now.area;
     // What is seen is films, little more than half a cell thick on the mean: beside them are those that
     // nobody sees.
-    const bool films = frame.stats.owed > 0.0 && now.mass / m_options.density < kFilmThickness * h * now.area;
-    m_owing = !films && owed > kMostOwed * whole + always ? m_owing + 1 : 0;
+    const bool films =
+        frame.stats.deficit > 0.0 && now.mass / m_options.density < kFilmThickness * h * now.area;
+    m_owing = !films && deficit > kMostDeficit * whole + always ? m_owing + 1 : 0;
     if (films) return;
-    if (m_owing >= kOwedFrames || owed > atOnce + always)
-      fail("owed", fmt::format("{:+.3g} m3, {:+.1f}% of {:.4g} m3, most of it ({:+.3g} of a cell) at {}",
-                               frame.stats.owed, 100.0 * frame.stats.owed / whole, whole, now.owed.value,
-                               written(now.owed.place)));
+    if (m_owing >= kDeficitFrames || deficit > atOnce + always)
+      fail("deficit", fmt::format("{:+.3g} m3, {:+.1f}% of {:.4g} m3, most of it ({:+.3g} of a cell) at {}",
+                                  frame.stats.deficit, 100.0 * frame.stats.deficit / whole, whole,
+                                  now.deficit.value, written(now.deficit.place)));
   }
 
   void outside(const sim::State& state, const sim::Frame& frame) {
@@ -213,18 +215,19 @@ class Checks {
   // it is, what was owed some cells from where it came back, and of a drop that no grid sees a cell is the
   // least that can be known.
   void energy(const sim::State& state, const sim::Frame& frame, const Measures& now) {
-    const double h = m_options.voxelSize(), owed = std::abs(frame.stats.owed);
+    const double h = m_options.voxelSize(), deficit = std::abs(frame.stats.deficit);
     const bool event = m_frame == 1 || isEvent(m_options, m_time, frame.time);
-    m_mostOwed = event ? owed : std::max(m_mostOwed, owed);
+    m_mostDeficit = event ? deficit : std::max(m_mostDeficit, deficit);
     if (event) m_energy = INFINITY;
     // Of liquid that nobody sees nothing is known.
     if (isDriven(m_options) || !std::isfinite(now.lowest)) return;
-    const double weight = m_options.gravity.length(), fall = weight * state.ahead;
-    const double sum = now.kinetic + now.potential + now.surface - now.falling * state.ahead;
+    const double weight = m_options.gravity.length(), fall = weight * state.leapfrogOffset;
+    const double sum = now.kinetic + now.potential + now.surface - now.falling * state.leapfrogOffset;
     const double height = m_surroundings.highest(frame.time) - now.lowest;
     const double lifted =
-        m_options.density * (owed * height + (m_mostOwed - owed) * std::min(height, weight * kGivenBack * h) +
-                             (kOwedOfSurface * h * now.area + kDrop * h * h * h) * weight * h);
+        m_options.density *
+        (deficit * height + (m_mostDeficit - deficit) * std::min(height, weight * kGivenBack * h) +
+         (kDeficitOfSurface * h * now.area + kDrop * h * h * h) * weight * h);
     const double allowed = kEnergyTolerance * (now.kinetic + now.potential) + kFilms * now.surface + lifted +
                            0.5 * now.mass * fall * fall;
     // A volume that is wrong has a wrong energy.
@@ -237,7 +240,7 @@ class Checks {
   // What liquid that is owed can have of motion and of surface: it moves as the liquid seen does on the
   // whole, in drops of a cell or larger. It may be seen again.
   double unseenEnergy(const sim::Frame& frame, const Measures& now) const {
-    const double unseen = std::max(0.0, frame.stats.owed), perVolume = std::cbrt(36.0 * M_PI);
+    const double unseen = std::max(0.0, frame.stats.deficit), perVolume = std::cbrt(36.0 * M_PI);
     const double ofMotion = now.mass > 0.0 ? now.kinetic / now.mass : 0.0;
     return m_options.density * unseen * ofMotion +
            m_options.surfaceTension * perVolume * unseen / m_options.voxelSize();
@@ -270,7 +273,7 @@ class Checks {
   VolumeBudget m_budget;
   std::vector<Failure> m_failures;
   int m_frame = 0, m_owing = 0;
-  double m_time = 0.0, m_energy = 0.0, m_mostOwed = 0.0;
+  double m_time = 0.0, m_energy = 0.0, m_mostDeficit = 0.0;
 };
 
 // The state after the last frame, on so many threads; written, read and gone on with after `broken` frames.

@@ -10,19 +10,12 @@
 #include <cmath>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 namespace fluidtex::stress {
 namespace {
 
 using Accessor = openvdb::tree::ValueAccessor<const sim::FloatTree>;
-
-constexpr std::pair<const char*, sim::FloatGrid::Ptr sim::State::*> kGrids[] = {
-    {"phi", &sim::State::phi},   {"u", &sim::State::u},
-    {"v", &sim::State::v},       {"w", &sim::State::w},
-    {"au", &sim::State::au},     {"av", &sim::State::av},
-    {"aw", &sim::State::aw},     {"temperature", &sim::State::temperature},
-    {"owed", &sim::State::owed}, {"su", &sim::State::su},
-    {"sv", &sim::State::sv},     {"sw", &sim::State::sw}};
 
 double square(double x) {
   return x * x;
@@ -66,8 +59,9 @@ Measures measure(const sim::State& state, const sim::SolidField& field, const si
   Measures found;
   const double h = options.voxelSize(), cube = h * h * h, floor = floorOf(options);
   Accessor phi(state.phi->constTree()), solid(field.phi->constTree());
-  Accessor face[3] = {Accessor(state.u->constTree()), Accessor(state.v->constTree()),
-                      Accessor(state.w->constTree())};
+  Accessor face[3] = {Accessor(state.velocity.component[0]->constTree()),
+                      Accessor(state.velocity.component[1]->constTree()),
+                      Accessor(state.velocity.component[2]->constTree())};
   found.lowest = INFINITY;
   const auto wet = [&](const Coord& cell) { return std::clamp(0.5 - phi.getValue(cell) / h, 0.0, 1.0); };
   forWetCells(*state.phi, field, [&](const Coord& cell, double share) {
@@ -104,51 +98,68 @@ Measures measure(const sim::State& state, const sim::SolidField& field, const si
     if (const double speed = velocity.length(); !(speed <= found.speed.value)) found.speed = {speed, x};
   });
   found.surface = options.surfaceTension * found.area;
-  if (state.owed == nullptr) return found;
-  for (auto it = state.owed->cbeginValueOn(); it; ++it) {
+  if (state.deficit == nullptr) return found;
+  for (auto it = state.deficit->cbeginValueOn(); it; ++it) {
     const Vec3d x = (it.getCoord().asVec3d() + Vec3d(0.5)) * h;
     found.potential += options.density * *it * cube * (-options.gravity.dot(x) - floor);
-    if (std::abs(*it) > std::abs(found.owed.value)) found.owed = {*it, x};
+    if (std::abs(*it) > std::abs(found.deficit.value)) found.deficit = {*it, x};
   }
   return found;
 }
 
-std::string notFinite(const sim::State& state) {
-  for (const auto& [name, member] : kGrids) {
-    if (state.*member == nullptr) continue;
-    for (auto leaf = (state.*member)->constTree().cbeginLeaf(); leaf; ++leaf) {
-      for (int i = 0; i < sim::kLeafSize; ++i)
-        if (!std::isfinite(leaf->buffer().data()[i])) return name;
+namespace {
+
+// Of two grids of one name; empty where they are the same to the bit.
+std::string gridDifference(const std::string& name, const sim::FloatGrid* one, const sim::FloatGrid* other) {
+  if ((one == nullptr) != (other == nullptr)) return name + ", which one lacks";
+  if (one == nullptr) return "";
+  if (!one->tree().hasSameTopology(other->tree())) return name + ", its cells";
+  if (one->transform() != other->transform()) return name + ", its place";
+  auto second = other->tree().cbeginLeaf();
+  for (auto first = one->tree().cbeginLeaf(); first; ++first, ++second) {
+    for (int i = 0; i < sim::kLeafSize; ++i) {
+      const float &mine = first->buffer().data()[i], &its = second->buffer().data()[i];
+      if (std::memcmp(&mine, &its, sizeof mine) == 0) continue;
+      return fmt::format("{}, {} and {} at {}", name, mine, its,
+                         written(one->indexToWorld(first->offsetToGlobalCoord(i))));
     }
   }
+  auto tile = other->tree().cbeginValueAll();
+  for (auto it = one->tree().cbeginValueAll(); it && tile; ++it, ++tile)
+    if (*it != *tile) return name + ", a tile";
   return "";
+}
+
+}  // namespace
+
+std::string notFinite(const sim::State& state) {
+  std::string found;
+  sim::forEachGrid(state, [&](const char* name, const sim::FloatGrid::Ptr& grid, int) {
+    if (grid == nullptr || !found.empty()) return;
+    for (auto leaf = std::as_const(*grid).constTree().cbeginLeaf(); leaf; ++leaf) {
+      for (int i = 0; i < sim::kLeafSize; ++i)
+        if (!std::isfinite(leaf->buffer().data()[i])) found = name;
+    }
+  });
+  return found;
 }
 
 std::string difference(const sim::State& a, const sim::State& b) {
   if (a.frame != b.frame || a.steps != b.steps) return "the number of steps";
   if (std::memcmp(&a.time, &b.time, sizeof a.time) != 0 ||
-      std::memcmp(&a.ahead, &b.ahead, sizeof a.ahead) != 0)
+      std::memcmp(&a.leapfrogOffset, &b.leapfrogOffset, sizeof a.leapfrogOffset) != 0)
     return "the time";
   if (a.poured != b.poured) return "what is poured";
-  for (const auto& [name, member] : kGrids) {
-    const sim::FloatGrid *one = (a.*member).get(), *other = (b.*member).get();
-    if ((one == nullptr) != (other == nullptr)) return std::string(name) + ", which one lacks";
-    if (one == nullptr) continue;
-    if (!one->tree().hasSameTopology(other->tree())) return std::string(name) + ", its cells";
-    if (one->transform() != other->transform()) return std::string(name) + ", its place";
-    auto second = other->tree().cbeginLeaf();
-    for (auto first = one->tree().cbeginLeaf(); first; ++first, ++second) {
-      for (int i = 0; i < sim::kLeafSize; ++i) {
-        if (std::memcmp(first->buffer().data() + i, second->buffer().data() + i, sizeof(float)) == 0)
-          continue;
-        return fmt::format("{}, {} and {} at {}", name, first->buffer().data()[i], second->buffer().data()[i],
-                           written(one->indexToWorld(first->offsetToGlobalCoord(i))));
-      }
-    }
-    auto tile = other->tree().cbeginValueAll();
-    for (auto it = one->tree().cbeginValueAll(); it && tile; ++it, ++tile)
-      if (*it != *tile) return std::string(name) + ", a tile";
-  }
+  std::vector<const sim::FloatGrid*> others;
+  sim::forEachGrid(b,
+                   [&](const char*, const sim::FloatGrid::Ptr& grid, int) { others.push_back(grid.get()); });
+  std::string found;
+  std::size_t n = 0;
+  sim::forEachGrid(a, [&](const char* name, const sim::FloatGrid::Ptr& grid, int) {
+    const sim::FloatGrid* other = others[n++];
+    if (found.empty()) found = gridDifference(name, grid.get(), other);
+  });
+  if (!found.empty()) return found;
   if (a.markers.size() != b.markers.size()) return "the markers' blocks";
   for (std::size_t n = 0; n < a.markers.size(); ++n) {
     const auto &one = a.markers[n], &other = b.markers[n];

@@ -26,7 +26,7 @@ struct Measures {
   double thin = 0.0;     // m3, of what phi shows with nothing deeper than a cell beside it: sheets, threads
   double falling = 0.0;  // W, by which the potential energy falls
   Peak speed;            // m/s, of cells of liquid
-  Peak owed;             // largest amount in a cell, in cells
+  Peak deficit;          // largest amount in a cell, in cells
   double lowest = 0.0;   // least of -gravity . x of a cell of liquid, m2/s2
 };
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "sim/grid/mac_grid.h"
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
 #include "sim/solids/solids.h"
 
 #include <cstdint>

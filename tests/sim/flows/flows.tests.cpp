@@ -24,7 +24,8 @@ Options channel() {
 // The largest difference of the velocity of liquid from (speed, 0, 0).
 double largestDifference(const State& state, double speed) {
   double largest = 0.0;
-  const FloatGrid::Ptr grids[3] = {state.u, state.v, state.w};
+  const FloatGrid::Ptr grids[3] = {state.velocity.component[0], state.velocity.component[1],
+                                   state.velocity.component[2]};
   for (int a = 0; a < 3; ++a) {
     for (auto it = grids[a]->cbeginValueOn(); it; ++it) {
       const Coord c = it.getCoord();
@@ -43,7 +44,7 @@ double givenIn(Solver& solver, int frames) {
   const FrameStats first = solver.next().stats;
   FrameStats last = first;
   for (int n = 0; n < frames; ++n) last = solver.next().stats;
-  return last.volume + last.owed - first.volume - first.owed;
+  return last.volume + last.deficit - first.volume - first.deficit;
 }
 
 }  // namespace
@@ -162,8 +163,8 @@ TEST_CASE("flows: what leaves through an open side is gone, also where the domai
   const double first = solver.next().stats.volume;
   FrameStats last;
   for (int n = 2; n <= 13; ++n) last = solver.next().stats;
-  CHECK(std::abs(last.owed) < 0.01 * first);
-  CHECK(last.volume + last.owed < 0.6 * first);
+  CHECK(std::abs(last.deficit) < 0.01 * first);
+  CHECK(last.volume + last.deficit < 0.6 * first);
 }
 
 TEST_CASE(
@@ -177,7 +178,7 @@ TEST_CASE(
   const double first = solver.next().stats.volume;
   for (int n = 2; n <= 8; ++n) {
     const FrameStats stats = solver.next().stats;
-    CHECK(std::abs(stats.owed) < 0.002 * first);
+    CHECK(std::abs(stats.deficit) < 0.002 * first);
   }
 }
 
@@ -210,7 +211,7 @@ TEST_CASE("flows: an open side that is shut pushes nothing, and no liquid comes 
     solver.next();
     const State& state = solver.state();
     double fastest = 0.0;
-    for (auto it = state.u->cbeginValueOn(); it; ++it)
+    for (auto it = state.velocity.component[0]->cbeginValueOn(); it; ++it)
       if (state.phi->tree().getValue(it.getCoord()) < 0.0f)
         fastest = std::max(fastest, std::abs(double(*it)));
     CHECK(fastest < 10.0);
@@ -268,13 +269,17 @@ TEST_CASE("flows: a restored state goes on bit for bit") {
   Solver whole(options);
   for (int n = 1; n <= 4; ++n) whole.next();
   State copy = whole.state();
-  for (auto* grid : {&copy.phi, &copy.u, &copy.v, &copy.w}) *grid = (*grid)->deepCopy();
+  for (auto* grid :
+       {&copy.phi, &copy.velocity.component[0], &copy.velocity.component[1], &copy.velocity.component[2]})
+    *grid = (*grid)->deepCopy();
   Solver restored(options, copy);
   for (int n = 5; n <= 8; ++n) {
     CHECK(whole.next().stats.volume == restored.next().stats.volume);
-    const FloatGrid::Ptr a[4] = {whole.state().phi, whole.state().u, whole.state().v, whole.state().w};
-    const FloatGrid::Ptr b[4] = {restored.state().phi, restored.state().u, restored.state().v,
-                                 restored.state().w};
+    const FloatGrid::Ptr a[4] = {whole.state().phi, whole.state().velocity.component[0],
+                                 whole.state().velocity.component[1], whole.state().velocity.component[2]};
+    const FloatGrid::Ptr b[4] = {restored.state().phi, restored.state().velocity.component[0],
+                                 restored.state().velocity.component[1],
+                                 restored.state().velocity.component[2]};
     for (int g = 0; g < 4; ++g) {
       REQUIRE(a[g]->tree().hasSameTopology(b[g]->tree()));
       bool same = true;
@@ -340,7 +345,7 @@ TEST_CASE("flows: a source without velocity gives liquid that falls from rest, a
   double fastest = 0.0;
   for (int n = 0; n < 30; ++n) {
     const FrameStats stats = solver.next().stats;
-    sum.push_back(stats.volume + stats.owed);
+    sum.push_back(stats.volume + stats.deficit);
     fastest = std::max(fastest, largestDifference(solver.state(), 0.0));
   }
   // From its lower end to the floor and back up in a corner; it fell for 1.2 s and ever faster before.

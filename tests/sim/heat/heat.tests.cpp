@@ -1,6 +1,8 @@
 #include "sim/heat/heat.h"
+#include "sim/heat/advect_temperature.h"
 
 #include "sim/step/solver.h"
+#include "sim/step/state_io.h"
 #include "tests/sim/velocity/velocity_field.h"
 
 #include <catch2/catch.hpp>

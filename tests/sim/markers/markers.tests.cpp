@@ -2,7 +2,9 @@
 #include "sim/flows/move_surface.h"
 
 #include "sim/step/solver.h"
+#include "sim/surface/advect_phi.h"
 #include "sim/surface/level_set.h"
+#include "sim/surface/redistance.h"
 #include "tests/sim/velocity/velocity_field.h"
 
 #include <catch2/catch.hpp>
@@ -214,7 +216,7 @@ TEST_CASE("markers: keep a thin sheet through a vortex and back, where the grid 
         continue;
       }
       advectPhi(*phi, velocity, *noWalls, dt);
-      reinitialize(*phi, *noWalls);
+      redistance(*phi, *noWalls);
       trimBand(*phi, *noWalls);
     }
     return 1.0 - volume() / start;

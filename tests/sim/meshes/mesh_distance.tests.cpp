@@ -4,6 +4,7 @@
 
 #include "sim/meshes/inside_test.h"
 #include "sim/meshes/read_mesh.h"
+#include "sim/shapes/shape_triangles.h"
 #include "sim/solids/solids.h"
 #include "tests/sim/meshes/mesh_files.h"
 #include "tests/sim/meshes/written_files.h"

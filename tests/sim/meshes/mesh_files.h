@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/options.h"
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
 
 #include <unistd.h>
 

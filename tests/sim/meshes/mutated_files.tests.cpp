@@ -2,7 +2,7 @@
 #include "sim/meshes/read_mesh.h"
 #include "sim/shapes/moving_mesh.h"
 #include "sim/shapes/read_heights.h"
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
 #include "tests/sim/meshes/mesh_files.h"
 #include "tests/sim/meshes/written_files.h"
 

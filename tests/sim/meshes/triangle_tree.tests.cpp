@@ -1,5 +1,6 @@
 #include "sim/meshes/triangle_tree.h"
 #include "sim/meshes/inside_test.h"
+#include "sim/shapes/shape_triangles.h"
 #include "tests/sim/meshes/mesh_files.h"
 
 #include <openvdb/math/Proximity.h>

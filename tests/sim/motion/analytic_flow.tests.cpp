@@ -2,6 +2,7 @@
 #include "sim/motion/analytic_flow.h"
 
 #include "sim/motion/motion.h"
+#include "sim/step/state_io.h"
 #include "tests/scratch.h"
 
 #include <openvdb/tools/Interpolation.h>

@@ -62,10 +62,10 @@ TEST_CASE("pressure: hydrostatic liquid on tilted walls and around a sphere stay
 TEST_CASE("pressure: a drop in the air falls as it is", "[sim]") {
   Scene scene(24, {}, [](const Vec3d& x) { return (x - Vec3d(0.5)).length() - 0.23; });
   const Projection result = scene.projected(precise());
-  for (auto it = result.valid.w->cbeginValueOn(); it; ++it) {
+  for (auto it = result.valid.component[2]->cbeginValueOn(); it; ++it) {
     REQUIRE_THAT(scene.velocity.component[2]->tree().getValue(it.getCoord()), WithinRel(-kStep, 1e-6));
   }
-  CHECK(result.valid.w->activeVoxelCount() > 500);
+  CHECK(result.valid.component[2]->activeVoxelCount() > 500);
   CHECK(result.separating->empty());
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("pressure: liquid under a ceiling comes off and falls", "[sim]") {
     for (int j = 0; j < n; ++j) {
       for (int k = 11; k <= n; ++k) {
         const Coord c(i, j, k);
-        REQUIRE(result.valid.w->tree().isValueOn(c));
+        REQUIRE(result.valid.component[2]->tree().isValueOn(c));
         REQUIRE_THAT(scene.velocity.component[2]->tree().getValue(c), WithinRel(-kStep, 1e-6));
       }
     }
@@ -144,7 +144,7 @@ TEST_CASE("pressure: liquid thrown at a wall turns, liquid pulled off it leaves"
   scene.setVelocity([&](const Vec3d&) { return Vec3d(sign, 0.0, 0.0); });
   const Projection result = scene.projected(precise());
   const float atWall = scene.velocity.component[0]->tree().getValue(Coord(0, 8, 8));
-  CHECK(result.valid.u->tree().isValueOn(Coord(0, 8, 8)));
+  CHECK(result.valid.component[0]->tree().isValueOn(Coord(0, 8, 8)));
   if (sign < 0.0) {
     CHECK(atWall == 0.0f);
     CHECK(result.separating->empty());
@@ -195,7 +195,7 @@ TEST_CASE("pressure: single cells by hand", "[sim]") {
   const double pascal = kDensity * scene.h / kDt;
   CHECK_THAT(result.pressure->tree().getValue(Coord(3, 3, 3)), WithinRel(-0.6 / 12.0 * pascal, 1e-6));
   CHECK(u.tree().getValue(Coord(5, 3, 3)) == 0.0f);
-  CHECK(result.valid.u->activeVoxelCount() == 2);
+  CHECK(result.valid.component[0]->activeVoxelCount() == 2);
 }
 
 TEST_CASE("pressure: a face that a solid leaves open by a hair is no nozzle", "[sim]") {
@@ -204,12 +204,12 @@ TEST_CASE("pressure: a face that a solid leaves open by a hair is no nozzle", "[
   CAPTURE(share);
   Scene scene(8, {}, [](const Vec3d& x) { return (x - Vec3d(0.4375)).length() - 0.0625; });
   SolidField narrow = *scene.solid;
-  for (FloatGrid::Ptr* open : {&narrow.openU, &narrow.openV, &narrow.openW}) *open = (*open)->deepCopy();
+  for (FloatGrid::Ptr& open : narrow.open.component) open = open->deepCopy();
   const Coord cell(3, 3, 3), behind(4, 3, 3);
-  narrow.openU->tree().setValue(behind, share);
-  for (const FloatGrid::Ptr& open : {narrow.openV, narrow.openW}) {
+  narrow.open.component[0]->tree().setValue(behind, share);
+  for (const FloatGrid::Ptr& open : {narrow.open.component[1], narrow.open.component[2]}) {
     open->tree().setValue(cell, 0.0f);
-    open->tree().setValue(open == narrow.openV ? Coord(3, 4, 3) : Coord(3, 3, 4), 0.0f);
+    open->tree().setValue(open == narrow.open.component[1] ? Coord(3, 4, 3) : Coord(3, 3, 4), 0.0f);
   }
   scene.solid = std::make_shared<const SolidField>(narrow);
   scene.setVelocity([](const Vec3d&) { return Vec3d(0.0); });
@@ -219,7 +219,7 @@ TEST_CASE("pressure: a face that a solid leaves open by a hair is no nozzle", "[
   const double q = 0.3 / (1.0 + share);
   CHECK_THAT(u.tree().getValue(cell), WithinAbs(0.6 - 2.0 * q, 1e-6));
   const bool wide = share > 0.1f;
-  CHECK(result.valid.u->tree().isValueOn(behind) == wide);
+  CHECK(result.valid.component[0]->tree().isValueOn(behind) == wide);
   CHECK_THAT(u.tree().getValue(behind), WithinAbs(wide ? 2.0 * q : 0.0, 1e-6));
 }
 
@@ -232,7 +232,7 @@ TEST_CASE("pressure: liquid that grows swells out of its surface, and its veloci
   grown.velocity = copyOf(scene.velocity);
   PressureOptions options = precise();
   const Projection without = scene.projected(options);
-  CHECK(without.swelling.component[0] == nullptr);
+  CHECK(without.expansion.component[0] == nullptr);
   options.growth = FloatGrid::create(0.0f);
   const double volume = std::pow(scene.h, 3);
   double sum = 0.0;
@@ -254,7 +254,7 @@ TEST_CASE("pressure: liquid that grows swells out of its surface, and its veloci
     for (int a = 0; a < 3; ++a) {
       Coord up = c;
       ++up[a];
-      const auto& speed = with.swelling.component[a]->tree();
+      const auto& speed = with.expansion.component[a]->tree();
       out += grown.open(a, up) * speed.getValue(up) - grown.open(a, c) * speed.getValue(c);
     }
     out *= grown.h * grown.h;
@@ -269,7 +269,7 @@ TEST_CASE("pressure: no liquid is no fault", "[sim]") {
   Scene scene(8, {}, [](const Vec3d&) { return 1.0; });
   const Projection result = scene.projected();
   CHECK(result.report.cells == 0);
-  CHECK(result.valid.u->empty());
+  CHECK(result.valid.component[0]->empty());
 }
 
 TEST_CASE("pressure: second order around a ball, from cut cells to the surface", "[sim]") {

@@ -67,9 +67,7 @@ struct Scene {
     return result;
   }
 
-  float open(int axis, const Coord& c) const {
-    return (axis == 0 ? solid->openU : axis == 1 ? solid->openV : solid->openW)->tree().getValue(c);
-  }
+  float open(int axis, const Coord& c) const { return solid->open[axis].tree().getValue(c); }
 
   // Largest sum of open area times outward velocity over the liquid's cells, leaving out those in `except`.
   double largestDivergence(const MaskGrid& except) const {
@@ -92,7 +90,7 @@ struct Scene {
   // Largest speed on the faces that the projection answers for.
   double largestSpeed(const FaceMasks& valid) const {
     double largest = 0.0;
-    const MaskGrid* masks[3] = {valid.u.get(), valid.v.get(), valid.w.get()};
+    const auto& masks = valid.component;
     for (int a = 0; a < 3; ++a) {
       for (auto it = masks[a]->cbeginValueOn(); it; ++it) {
         largest = std::max(largest, std::abs(double(velocity.component[a]->tree().getValue(it.getCoord()))));

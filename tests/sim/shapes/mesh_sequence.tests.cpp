@@ -2,6 +2,7 @@
 #include "sim/meshes/read_mesh.h"
 #include "sim/shapes/moving_mesh.h"
 #include "sim/shapes/pose.h"
+#include "sim/shapes/shape_triangles.h"
 #include "sim/shapes/surface_velocity.h"
 #include "tests/sim/meshes/mesh_files.h"
 
@@ -146,11 +147,11 @@ TEST_CASE("surface velocity: that of the closest point") {
       triangulate(Shape{Sphere{Vec3d(0.5), 0.25}}, openvdb::BBoxd(Vec3d(0.0), Vec3d(1.0)), 0.02);
   std::vector<Vec3f> outward;
   for (const Vec3f& x : ball.positions) outward.push_back((x - Vec3f(0.5f)) * 4.0f);
-  const SurfaceVelocity swells(ball, outward);
+  const SurfaceVelocity expands(ball, outward);
   for (int n = 0; n < 200; ++n) {
     const Vec3d way = Vec3d(std::sin(1.0 * n), std::cos(2.3 * n), std::sin(3.1 * n)).unit();
     for (const double r : {0.2, 0.25, 0.3}) {
-      const Vec3d v = swells.at(Vec3d(0.5) + r * way, std::abs(r - 0.25) + 0.02);
+      const Vec3d v = expands.at(Vec3d(0.5) + r * way, std::abs(r - 0.25) + 0.02);
       CHECK((v - way).length() < 0.01);
     }
   }

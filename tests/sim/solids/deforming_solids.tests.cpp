@@ -1,7 +1,9 @@
 // Solids that change their shape: what they do to the liquid, and how they are drawn.
 #include "sim/shapes/pose.h"
+#include "sim/shapes/shape_triangles.h"
 #include "sim/solids/solids.h"
 #include "sim/step/solver.h"
+#include "sim/step/state_io.h"
 #include "tests/sim/meshes/mesh_files.h"
 #include "tests/threads.h"
 
@@ -43,7 +45,7 @@ double meanLevel(const State& state) {
 }
 
 // A box on the floor at the left that becomes 0.2 m longer and 0.08 m higher within a second.
-Files swelling() {
+Files expansion() {
   std::vector<std::string> texts;
   for (int n = 0; n < 5; ++n) {
     const double part = 0.25 * n;
@@ -84,7 +86,8 @@ TEST_CASE("deforming solids: the surface moves with the velocity that the liquid
       const Vec3d at = pose.toWorld(x), normal = pose.directionToWorld(out);
       CHECK(std::abs(solids.distance(at, t)) < 0.02 * h);
       const double change = (solids.distance(at, t + dt) - solids.distance(at, t - dt)) / (2.0 * dt);
-      const Vec3d v(speedAt(*field->speedU, at), speedAt(*field->speedV, at), speedAt(*field->speedW, at));
+      const Vec3d v(speedAt(*field->speed.component[0], at), speedAt(*field->speed.component[1], at),
+                    speedAt(*field->speed.component[2], at));
       // A face's middle lies up to half a cell away.
       CHECK(change == Approx(-v.dot(normal)).margin(0.01));
       checked += std::abs(change) > 0.05;
@@ -115,7 +118,9 @@ TEST_CASE("deforming solids: one that only moves makes the flow of one with keyf
   for (const double t : {0.0, 0.1, 0.25, 0.6}) {
     const auto one = keyedSolids.at(t), other = formedSolids.at(t);
     const std::pair<FloatGrid::Ptr, FloatGrid::Ptr> grids[] = {
-        {one->phi, other->phi}, {one->openU, other->openU}, {one->speedU, other->speedU}};
+        {one->phi, other->phi},
+        {one->open.component[0], other->open.component[0]},
+        {one->speed.component[0], other->speed.component[0]}};
     for (const auto& [grid, same] : grids) {
       REQUIRE((grid == nullptr) == (same == nullptr));
       if (grid == nullptr) continue;
@@ -132,7 +137,9 @@ TEST_CASE("deforming solids: one that only moves makes the flow of one with keyf
     CHECK(formed.next().stats.volume == Approx(volume).epsilon(1e-3));
     const State &one = moved.state(), &other = formed.state();
     const std::pair<FloatGrid::Ptr, FloatGrid::Ptr> grids[] = {
-        {one.u, other.u}, {one.v, other.v}, {one.w, other.w}};
+        {one.velocity.component[0], other.velocity.component[0]},
+        {one.velocity.component[1], other.velocity.component[1]},
+        {one.velocity.component[2], other.velocity.component[2]}};
     double all = 0.0, apart = 0.0;
     for (const auto& [grid, same] : grids) {
       for (auto it = grid->cbeginValueOn(); it; ++it) {
@@ -157,7 +164,7 @@ TEST_CASE("deforming solids: a floor that swells lifts the surface by its volume
   Solver solver(basin(solidOf(files.sequence)));
   for (int n = 1; n <= 13; ++n) solver.next();
   // Half-way, all of the liquid moves as the floor does.
-  for (auto it = solver.state().w->cbeginValueOn(); it; ++it) {
+  for (auto it = solver.state().velocity.component[2]->cbeginValueOn(); it; ++it) {
     const Coord at = it.getCoord();
     if (solver.state().phi->tree().getValue(at) < 0.0f && at[2] > 5 && at[0] >= 0 && at[0] < 24)
       REQUIRE(*it == Approx(0.16).margin(0.02));
@@ -167,7 +174,7 @@ TEST_CASE("deforming solids: a floor that swells lifts the surface by its volume
 }
 
 TEST_CASE("deforming solids: what swells in a basin takes its place from the liquid and keeps its volume") {
-  const Files files = swelling();
+  const Files files = expansion();
   Solver solver(basin(solidOf(files.sequence)));
   const double first = solver.next().stats.volume;
   CHECK(first == Approx((1.0 * 0.26 - 0.2 * 0.08) * 0.5).epsilon(0.005));
@@ -175,13 +182,14 @@ TEST_CASE("deforming solids: what swells in a basin takes its place from the liq
 }
 
 TEST_CASE("deforming solids: the same bytes on any number of threads, and from a state that was kept") {
-  const Files files = swelling();
+  const Files files = expansion();
   Options options = basin(solidOf(files.sequence), 16);
   options.solids[0].wall.kind = WallKind::noSlip;
   options.viscosity = 5.0;
   const auto bytesOf = [](const State& state) {
     std::string bytes;
-    for (const auto& grid : {state.phi, state.u, state.v, state.w})
+    for (const auto& grid :
+         {state.phi, state.velocity.component[0], state.velocity.component[1], state.velocity.component[2]})
       for (auto leaf = grid->tree().cbeginLeaf(); leaf; ++leaf)
         bytes.append(reinterpret_cast<const char*>(leaf->buffer().data()), sizeof(float) * kLeafSize);
     return bytes;

@@ -1,7 +1,8 @@
 #include "sim/grid/leaf_table.h"
 #include "sim/shapes/height_field.h"
 #include "sim/shapes/read_heights.h"
-#include "sim/shapes/shapes.h"
+#include "sim/shapes/shape_distance.h"
+#include "sim/shapes/shape_triangles.h"
 #include "sim/surface/level_set.h"
 #include "tests/sim/meshes/written_files.h"
 

@@ -128,7 +128,7 @@ void checkHolds(const Cup& cup, int resolution, int frames) {
   const Options options = sceneOf(cup, resolution, mesh), shapes = sceneOf(cup, resolution, cup.ofShapes());
   Solver solver(options), other(shapes);
   CHECK(solver.warnings().empty());
-  const auto held = [](const FrameStats& stats) { return stats.volume + stats.owed; };
+  const auto held = [](const FrameStats& stats) { return stats.volume + stats.deficit; };
   const double poured = held(solver.next().stats);
   // A polygon of 96 sides is smaller than the circle by a thousandth.
   CHECK(poured == Approx(held(other.next().stats)).epsilon(2e-3));

@@ -2,6 +2,7 @@
 #include "sim/solids/open_faces.h"
 
 #include "sim/grid/mac_grid.h"
+#include "sim/solids/constrain.h"
 
 #include <catch2/catch.hpp>
 
@@ -61,9 +62,9 @@ TEST_CASE("solids: the domain's faces are walls, all else is open", "[sim]") {
       for (int k = -2; k <= 17; ++k) {
         const Coord c(i, j, k);
         const bool x = i >= 0 && i < 20, y = j >= 0 && j < 10, z = k >= 0 && k < 15;
-        REQUIRE(field->openU->tree().getValue(c) == (i > 0 && x && y && z ? 1.0f : 0.0f));
-        REQUIRE(field->openV->tree().getValue(c) == (j > 0 && x && y && z ? 1.0f : 0.0f));
-        REQUIRE(field->openW->tree().getValue(c) == (k > 0 && x && y && z ? 1.0f : 0.0f));
+        REQUIRE(field->open[0].tree().getValue(c) == (i > 0 && x && y && z ? 1.0f : 0.0f));
+        REQUIRE(field->open[1].tree().getValue(c) == (j > 0 && x && y && z ? 1.0f : 0.0f));
+        REQUIRE(field->open[2].tree().getValue(c) == (k > 0 && x && y && z ? 1.0f : 0.0f));
         REQUIRE((field->phi->tree().getValue(c) > 0.0f) == (x && y && z));
       }
     }
@@ -79,9 +80,9 @@ TEST_CASE("solids: a domain that ends inside a cell opens the last layer in part
   Solids solids(options);
   const auto field = solids.at(0.0);
   CHECK(field->domain.dim() == Coord(10, 4, 5));
-  CHECK_THAT(field->openU->tree().getValue(Coord(5, 3, 2)), WithinAbs(0.3, 1e-6));
-  CHECK(field->openV->tree().getValue(Coord(5, 3, 2)) == 1.0f);
-  CHECK(field->openV->tree().getValue(Coord(5, 4, 2)) == 0.0f);
+  CHECK_THAT(field->open[0].tree().getValue(Coord(5, 3, 2)), WithinAbs(0.3, 1e-6));
+  CHECK(field->open[1].tree().getValue(Coord(5, 3, 2)) == 1.0f);
+  CHECK(field->open[1].tree().getValue(Coord(5, 4, 2)) == 0.0f);
 }
 
 TEST_CASE("solids: a domain whose size is rounded to six digits is closed at its last faces", "[sim]") {
@@ -90,9 +91,9 @@ TEST_CASE("solids: a domain whose size is rounded to six digits is closed at its
   const auto field = Solids(options).at(0.0);
   const Coord count = field->domain.max().offsetBy(1);
   CHECK(count[0] == 26);
-  CHECK(field->openU->tree().getValue(Coord(count[0], 5, 5)) == 0.0f);
-  CHECK(field->openV->tree().getValue(Coord(5, count[1], 5)) == 0.0f);
-  CHECK(field->openW->tree().getValue(Coord(5, 5, count[2])) == 0.0f);
+  CHECK(field->open[0].tree().getValue(Coord(count[0], 5, 5)) == 0.0f);
+  CHECK(field->open[1].tree().getValue(Coord(5, count[1], 5)) == 0.0f);
+  CHECK(field->open[2].tree().getValue(Coord(5, 5, count[2])) == 0.0f);
 }
 
 TEST_CASE("solids: open areas of a tilted half-space are exact", "[sim]") {
@@ -110,11 +111,11 @@ TEST_CASE("solids: open areas of a tilted half-space are exact", "[sim]") {
       // A face normal to x is open above one height.
       const double expected = std::clamp(((k + 1) * h - heightAt(i * h)) / h, 0.0, 1.0);
       if (expected > 2e-3 || expected == 0.0)
-        REQUIRE_THAT(field->openU->tree().getValue(c), WithinAbs(expected, 1e-6));
+        REQUIRE_THAT(field->open[0].tree().getValue(c), WithinAbs(expected, 1e-6));
       // A face normal to z is open left of where the plane reaches it.
       const double reach = std::clamp((k * h - 0.2) / slope / h - i, 0.0, 1.0);
       if (reach > 2e-3 || reach == 0.0)
-        REQUIRE_THAT(field->openW->tree().getValue(c), WithinAbs(reach, 1e-6));
+        REQUIRE_THAT(field->open[2].tree().getValue(c), WithinAbs(reach, 1e-6));
       cut += reach > 0.0 && reach < 1.0;
     }
   }
@@ -133,7 +134,7 @@ TEST_CASE("solids: closed areas of a sphere sum to its shadow, at second order",
         for (int k = 1; k + 1 < n; ++k) {
           const Coord c(i, j, k);
           area += std::max(
-              0.0f, field->openW->tree().getValue(c.offsetBy(0, 0, 1)) - field->openW->tree().getValue(c));
+              0.0f, field->open[2].tree().getValue(c.offsetBy(0, 0, 1)) - field->open[2].tree().getValue(c));
         }
       }
     }
@@ -162,10 +163,10 @@ TEST_CASE("solids: they come and go at their times", "[sim]") {
   const auto first = solids.at(0.0);
   CHECK(solids.at(0.2) == first);  // kept
   const Coord inGate(8, 8, 8);
-  CHECK(first->openU->tree().getValue(inGate) == 0.0f);
+  CHECK(first->open[0].tree().getValue(inGate) == 0.0f);
   CHECK(first->phi->tree().getValue(inGate) < 0.0f);
   const auto last = solids.at(1.5);
-  CHECK(last->openU->tree().getValue(inGate) == 1.0f);
+  CHECK(last->open[0].tree().getValue(inGate) == 1.0f);
   CHECK(last->phi->tree().getValue(inGate) > 0.0f);
   CHECK_THAT(solids.distance(Vec3d(0.5, 0.5, 0.5), 0.0), WithinAbs(-0.1, 1e-12));
   CHECK_THAT(solids.distance(Vec3d(0.5, 0.5, 0.5), 1.5), WithinAbs(0.5, 1e-12));
@@ -176,12 +177,12 @@ TEST_CASE("solids: a wall in the plane of faces closes them", "[sim]") {
   // 0.3 is no multiple of 1/10 in binary.
   Solids solids(tank(10, {solidOf(Shape{Box{Vec3d(0.3, -1.0, -1.0), Vec3d(0.7, 2.0, 0.6)}})}));
   const auto field = solids.at(0.0);
-  CHECK(field->openU->tree().getValue(Coord(3, 5, 2)) == 0.0f);
-  CHECK(field->openU->tree().getValue(Coord(2, 5, 2)) == 1.0f);
-  CHECK(field->openU->tree().getValue(Coord(7, 5, 2)) == 0.0f);
-  CHECK(field->openU->tree().getValue(Coord(3, 5, 6)) == 1.0f);
-  CHECK(field->openW->tree().getValue(Coord(3, 5, 6)) == 0.0f);
-  CHECK(field->openW->tree().getValue(Coord(2, 5, 6)) == 1.0f);
+  CHECK(field->open[0].tree().getValue(Coord(3, 5, 2)) == 0.0f);
+  CHECK(field->open[0].tree().getValue(Coord(2, 5, 2)) == 1.0f);
+  CHECK(field->open[0].tree().getValue(Coord(7, 5, 2)) == 0.0f);
+  CHECK(field->open[0].tree().getValue(Coord(3, 5, 6)) == 1.0f);
+  CHECK(field->open[2].tree().getValue(Coord(3, 5, 6)) == 0.0f);
+  CHECK(field->open[2].tree().getValue(Coord(2, 5, 6)) == 1.0f);
 }
 
 TEST_CASE("constrain: closed faces keep the motion along the solid only", "[sim]") {
@@ -193,7 +194,7 @@ TEST_CASE("constrain: closed faces keep the motion along the solid only", "[sim]
   auto phi = makePhi(h, 3 * h);
   phi->tree().fill(openvdb::CoordBBox(Coord(-3), Coord(n + 2)), static_cast<float>(-h), true);
   MaskGrid::Ptr nobody = MaskGrid::create();
-  const FaceMasks valid{MaskGrid::create(), MaskGrid::create(), MaskGrid::create()};
+  const FaceMasks valid{{MaskGrid::create(), MaskGrid::create(), MaskGrid::create()}};
   const auto speedInto = [&](double sign, const MaskGrid& separating) {
     std::array<FloatGrid::Ptr, 3> c;
     const Vec3d velocity =
@@ -208,13 +209,13 @@ TEST_CASE("constrain: closed faces keep the motion along the solid only", "[sim]
     const Coord open(8, 8, 14);
     for (int a = 0; a < 3; ++a) REQUIRE_THAT(c[a]->tree().getValue(open), WithinAbs(velocity[a], 1e-6));
     const Coord closed(8, 8, 6);
-    REQUIRE(field->openW->tree().getValue(closed) == 0.0f);
+    REQUIRE(field->open[2].tree().getValue(closed) == 0.0f);
     // All but closed is closed, no more than that.
     int hair = 0, gap = 0;
     for (int i = 3; i < n - 3; ++i) {
       for (int k = 4; k < n - 2; ++k) {
         const Coord face(i, 8, k);
-        const float share = field->openW->tree().getValue(face);
+        const float share = field->open[2].tree().getValue(face);
         if (share <= 0.0f || share >= 1.0f) continue;
         const bool same = std::abs(c[2]->tree().getValue(face) - velocity[2]) < 1e-6;
         (share < kLeastOpen ? hair : gap) += 1;
@@ -296,9 +297,9 @@ TEST_CASE("solids: no face leads into what a wall leaves of a cell beyond it") {
     const auto field =
         Solids(tank(16, {solidOf(Shape{Box{Vec3d(-1.0, -1.0, (8.0 + more) / 16), Vec3d(2.0)}})})).at(0.0);
     CAPTURE(more);
-    CHECK(field->openW->tree().getValue(Coord(8, 8, 8)) == 0.0f);
-    CHECK(field->openU->tree().getValue(Coord(8, 8, 8)) == 0.0f);
-    CHECK(field->openU->tree().getValue(Coord(8, 8, 7)) == 1.0f);
+    CHECK(field->open[2].tree().getValue(Coord(8, 8, 8)) == 0.0f);
+    CHECK(field->open[0].tree().getValue(Coord(8, 8, 8)) == 0.0f);
+    CHECK(field->open[0].tree().getValue(Coord(8, 8, 7)) == 1.0f);
   }
 }
 
@@ -313,7 +314,7 @@ TEST_CASE("solids: a gap in which no corner of the grid lies is closed") {
     const auto field = solids.at(0.0);
     const float inGap = field->phi->tree().getValue(Coord(8, 8, 0));
     CAPTURE(gap);
-    const float face = field->openU->tree().getValue(Coord(8, 8, 0));
+    const float face = field->open[0].tree().getValue(Coord(8, 8, 0));
     CHECK((inGap > 0.0f) == (gap >= 1.0));
     CHECK(face == Catch::Detail::Approx(gap >= 1.0 ? 1.0 : 0.0));
     CHECK(field->phi->tree().getValue(Coord(1, 1, 0)) > 0.0f);
@@ -333,7 +334,7 @@ TEST_CASE("constrain: nothing moves between the two sides of a thin wall") {
     c[a]->tree().fill(openvdb::CoordBBox(Coord(-2), Coord(n + 1)), a == 2 ? 1.0f : 0.5f, true);
     c[a]->tree().voxelizeActiveTiles();
   }
-  const FaceMasks none{MaskGrid::create(), MaskGrid::create(), MaskGrid::create()};
+  const FaceMasks none{{MaskGrid::create(), MaskGrid::create(), MaskGrid::create()}};
   constrainToSolids(*c[0], *c[1], *c[2], *phi, *field, none, *MaskGrid::create());
   CHECK(c[2]->tree().getValue(Coord(8, 8, 9)) == 0.0f);
   CHECK(c[0]->tree().getValue(Coord(8, 8, 9)) == 0.5f);

@@ -1,4 +1,5 @@
 #include "sim/solids/trace_end.h"
+#include "sim/heat/advect_temperature.h"
 
 #include "sim/heat/heat.h"
 #include "sim/solids/solids.h"

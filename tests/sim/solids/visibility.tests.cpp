@@ -127,7 +127,7 @@ TEST_CASE("visibility: closed cups with walls of 0.6 cells and more hold what is
   const double first = solver.next().stats.volume, h = options.voxelSize();
   for (int n = 0; n < 24; ++n) {
     const Frame frame = solver.next();
-    REQUIRE(std::abs((frame.stats.volume + frame.stats.owed) / first - 1.0) < 3e-3);
+    REQUIRE(std::abs((frame.stats.volume + frame.stats.deficit) / first - 1.0) < 3e-3);
     // What is poured into a cup of six cells across is not level at its wall, and sloshes.
     REQUIRE(std::abs(frame.stats.volume / first - 1.0) < (resolution < 40 ? 0.03 : 0.005));
   }
@@ -159,8 +159,8 @@ TEST_CASE("visibility: liquid that falls off the underside of a thin floor draws
   const FrameStats first = solver.next().stats;
   for (int n = 0; n < 5; ++n) {
     const FrameStats stats = solver.next().stats;
-    REQUIRE(stats.volume + stats.owed == Approx(first.volume + first.owed).epsilon(1e-4));
-    REQUIRE(std::abs(stats.owed) < 0.03 * stats.volume);
+    REQUIRE(stats.volume + stats.deficit == Approx(first.volume + first.deficit).epsilon(1e-4));
+    REQUIRE(std::abs(stats.deficit) < 0.03 * stats.volume);
   }
   // What is in the trough is still there, and none is left below its floor.
   const auto phi = solver.state().phi->getConstUnsafeAccessor();
@@ -216,7 +216,8 @@ TEST_CASE("visibility: liquid at rest between thin walls stays so, whatever meet
       const State& state = solver.state();
       const auto phi = state.phi->getConstUnsafeAccessor();
       double energy = 0.0;
-      for (const FloatGrid::Ptr& grid : {state.u, state.v, state.w}) {
+      for (const FloatGrid::Ptr& grid :
+           {state.velocity.component[0], state.velocity.component[1], state.velocity.component[2]}) {
         for (auto it = grid->cbeginValueOn(); it; ++it)
           if (phi.getValue(it.getCoord()) < 0.0f) energy += 0.5 * double(*it) * *it;
       }

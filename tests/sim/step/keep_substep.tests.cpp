@@ -18,9 +18,9 @@ TEST_CASE("substep: kept along the surface and the walls, left out deep in the l
   const State before = solver.state();
   const std::shared_ptr<const SolidField> solid = Solids(options).at(0.0);
   const openvdb::FloatGrid::ConstPtr surface = solver.next().surfacePhi;
-  const Substep kept = keepSubstep(0.01, {{before.u, before.v, before.w}}, *before.phi, {solid->phi.get()});
+  const Substep kept = keepSubstep(0.01, before.velocity, *before.phi, {solid->phi.get()});
   const FloatGrid::ConstPtr components[3] = {kept.u, kept.v, kept.w};
-  const FloatGrid::ConstPtr whole[3] = {before.u, before.v, before.w};
+  const auto& whole = before.velocity.component;
   const float h = static_cast<float>(options.voxelSize());
   for (int axis = 0; axis < 3; ++axis) {
     CHECK(whole[axis]->tree().probeConstLeaf(Coord(16, 24, 16)) != nullptr);

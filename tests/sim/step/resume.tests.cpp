@@ -1,4 +1,5 @@
 #include "sim/step/solver.h"
+#include "sim/step/state_io.h"
 #include "tests/sim/step/solver_scenes.h"
 
 #include <catch2/catch.hpp>
@@ -28,9 +29,9 @@ TEST_CASE("solver: continued from a file, the same bytes as unbroken") {
   CHECK(resumed.state().frame == 4);
   CHECK(frame.index == 4);
   CHECK(same(*resumed.state().phi, *unbroken.state().phi));
-  CHECK(same(*resumed.state().u, *unbroken.state().u));
-  CHECK(same(*resumed.state().v, *unbroken.state().v));
-  CHECK(same(*resumed.state().w, *unbroken.state().w));
+  CHECK(same(*resumed.state().velocity.component[0], *unbroken.state().velocity.component[0]));
+  CHECK(same(*resumed.state().velocity.component[1], *unbroken.state().velocity.component[1]));
+  CHECK(same(*resumed.state().velocity.component[2], *unbroken.state().velocity.component[2]));
   CHECK(same(*frame.surfacePhi, *expected.surfacePhi));
   CHECK(resumed.state().poured == unbroken.state().poured);
 }
@@ -54,7 +55,7 @@ TEST_CASE("solver: continued from a file, solids are where they were, though a k
     resumed.next();
   }
   CHECK(same(*resumed.state().phi, *unbroken.state().phi));
-  CHECK(same(*resumed.state().u, *unbroken.state().u));
+  CHECK(same(*resumed.state().velocity.component[0], *unbroken.state().velocity.component[0]));
 }
 
 TEST_CASE("solver: continued from a file, grids lie where they lay, to the last bit") {
@@ -71,11 +72,12 @@ TEST_CASE("solver: continued from a file, grids lie where they lay, to the last 
     return grid.transform().baseMap()->getAffineMap()->getMat4();
   };
   CHECK(place(*resumed.state().phi) == place(*unbroken.state().phi));
-  CHECK(place(*resumed.state().u) == place(*unbroken.state().u));
-  CHECK(place(*resumed.state().v) == place(*unbroken.state().v));
-  CHECK(place(*resumed.state().w) == place(*unbroken.state().w));
+  CHECK(place(*resumed.state().velocity.component[0]) == place(*unbroken.state().velocity.component[0]));
+  CHECK(place(*resumed.state().velocity.component[1]) == place(*unbroken.state().velocity.component[1]));
+  CHECK(place(*resumed.state().velocity.component[2]) == place(*unbroken.state().velocity.component[2]));
   for (const Vec3d& x : {Vec3d(0.1, 0.2, 0.3), Vec3d(0.7, 0.77, 0.91)})
-    CHECK(resumed.state().w->worldToIndex(x) == unbroken.state().w->worldToIndex(x));
+    CHECK(resumed.state().velocity.component[2]->worldToIndex(x) ==
+          unbroken.state().velocity.component[2]->worldToIndex(x));
 }
 
 TEST_CASE("solver: a state of another resolution is refused") {

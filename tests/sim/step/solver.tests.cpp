@@ -15,13 +15,13 @@ using namespace fluidtex::sim;
 namespace {
 
 Velocity velocityOf(const State& state) {
-  return {{state.u, state.v, state.w}};
+  return state.velocity;
 }
 
 // Mean of the third component over active faces where phi is inside.
 double meanFall(const State& state) {
   double sum = 0.0, count = 0.0;
-  for (auto it = state.w->cbeginValueOn(); it; ++it) {
+  for (auto it = state.velocity.component[2]->cbeginValueOn(); it; ++it) {
     if (state.phi->tree().getValue(it.getCoord()) >= 0.0f) continue;
     sum += *it;
     count += 1.0;
@@ -32,7 +32,7 @@ double meanFall(const State& state) {
 Frame frameAfter(const Options& options, int frames) {
   Solver solver(options);
   Frame frame = solver.next();
-  REQUIRE(frame.stats.volume + frame.stats.owed > 0.0);
+  REQUIRE(frame.stats.volume + frame.stats.deficit > 0.0);
   while (frame.index < frames) frame = solver.next();
   return frame;
 }
@@ -80,7 +80,7 @@ TEST_CASE("solver: a falling drop is accelerated by gravity and keeps its volume
   const double volume = frame.stats.volume, height = centreHeight(frame);
   for (int n = 2; n <= 6; ++n) frame = solver.next();
   // The velocity is that of the middle of the next substep.
-  const double t = frame.time, then = t + solver.state().ahead;
+  const double t = frame.time, then = t + solver.state().leapfrogOffset;
   CHECK(std::abs(meanFall(solver.state()) / (-9.81 * then) - 1.0) < 1e-4);
   CHECK(std::abs(frame.stats.volume / volume - 1.0) < 0.01);
   CHECK(std::abs(centreHeight(frame) - (height - 0.5 * 9.81 * t * t)) < 0.1 / 48);
@@ -90,13 +90,13 @@ TEST_CASE("solver: a column that collapses keeps its volume") {
   // The surface alone loses 5% of it by then.
   Solver solver(tank(24, {box(Vec3d(0.0), Vec3d(0.4, 1.0, 0.5))}));
   const FrameStats start = solver.next().stats;
-  const double first = start.volume + start.owed;
+  const double first = start.volume + start.deficit;
   double late = 0.0;
   for (int n = 2; n <= 40; ++n) {
     const FrameStats stats = solver.next().stats;
     const double change = stats.volume / first - 1.0;
     CHECK(std::abs(change) < 0.03);  // with the films that no cell's centre is in
-    CHECK((stats.volume + stats.owed) / first == Catch::Detail::Approx(1.0).epsilon(1e-4));
+    CHECK((stats.volume + stats.deficit) / first == Catch::Detail::Approx(1.0).epsilon(1e-4));
     if (n > 30) late += 0.1 * change;
   }
   // What is missing in one frame is on its way, and there in another.
@@ -114,11 +114,11 @@ TEST_CASE("solver: what a splash loses when a solid goes is owed") {
   // Where the surface is, and what is on its way.
   const auto water = [&] {
     const Frame frame = solver.next();
-    double owed = 0.0;
-    if (solver.state().owed) {
-      for (auto it = solver.state().owed->cbeginValueOn(); it; ++it) owed += *it;
+    double deficit = 0.0;
+    if (solver.state().deficit) {
+      for (auto it = solver.state().deficit->cbeginValueOn(); it; ++it) deficit += *it;
     }
-    return frame.stats.volume + owed / (32.0 * 32.0 * 32.0);
+    return frame.stats.volume + deficit / (32.0 * 32.0 * 32.0);
   };
   double before = 0.0;
   for (int n = 1; n <= 12; ++n) before = water();
@@ -131,15 +131,15 @@ TEST_CASE("solver: however much is owed, the surface goes half a cell a step at 
   Solver made(options);
   made.next();
   State state = made.state();
-  state.owed = FloatGrid::create(0.0f);
+  state.deficit = FloatGrid::create(0.0f);
   for (auto it = state.phi->cbeginValueOn(); it; ++it) {
-    if (*it < 0.0f) state.owed->tree().setValueOn(it.getCoord(), 5.0f);
+    if (*it < 0.0f) state.deficit->tree().setValueOn(it.getCoord(), 5.0f);
   }
   Solver solver(options, state);
   const double dt = solver.next().substeps.back().dt;
   const State& now = solver.state();
-  REQUIRE(now.su != nullptr);
-  CHECK_THAT(maxAbs({{now.su, now.sv, now.sw}}) * dt * 32.0, Catch::Matchers::WithinRel(0.5, 1e-5));
+  REQUIRE(now.expansion.component[0] != nullptr);
+  CHECK_THAT(maxAbs(now.expansion) * dt * 32.0, Catch::Matchers::WithinRel(0.5, 1e-5));
 }
 
 TEST_CASE("solver: a gap below water closes") {
@@ -152,7 +152,7 @@ TEST_CASE("solver: a gap below water closes") {
     CAPTURE(gap);
     CHECK(state.phi->tree().getValue(Coord(8, 8, -1)) < 0.0f);
     const double level = 4.5 - 16.0 * state.phi->tree().getValue(Coord(8, 8, 4));
-    CHECK(level == Catch::Detail::Approx(16.0 * (first.volume + first.owed)).margin(0.05));
+    CHECK(level == Catch::Detail::Approx(16.0 * (first.volume + first.deficit)).margin(0.05));
     CHECK(fastestOf(state) < 0.1);
   }
 }
@@ -221,12 +221,12 @@ TEST_CASE("solver: nothing hangs at a ceiling, however little it is") {
   }
   Solver solver(options);
   const FrameStats first = solver.next().stats;
-  REQUIRE(first.volume + first.owed > 0.0);
+  REQUIRE(first.volume + first.deficit > 0.0);
   Frame frame;
   for (int n = 2; n <= 12; ++n) frame = solver.next();
   CHECK(cellsAbove(frame, 1.0 - 2.0 * h) == 0);
-  CHECK(frame.stats.volume + frame.stats.owed ==
-        Catch::Detail::Approx(first.volume + first.owed).epsilon(1e-4));
+  CHECK(frame.stats.volume + frame.stats.deficit ==
+        Catch::Detail::Approx(first.volume + first.deficit).epsilon(1e-4));
 }
 
 TEST_CASE("solver: a film on a wall falls when no liquid feeds it, on the floor it stays") {
@@ -235,8 +235,8 @@ TEST_CASE("solver: a film on a wall falls when no liquid feeds it, on the floor 
   const Frame onFloor = frameAfter(tank(24, {box(Vec3d(0.3, 0.3, 0.0), Vec3d(0.7, 0.7, 0.3 * h))}), 4);
   // Freely, for three frames.
   CHECK(cellsAbove(onWall, 0.9 - 0.5 * 9.81 / 64.0 + 1.5 * h) == 0);
-  CHECK(onWall.stats.volume + onWall.stats.owed == Catch::Detail::Approx(0.16 * 0.3 * h).epsilon(0.05));
-  CHECK(onFloor.stats.volume + onFloor.stats.owed == Catch::Detail::Approx(0.16 * 0.3 * h).epsilon(0.2));
+  CHECK(onWall.stats.volume + onWall.stats.deficit == Catch::Detail::Approx(0.16 * 0.3 * h).epsilon(0.05));
+  CHECK(onFloor.stats.volume + onFloor.stats.deficit == Catch::Detail::Approx(0.16 * 0.3 * h).epsilon(0.2));
   // A column in a corner falls; no thread of it stays behind.
   const Frame inCorner = frameAfter(tank(24, {box(Vec3d(0.0, 0.0, 0.5), Vec3d(0.6 * h, 0.6 * h, 1.0))}), 12);
   CHECK(cellsAbove(inCorner, 0.3) == 0);
@@ -250,7 +250,8 @@ TEST_CASE("solver: substeps are the motion of phi, and fill the frame") {
   CHECK(first.substeps.empty());
   double last = 0.0;
   for (int n = 2; n <= 8; ++n) {
-    const FloatGrid::ConstPtr before = solver.state().u, swelling = solver.state().su;
+    const FloatGrid::ConstPtr before = solver.state().velocity.component[0],
+                              expansion = solver.state().expansion.component[0];
     const Frame frame = solver.next([&](double share) {
       CHECK(share >= 0.0);
       CHECK(share <= 1.0);
@@ -263,7 +264,7 @@ TEST_CASE("solver: substeps are the motion of phi, and fill the frame") {
     bool sums = true;
     const FloatTree& moved = frame.substeps.front().u->tree();
     for (auto it = moved.cbeginValueOn(); it; ++it) {
-      const float more = swelling == nullptr ? 0.0f : swelling->tree().getValue(it.getCoord());
+      const float more = expansion == nullptr ? 0.0f : expansion->tree().getValue(it.getCoord());
       sums = sums && *it == before->tree().getValue(it.getCoord()) + more;
     }
     CHECK(sums);
@@ -360,9 +361,9 @@ TEST_CASE("solver: the same bytes on one thread and on two") {
   const auto [one, frameOne] = run(1);
   const auto [two, frameTwo] = run(2);
   CHECK(same(*one.phi, *two.phi));
-  CHECK(same(*one.u, *two.u));
-  CHECK(same(*one.v, *two.v));
-  CHECK(same(*one.w, *two.w));
+  CHECK(same(*one.velocity.component[0], *two.velocity.component[0]));
+  CHECK(same(*one.velocity.component[1], *two.velocity.component[1]));
+  CHECK(same(*one.velocity.component[2], *two.velocity.component[2]));
   CHECK(same(*frameOne.surfacePhi, *frameTwo.surfacePhi));
   CHECK(frameOne.stats.volume == frameTwo.stats.volume);
 }

@@ -1,3 +1,4 @@
+#include "sim/step/state_io.h"
 #include "sim/grid/mac_grid.h"
 #include "sim/step/solver.h"
 
@@ -25,31 +26,31 @@ State someState() {
                    {Coord(0, 0, 8), {{4.0f, 5.0f, 6.0f, 0.25f}}}};
   state.phi = makePhi(0.03, 0.21);
   const Velocity velocity = makeVelocity(0.03);
-  state.u = velocity.component[0];
-  state.v = velocity.component[1];
-  state.w = velocity.component[2];
-  const Velocity swelling = makeVelocity(0.03), acceleration = makeVelocity(0.03);
+  state.velocity.component[0] = velocity.component[0];
+  state.velocity.component[1] = velocity.component[1];
+  state.velocity.component[2] = velocity.component[2];
+  const Velocity expansion = makeVelocity(0.03), acceleration = makeVelocity(0.03);
   for (int axis = 0; axis < 3; ++axis) {
-    swelling.component[axis]->setName(std::array{"su", "sv", "sw"}[axis]);
+    expansion.component[axis]->setName(std::array{"su", "sv", "sw"}[axis]);
     acceleration.component[axis]->setName(std::array{"au", "av", "aw"}[axis]);
   }
-  state.su = swelling.component[0];
-  state.sv = swelling.component[1];
-  state.sw = swelling.component[2];
-  state.au = acceleration.component[0];
-  state.av = acceleration.component[1];
-  state.aw = acceleration.component[2];
-  state.owed = FloatGrid::create(0.0f);
-  state.owed->setTransform(cellTransform(0.03));
-  state.owed->setName("owed");
+  state.expansion.component[0] = expansion.component[0];
+  state.expansion.component[1] = expansion.component[1];
+  state.expansion.component[2] = expansion.component[2];
+  state.acceleration.component[0] = acceleration.component[0];
+  state.acceleration.component[1] = acceleration.component[1];
+  state.acceleration.component[2] = acceleration.component[2];
+  state.deficit = FloatGrid::create(0.0f);
+  state.deficit->setTransform(cellTransform(0.03));
+  state.deficit->setName("deficit");
   // Values that a half float or a text would not keep; some inactive beside active ones.
   for (int n = 0; n < 200; ++n) {
     const Coord c(n % 7, n % 11 - 5, n / 3);
     state.phi->tree().setValueOn(c, 0.1f / static_cast<float>(n + 1));
     if (n % 3 == 0) state.phi->tree().setValueOff(c, -0.21f);
-    state.owed->tree().setValueOn(c, 1e-6f * static_cast<float>(n));
-    state.sv->tree().setValueOn(c, -1e-3f / static_cast<float>(n + 1));
-    state.w->tree().setValueOn(c, std::nextafter(1.0f, 2.0f) * static_cast<float>(n));
+    state.deficit->tree().setValueOn(c, 1e-6f * static_cast<float>(n));
+    state.expansion.component[1]->tree().setValueOn(c, -1e-3f / static_cast<float>(n + 1));
+    state.velocity.component[2]->tree().setValueOn(c, std::nextafter(1.0f, 2.0f) * static_cast<float>(n));
   }
   return state;
 }
@@ -74,8 +75,15 @@ TEST_CASE("state: comes back bit for bit") {
                       in.markers[n].markers.size() * sizeof(Marker)) == 0);
   }
   const auto grids = [](const State& state) {
-    return std::vector<FloatGrid::Ptr>{state.phi, state.u,  state.v,  state.w, state.owed,
-                                       state.su,  state.sv, state.sw, state.au};
+    return std::vector<FloatGrid::Ptr>{state.phi,
+                                       state.velocity.component[0],
+                                       state.velocity.component[1],
+                                       state.velocity.component[2],
+                                       state.deficit,
+                                       state.expansion.component[0],
+                                       state.expansion.component[1],
+                                       state.expansion.component[2],
+                                       state.acceleration.component[0]};
   };
   const auto a = grids(out), b = grids(in);
   CHECK(in.temperature == nullptr);

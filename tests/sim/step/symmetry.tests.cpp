@@ -1,5 +1,7 @@
 #include "sim/solids/solids.h"
+#include "sim/surface/extend_into_solids.h"
 #include "sim/surface/level_set.h"
+#include "sim/surface/redistance.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,9 @@
 #include "sim/surface/level_set.h"
 
 #include "sim/grid/leaf_table.h"
+#include "sim/surface/advect_phi.h"
+#include "sim/surface/extend_into_solids.h"
+#include "sim/surface/redistance.h"
 #include "tests/sim/velocity/velocity_field.h"
 
 #include <catch2/catch.hpp>
@@ -189,13 +192,13 @@ TEST_CASE("level set: reinitialisation leaves the surface and makes a distance")
     it.setValue(static_cast<float>(exact(x) * std::exp(0.9 * std::sin(9.0 * x.x()) * std::cos(7.0 * x.y()))));
   }
   const double before = f.volume();
-  for (int n = 0; n < 5; ++n) reinitialize(*f.phi, *f.noSolid);
+  for (int n = 0; n < 5; ++n) redistance(*f.phi, *f.noSolid);
   CHECK(std::abs(f.volume() / before - 1.0) < 2e-3);
   CHECK(f.distanceError(1.0, exact) < 0.05 * f.h);
   CHECK(f.distanceError(4.0, exact) < 0.15 * f.h);
   // A hundred further calls move it, on average, by a fiftieth of a cell at most.
   const double settled = f.volume(), area = 4.0 * std::numbers::pi * 0.09;
-  for (int n = 0; n < 100; ++n) reinitialize(*f.phi, *f.noSolid);
+  for (int n = 0; n < 100; ++n) redistance(*f.phi, *f.noSolid);
   CHECK(std::abs(f.volume() - settled) / area < 0.02 * f.h);
   CHECK(f.distanceError(1.0, exact) < 0.05 * f.h);
 }
@@ -203,10 +206,10 @@ TEST_CASE("level set: reinitialisation leaves the surface and makes a distance")
 TEST_CASE("level set: slopes of two become slopes of one, and then nothing moves any more") {
   Fixture f(1.0 / 32, Coord(32), ball(Vec3d(0.5), 0.3));
   for (auto it = f.phi->beginValueOn(); it; ++it) it.setValue(*it * 2.0f);
-  reinitialize(*f.phi, *f.noSolid);
+  redistance(*f.phi, *f.noSolid);
   CHECK(f.distanceError(1.0, ball(Vec3d(0.5), 0.3)) < 0.003 * f.h);
   const FloatGrid::Ptr right = f.phi->deepCopy();
-  for (int n = 0; n < 10; ++n) reinitialize(*f.phi, *f.noSolid);
+  for (int n = 0; n < 10; ++n) redistance(*f.phi, *f.noSolid);
   int kept = 0;
   for (auto it = f.phi->cbeginValueOn(); it; ++it) {
     if (std::abs(*it) > 0.5f * f.h) continue;

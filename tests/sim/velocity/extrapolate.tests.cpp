@@ -15,7 +15,7 @@ struct Fixture {
   double h;
   FloatGrid::Ptr phi, solidPhi;
   Velocity velocity;
-  FaceMasks valid{MaskGrid::create(), MaskGrid::create(), MaskGrid::create()};
+  FaceMasks valid{{MaskGrid::create(), MaskGrid::create(), MaskGrid::create()}};
 
   template <class Distance>
   Fixture(double voxel, int extent, const Distance& distance) : h(voxel) {
@@ -38,7 +38,7 @@ struct Fixture {
   // Sets component a to f at faces that touch liquid, and calls them valid.
   template <class F>
   void setValid(const F& f) {
-    const std::array<MaskGrid*, 3> masks{valid.u.get(), valid.v.get(), valid.w.get()};
+    const auto& masks = valid.component;
     for (int a = 0; a < 3; ++a) {
       FloatGrid& grid = *velocity.component[a];
       for (auto it = grid.beginValueOn(); it; ++it) {
@@ -100,7 +100,7 @@ TEST_CASE("extrapolate: faces in solids take the value in front of the solid") {
     const Vec3d x = u.indexToWorld(it.getCoord());
     if (x.z() < 0.0) continue;
     it.setValue(static_cast<float>(x.x()));
-    f.valid.u->tree().setValueOn(it.getCoord());
+    f.valid.component[0]->tree().setValueOn(it.getCoord());
   }
   extrapolate(f.velocity, f.valid, *f.phi, *f.solidPhi);
   for (auto it = u.cbeginValueOn(); it; ++it) {
@@ -148,7 +148,7 @@ TEST_CASE("air layers: beyond a spreading ball the velocity is free of divergenc
   CHECK(std::abs(meanAt(0.0, 1.0)) < 0.1 * near);
   // Some of these lie three cells from the liquid.
   CHECK(std::abs(meanAt(1.0, 1.6)) < 0.7 * second);
-  const std::array<MaskGrid*, 3> masks{f.valid.u.get(), f.valid.v.get(), f.valid.w.get()};
+  const auto& masks = f.valid.component;
   bool same = true;
   for (int a = 0; a < 3; ++a) {
     for (auto it = masks[a]->cbeginValueOn(); it; ++it)
@@ -186,7 +186,7 @@ TEST_CASE("air layers: what is linear in the liquid goes on linearly in the firs
   f.setValid(linear);
   extrapolate(f.velocity, f.valid, *f.phi, *f.solidPhi);
   extendLinearly(f.velocity, *f.phi);
-  const std::array<MaskGrid*, 3> masks{f.valid.u.get(), f.valid.v.get(), f.valid.w.get()};
+  const auto& masks = f.valid.component;
   double worst = 0.0;
   int checked = 0;
   for (int a = 0; a < 3; ++a) {
@@ -210,7 +210,7 @@ TEST_CASE(
   f.setValid([](const Vec3d&, int a) { return a == 2 ? -1.0 : 0.0; });
   // As fast as air that is squeezed out.
   for (int a = 0; a < 3; ++a) {
-    const std::array<MaskGrid*, 3> masks{f.valid.u.get(), f.valid.v.get(), f.valid.w.get()};
+    const auto& masks = f.valid.component;
     for (auto it = f.velocity.component[a]->beginValueOn(); it; ++it)
       if (!masks[a]->tree().isValueOn(it.getCoord())) it.setValue(-2.25f);
   }

@@ -53,18 +53,10 @@ struct Tank {
   }
 
   // Gives the surfaces of solids this velocity.
-  void setWallVelocity(const Field& speed) {
-    Velocity walls = velocityField(h, phi->tree(), speed);
-    solid.slide = walls.component;
-  }
+  void setWallVelocity(const Field& speed) { solid.slide = velocityField(h, phi->tree(), speed); }
 
   // Gives the solids themselves this velocity.
-  void setSolidVelocity(const Field& speed) {
-    const Velocity solids = velocityField(h, phi->tree(), speed);
-    solid.speedU = solids.component[0];
-    solid.speedV = solids.component[1];
-    solid.speedW = solids.component[2];
-  }
+  void setSolidVelocity(const Field& speed) { solid.speed = velocityField(h, phi->tree(), speed); }
 
   // Largest difference from `exact` over the liquid's open faces with keep(x).
   double error(const Field& exact, const std::function<bool(const Vec3d&)>& keep) const {

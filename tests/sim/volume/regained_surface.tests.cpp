@@ -1,7 +1,7 @@
 #include "sim/volume/regained_surface.h"
 
 #include "sim/surface/level_set.h"
-#include "sim/volume/owed_volume.h"
+#include "sim/volume/volume_deficit.h"
 #include "tests/sim/step/solver_scenes.h"
 
 #include <catch2/catch.hpp>
@@ -14,10 +14,10 @@ namespace {
 constexpr double kVoxel = 1.0 / 16, kCell = kVoxel * kVoxel * kVoxel;
 
 FloatGrid::Ptr owing(const Coord& cell, float share) {
-  FloatGrid::Ptr owed = FloatGrid::create(0.0f);
-  owed->setTransform(cellTransform(kVoxel));
-  owed->tree().setValueOn(cell, share);
-  return owed;
+  FloatGrid::Ptr deficit = FloatGrid::create(0.0f);
+  deficit->setTransform(cellTransform(kVoxel));
+  deficit->tree().setValueOn(cell, share);
+  return deficit;
 }
 
 }  // namespace
@@ -30,12 +30,12 @@ TEST_CASE("regained surface: what is owed in the air becomes liquid where it fil
       CAPTURE(cell, share);
       const auto phi = makePhi(kVoxel, 6 * kVoxel);
       if (cell[2] == 0) phi->tree().setValue(Coord(8, 8, -1), -0.5f);  // behind the wall, as left from before
-      const auto owed = owing(cell, share);
+      const auto deficit = owing(cell, share);
       Markers markers{{Coord(8, 8, cell[2] & ~7), {{0.0f, 0.0f, static_cast<float>(cell[2] & 7), 0.5f}}}};
-      regainSurface(*phi, markers, *owed, *solid);
+      regainSurface(*phi, markers, *deficit, *solid);
       const double shown = liquidVolume(*phi, *solid);
       CHECK(shown == Approx(share < 0.9f ? 0.0 : std::min(share, 1.0f) * kCell).margin(1e-3 * kCell));
-      CHECK(shown + totalOwed(*owed) == Approx(share * kCell).epsilon(1e-5));
+      CHECK(shown + totalDeficit(*deficit) == Approx(share * kCell).epsilon(1e-5));
       CHECK(markers.empty() == (share > 0.9f));
     }
   }
@@ -45,9 +45,9 @@ TEST_CASE("regained surface: liquid beside takes what is owed itself") {
   const auto solid = Solids(tank(16, {})).at(0.0);
   const auto phi = makePhi(kVoxel, 6 * kVoxel);
   phi->tree().setValue(Coord(8, 8, 7), static_cast<float>(-kVoxel));
-  const auto owed = owing(Coord(8, 8, 8), 0.95f);
+  const auto deficit = owing(Coord(8, 8, 8), 0.95f);
   Markers markers;
-  regainSurface(*phi, markers, *owed, *solid);
+  regainSurface(*phi, markers, *deficit, *solid);
   CHECK(phi->tree().getValue(Coord(8, 8, 8)) > 0.0f);
 }
 
@@ -59,12 +59,12 @@ TEST_CASE("regained surface: a speck that shows liquid where none is left is wit
     phi->tree().setValueOn(cell, static_cast<float>(-0.02 * kVoxel));
     const double shown = liquidVolume(*phi, *solid);
     REQUIRE(shown > 0.4 * kCell);
-    const auto owed = owing(cell, left - static_cast<float>(shown / kCell));
+    const auto deficit = owing(cell, left - static_cast<float>(shown / kCell));
     Markers markers{{Coord(8, 8, 8), {{0.0f, 0.0f, 0.0f, -0.1f}, {3.0f, 0.0f, 0.0f, -0.1f}}}};
-    withdrawSurface(*phi, markers, *owed, *solid);
+    withdrawSurface(*phi, markers, *deficit, *solid);
     const double after = liquidVolume(*phi, *solid);
     CHECK(after == Approx(left > 0.1f ? shown : 0.0).margin(1e-9));
-    CHECK(after + totalOwed(*owed) == Approx(left * kCell).margin(1e-6 * kCell));
+    CHECK(after + totalDeficit(*deficit) == Approx(left * kCell).margin(1e-6 * kCell));
     CHECK(markers[0].markers.size() == (left > 0.1f ? 2 : 1));
   }
 }
@@ -77,10 +77,10 @@ TEST_CASE("regained surface: a drop that splashes onto the floor comes to rest a
   options.liquid[0].shape = {Sphere{Vec3d(0.183, 0.674, 0.438), 0.057}};  // less than three cells across
   Solver solver(options);
   FrameStats stats = solver.next().stats;
-  const double poured = stats.volume + stats.owed;
+  const double poured = stats.volume + stats.deficit;
   for (int n = 0; n < 30; ++n) {
     stats = solver.next().stats;
-    REQUIRE(stats.volume + stats.owed == Approx(poured).epsilon(1e-4));
+    REQUIRE(stats.volume + stats.deficit == Approx(poured).epsilon(1e-4));
   }
   CHECK(stats.volume > 0.5 * poured);
 }

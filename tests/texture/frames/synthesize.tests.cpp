@@ -53,7 +53,7 @@ Carried carriedFrom(const TexturedSurface& last) {
 
 Surface surfaceOf(const TexturedSurface& last) {
   Surface surface;
-  surface.levels.push_back(meshOf(last));
+  surface.levels.push_back(last);
   return surface;
 }
 

@@ -197,8 +197,8 @@ TEST_CASE("guidance: each part of a first frame shows what is wanted there, by e
   SynthesisStats stats;
   const TexturedSurface result = synthesize(synthesizer, guidedSphere(24, 2, byHeight), {}, 1, 0.0, stats);
   CHECK(fitting(result, byHeight) > 0.95);
-  REQUIRE(result.maps.contains(kGuidance));
-  CHECK(result.maps.at(kGuidance)[0] == byHeight(result.positions[0]));
+  REQUIRE(result.guidance.size() == result.positions.size());
+  CHECK(result.guidance[0] == byHeight(result.positions[0]));
   // Without guidance it would be a matter of luck.
   Surface free = guidedSphere(24, 2, byHeight);
   for (SurfaceMesh& mesh : free.levels) mesh.guidance.clear();

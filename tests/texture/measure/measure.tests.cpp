@@ -5,6 +5,10 @@
 #include "tests/texture/mesh/closed_meshes.h"
 #include "texture/exemplar/srgb.h"
 #include "texture/labels/labels.h"
+#include "texture/measure/change.h"
+#include "texture/measure/contrast.h"
+#include "texture/measure/pieces.h"
+#include "texture/measure/wear.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,0 +1,88 @@
+#include "pipeline/orientation_guide.h"
+
+#include "pipeline/read_grid.h"
+#include "sim/grid/mac_grid.h"
+#include "sim/solids/domain.h"
+#include "texture/loops/parallel.h"
+#include "texture/orientation/directions.h"
+#include "transport/carry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fluidtex::pipeline {
+namespace {
+
+using texture::Align;
+using texture::Vec3f;
+
+// Flow that takes longer than so many frames over one spacing hardly counts.
+constexpr double kSlowFrames = 20.0;
+// Turning costs so much more where it is unwanted: singularities are driven out over about ten spacings a
+// frame, the root of it.
+constexpr float kStiff = 100.0f;
+
+std::vector<Vec3f> directions(const OrientationGuide& guide, const sim::Frame& frame,
+                              const texture::SurfaceMesh& mesh) {
+  switch (guide.options.align) {
+    case Align::gravity:
+      return texture::alongDirection(mesh, Vec3f(guide.gravity));
+    case Align::flow:
+      return texture::alongFlow(mesh, transport::velocityAt(mesh.positions, frame),
+                                mesh.spacing * guide.frameRate / kSlowFrames);
+    case Align::curvature:
+      return texture::alongBend(mesh);
+    case Align::direction:
+      return texture::alongDirection(mesh, Vec3f(guide.options.direction));
+    case Align::field:
+      return texture::alongField(mesh, *guide.field);
+    case Align::none:
+      break;
+  }
+  return std::vector<Vec3f>(mesh.positions.size(), Vec3f(0.0f));
+}
+
+// Falls from kStiff to 1 over one spacing around the shapes.
+std::vector<float> stiffness(const OrientationGuide& guide, const texture::SurfaceMesh& mesh) {
+  std::vector<float> result(mesh.positions.size(), 1.0f);
+  texture::forEachIndex(result.size(), [&](std::uint32_t v) {
+    double nearest = mesh.spacing;
+    for (const sim::ShapeDistance& shape : guide.keepClear)
+      nearest = std::min(nearest, shape(sim::Vec3d(mesh.positions[v])));
+    const auto inside = static_cast<float>(std::clamp(1.0 - nearest / mesh.spacing, 0.0, 1.0));
+    result[v] = 1.0f + (kStiff - 1.0f) * inside;
+  });
+  return result;
+}
+
+}  // namespace
+
+OrientationGuide orientationGuide(const scenes::Scene& scene) {
+  OrientationGuide guide{scene.texture.orientation, scene.sim.gravity, scene.sim.frameRate, nullptr, {}};
+  if (guide.options.align == Align::field) guide.field = readGrid<openvdb::Vec3SGrid>(guide.options.field);
+  for (const sim::Shape& shape : scene.keepClear)
+    guide.keepClear.emplace_back(shape, scene.sim.voxelSize(), sim::domainBox(scene.sim));
+  return guide;
+}
+
+texture::OrientWishes wishesFor(const OrientationGuide& guide, const sim::Frame& frame) {
+  texture::OrientWishes wishes;
+  if (guide.options.align != Align::none && guide.options.weight > 0.0) {
+    wishes.direction = [&](const texture::SurfaceMesh& mesh) {
+      std::vector<Vec3f> result = directions(guide, frame, mesh);
+      const double angle = guide.options.angle * std::numbers::pi / 180.0;
+      const auto along = static_cast<float>(guide.options.weight * std::cos(angle)),
+                 across = static_cast<float>(guide.options.weight * std::sin(angle));
+      texture::forEachIndex(result.size(), [&](std::uint32_t v) {
+        result[v] = result[v] * along + mesh.normals[v].cross(result[v]) * across;
+      });
+      return result;
+    };
+  }
+  if (!guide.keepClear.empty())
+    wishes.stiffness = [&](const texture::SurfaceMesh& mesh) { return stiffness(guide, mesh); };
+  return wishes;
+}
+
+}  // namespace fluidtex::pipeline

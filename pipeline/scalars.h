@@ -1,0 +1,41 @@
+// Numbers of a frame at places on its surface: what the texture's scale and its guidance follow.
+#pragma once
+
+#include "texture/loops/parallel.h"
+#include "texture/options.h"
+#include "texture/surface.h"
+
+#include <openvdb/tools/Interpolation.h>
+
+#include <vector>
+
+namespace fluidtex::pipeline {
+
+// The piecewise-linear curve through the points, constant beyond the first and the last.
+double curveAt(const std::vector<texture::CurvePoint>& points, double value);
+
+// curve(value(x)) for each position x; makeValue() gives a function `value` for each piece of the work.
+template <typename MakeValue>
+std::vector<float> alongCurve(const std::vector<texture::CurvePoint>& points,
+                              const std::vector<texture::Vec3f>& positions, const MakeValue& makeValue) {
+  std::vector<float> results(positions.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), texture::kGrain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      const auto value = makeValue();
+                      for (std::size_t i = range.begin(); i != range.end(); ++i)
+                        results[i] = float(curveAt(points, value(openvdb::Vec3d(positions[i]))));
+                    });
+  return results;
+}
+
+// Makes functions that read a grid of numbers, linear between its values.
+template <typename Grid>
+auto sampler(const Grid& grid) {
+  return [&grid] {
+    return [&grid, accessor = grid.getConstAccessor()](const openvdb::Vec3d& x) {
+      return double(openvdb::tools::BoxSampler::sample(accessor, grid.worldToIndex(x)));
+    };
+  };
+}
+
+}  // namespace fluidtex::pipeline

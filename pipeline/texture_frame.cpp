@@ -1,0 +1,185 @@
+#include "pipeline/texture_frame.h"
+
+#include "pipeline/foreseen_surface.h"
+#include "texture/frames/renewal.h"
+#include "texture/labels/fresh.h"
+#include "texture/mesh/prepare.h"
+#include "texture/shown/plain.h"
+#include "transport/carry.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace fluidtex::pipeline {
+namespace {
+
+using texture::Carried;
+using texture::LaterFrames;
+using texture::Method;
+using texture::Surface;
+using texture::TexturedSurface;
+
+double wallSeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Adds the time of its own life to a stage.
+class StageWatch {
+ public:
+  StageWatch(const Watch& watch, double& seconds) : m_watch(watch), m_seconds(seconds), m_start(now()) {}
+  ~StageWatch() { m_seconds += now() - m_start; }
+  StageWatch(const StageWatch&) = delete;
+  StageWatch& operator=(const StageWatch&) = delete;
+
+ private:
+  double now() const { return m_watch.seconds ? m_watch.seconds() : wallSeconds(); }
+
+  const Watch& m_watch;
+  double& m_seconds;
+  double m_start;
+};
+
+texture::Seeds seedsFor(const TexturedSurface& last, const sim::Frame& frame,
+                        const texture::SurfaceOptions& options) {
+  if (options.points == texture::Points::random) return {};
+  return {transport::moved(last.positions, frame), last.positions, last.triangles, last.scale};
+}
+
+// The first frame needs the coarser levels of the surface, too; so do all where each stands alone.
+bool needsAllLevels(const scenes::Scene& scene, const TexturedSurface& last) {
+  const bool eachAlone =
+      scene.texture.laterFrames == LaterFrames::alone && scene.texture.synthesis.method != Method::none;
+  return last.empty() || eachAlone;
+}
+
+// What is uncovered in a wide piece has its texture found coarse to fine.
+void addLevelsForFresh(const Texturing& texturing, const sim::Frame& frame, const Carried& carried,
+                       const texture::VertexGraph& graph, Surface& surface) {
+  const scenes::Scene& scene = texturing.scene;
+  const std::vector<int>& windows = scene.texture.synthesis.windows;
+  if (!texture::any(texture::wideFresh(graph, texture::freshVertices(carried.trust),
+                                       *std::max_element(windows.begin(), windows.end()))))
+    return;
+  texture::addCoarserLevels(*frame.surfacePhi, scene.texture.surface.levels, scene.texture.surface,
+                            scaleIn(texturing.scale, frame), surface);
+}
+
+// Guidance by age means the surface's: texture that it has renewed does not make the surface younger.
+void keepAge(const Carried& carried, double seconds, TexturedSurface& surface) {
+  for (std::size_t v = 0; v < carried.age.size(); ++v)
+    surface.age[v] = texture::believed(carried.trust[v]) ? carried.age[v] + float(seconds) : 0.0f;
+}
+
+TexturedSurface synthesized(Texturing& texturing, Surface surface, const Carried& carried, int frame,
+                            texture::SynthesisStats& stats, const std::function<void(double)>& progress) {
+  const scenes::Scene& scene = texturing.scene;
+  const double seconds = 1.0 / scene.sim.frameRate;
+  const bool alone = scene.texture.laterFrames == LaterFrames::alone && !carried.empty();
+  const Carried nothing;
+  TexturedSurface result = texture::synthesize(texturing.synthesizer, std::move(surface),
+                                               alone ? nothing : carried, frame, seconds, stats, progress);
+  if (alone) {
+    result.trust = carried.trust;
+    result.previousPosition = carried.previousPosition;
+  }
+  if (scene.texture.guidance.by == texture::GuidanceBy::age) keepAge(carried, seconds, result);
+  return result;
+}
+
+// By the method that the scene asks for; velocity and contact are left to fill.
+TexturedSurface textured(Texturing& texturing, Surface surface, const Carried& carried, int frame,
+                         texture::SynthesisStats& stats, const std::function<void(double)>& progress) {
+  const scenes::Scene& scene = texturing.scene;
+  const bool none = scene.texture.synthesis.method == Method::none;
+  if (!none && (scene.texture.laterFrames != LaterFrames::advect || carried.empty()))
+    return synthesized(texturing, std::move(surface), carried, frame, stats, progress);
+  stats = {};
+  stats.renewed = 0.0;
+  if (none) return texture::untextured(std::move(surface), carried);
+  TexturedSurface result = texture::advected(std::move(surface), carried, 1.0 / scene.sim.frameRate);
+  result.exemplarWidth = texturing.synthesizer.exemplar.color.width;
+  result.exemplarHeight = texturing.synthesizer.exemplar.color.height;
+  return result;
+}
+
+}  // namespace
+
+Texturing makeTexturing(const scenes::Scene& scene, const texture::CacheFolder& cache) {
+  return makeTexturing(scene,
+                       texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis,
+                                             scene.texture.surface.levels, cache),
+                       cache);
+}
+
+Texturing makeTexturing(const scenes::Scene& scene, texture::Exemplar exemplar,
+                        const texture::CacheFolder& cache) {
+  return {scene, texture::makeSynthesizer(std::move(exemplar), scene.texture.synthesis, cache),
+          orientationGuide(scene), textureScale(scene), textureGuidance(scene)};
+}
+
+TexturedFrame textureFrame(Texturing& texturing, const TexturedSurface& last, const sim::Frame& frame,
+                           const Watch& watch) {
+  const scenes::Scene& scene = texturing.scene;
+  const texture::SurfaceOptions& surfaceOptions = scene.texture.surface;
+  const int symmetry = texturing.orientation.options.symmetry;
+  const auto begin = [&](Stage stage) {
+    if (watch.progress) watch.progress(stage, 0.0);
+  };
+  TexturedFrame result;
+  FrameSeconds& seconds = result.seconds;
+  double spacing = last.spacing > 0.0 ? last.spacing : scene.texture.spacing;
+  Surface surface;
+  {
+    begin(Stage::prepare);
+    const StageWatch stage(watch, seconds.prepare);
+    const texture::PointScale scale = scaleIn(texturing.scale, frame);
+    if (!(spacing > 0.0)) {
+      const double here = texture::spacingForPoints(*frame.surfacePhi, scene.texture.points, scale);
+      spacing = here > 0.0 ? std::max(here, foreseenSpacing(scene)) : 0.0;
+      result.foreseenSpacing = spacing > here;
+    }
+    if (spacing > 0.0)
+      surface = texture::prepareSurface(*frame.surfacePhi, spacing, seedsFor(last, frame, surfaceOptions),
+                                        needsAllLevels(scene, last) ? surfaceOptions.levels : 1,
+                                        surfaceOptions, scale);
+  }
+  if (surface.empty()) {
+    result.surface.spacing = spacing;
+    return result;
+  }
+  Carried carried;
+  {
+    begin(Stage::transport);
+    const StageWatch stage(watch, seconds.transport);
+    carried = transport::carry(last, frame, surface.levels[0], symmetry, scene.transport);
+  }
+  {
+    const StageWatch stage(watch, seconds.prepare);
+    const std::vector<int>& windows = scene.texture.synthesis.windows;
+    const texture::VertexGraph graph = texture::buildVertexGraph(surface.levels[0]);
+    addLevelsForFresh(texturing, frame, carried, graph, surface);
+    texture::orient(surface, carried, {.symmetry = symmetry, .seed = scene.seed},
+                    wishesFor(texturing.orientation, frame));
+    result.singularities = texture::singularities(surface.levels[0], symmetry);
+    texture::calmDroplets(surface.levels[0],
+                          texture::droplets(graph, *std::min_element(windows.begin(), windows.end())),
+                          scene.texture.synthesis.ways, carried);
+    guide(texturing.guidance, frame, carried, 1.0 / scene.sim.frameRate, surface);
+  }
+  {
+    begin(Stage::synthesize);
+    const StageWatch stage(watch, seconds.synthesize);
+    std::function<void(double)> progress;
+    if (watch.progress) progress = [&](double part) { watch.progress(Stage::synthesize, part); };
+    result.surface =
+        textured(texturing, std::move(surface), carried, frame.index, result.synthesis, progress);
+  }
+  {
+    const StageWatch stage(watch, seconds.transport);
+    result.surface.velocity = transport::velocityAt(result.surface.positions, frame);
+    result.surface.contact = transport::contactAt(result.surface.positions, frame);
+  }
+  return result;
+}
+
+}  // namespace fluidtex::pipeline
