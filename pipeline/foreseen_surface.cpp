@@ -18,7 +18,7 @@ namespace {
 using openvdb::Coord;
 using sim::Vec3d;
 
-// The axis that gravity is nearest to; z without any.
+// Axis nearest to gravity; z without gravity.
 int upAxis(const sim::Options& options) {
   int up = 2;
   for (int a = 0; a < 2; ++a)
@@ -26,7 +26,7 @@ int upAxis(const sim::Options& options) {
   return up;
 }
 
-// Faces of the source's cells, those whose middle lies in it, that `velocity` points out of, along each axis.
+// Per axis, faces of the source's cells (centres inside it) that `velocity` leaves through.
 std::array<double, 3> frontFaces(const sim::ShapeDistance& shape, const openvdb::CoordBBox& cells, double h,
                                  const Vec3d& velocity) {
   using Counts = std::array<double, 3>;
@@ -58,7 +58,7 @@ std::array<double, 3> frontFaces(const sim::ShapeDistance& shape, const openvdb:
       sum);
 }
 
-// Of the source's velocity at a time, 0 where it does not run.
+// Factor on the source's velocity at a time; 0 while it is off.
 double factorAt(const sim::Source& source, double t) {
   if (t < source.from || t >= source.until) return 0.0;
   if (source.rate.empty()) return 1.0;

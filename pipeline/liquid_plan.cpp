@@ -1,5 +1,5 @@
-// A block of cells whose centre is farther from every surface than its corners are from the centre is all
-// liquid or all empty; any other is cut into eight.
+// Octree subdivision: a block of cells whose centre is farther from every surface than its corners are is all
+// liquid or all empty; any other is split into eight.
 #include "pipeline/liquid_plan.h"
 
 #include "sim/grid/mac_grid.h"
@@ -19,7 +19,7 @@ namespace {
 using openvdb::Coord;
 using sim::Vec3d;
 
-constexpr int kBlock = 64;  // cells across of the largest blocks, a power of two
+constexpr int kBlock = 64;  // cells per side of the largest blocks, a power of two
 
 LiquidPlan sum(const LiquidPlan& a, const LiquidPlan& b) {
   return {a.cells + b.cells, a.atStart + b.atStart, a.surfaceCells + b.surfaceCells};
@@ -36,7 +36,7 @@ class Counter {
       if (solid.from <= 0.0) m_solids.emplace_back(solid.shape, m_h, sim::domainBox(options));
   }
 
-  // The lowest cells of the largest blocks that may hold liquid.
+  // Lowest cells of the largest blocks that may hold liquid.
   std::vector<Coord> blocks() const {
     std::vector<Coord> blocks;
     for (const sim::ShapeDistance& liquid : m_liquid) {
@@ -61,7 +61,7 @@ class Counter {
     const Vec3d center = m_h * (low.asVec3d() + Vec3d(0.5 * size));
     const double ever = distance(center, false), atStart = distance(center, true);
     if (size == 1) return {ever < 0.0, atStart < 0.0, ever < 0.0 && ever > -m_h};
-    // One cell more than to the corners: the surface's own cells reach that far from it.
+    // One cell more than to the corners, as far as surface cells reach.
     const double reach = m_h * (0.5 * std::sqrt(3.0) * size + 1.0);
     if (std::abs(ever) > reach && std::abs(atStart) > reach)
       return {ever < 0.0 ? cells : 0, atStart < 0.0 ? cells : 0, 0};
@@ -74,7 +74,7 @@ class Counter {
   }
 
  private:
-  // To the surface of all liquid, or of what is there at the start; negative inside, never too large in
+  // Signed distance, negative inside, to the surface of all liquid or of that at the start; a lower bound in
   // magnitude.
   double distance(const Vec3d& x, bool atStart) const {
     double d = sim::kForever;

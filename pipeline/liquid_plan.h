@@ -1,4 +1,4 @@
-// How much liquid a scene will hold, found out from its shapes alone.
+// How much liquid a scene will hold, from its shapes alone.
 #pragma once
 
 #include "sim/options.h"
@@ -7,8 +7,8 @@
 
 namespace fluidtex::pipeline {
 
-// Counted on the solver's grid. A cell is liquid where its centre lies in a body and in no solid that stands
-// there from the start.
+// Counts on the solver's grid. A cell is liquid if its centre is in a body and in no solid that is there from
+// the start.
 struct LiquidPlan {
   std::int64_t cells = 0;    // once every body has been poured
   std::int64_t atStart = 0;  // at the first frame
@@ -16,7 +16,7 @@ struct LiquidPlan {
       0;  // of `cells`, those within one cell of the surface: its area over the square of a cell
 };
 
-// Visits what lies near a surface only. Throws sim::MeshError.
+// Visits cells near surfaces only. Throws sim::MeshError.
 LiquidPlan planLiquid(const sim::Options& options);
 
 }  // namespace fluidtex::pipeline

@@ -17,10 +17,10 @@ namespace {
 using texture::Align;
 using texture::Vec3f;
 
-// Flow that takes longer than so many frames over one spacing hardly counts.
+// Flow that takes more frames than this for one spacing hardly counts.
 constexpr double kSlowFrames = 20.0;
-// Turning costs so much more where it is unwanted: singularities are driven out over about ten spacings a
-// frame, the root of it.
+// Factor on the cost of turning in keep_clear: singularities leave by about ten spacings a frame, its square
+// root.
 constexpr float kStiff = 100.0f;
 
 std::vector<Vec3f> directions(const OrientationGuide& guide, const sim::Frame& frame,

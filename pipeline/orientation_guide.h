@@ -1,4 +1,4 @@
-// What a scene wants of the orientation field, in terms of one frame's motion.
+// A scene's constraints on the orientation field, for one frame's motion.
 #pragma once
 
 #include "scenes/scene.h"
@@ -17,14 +17,13 @@ struct OrientationGuide {
   openvdb::Vec3d gravity{0.0};
   double frameRate = 24.0;
   openvdb::Vec3SGrid::Ptr field;              // of Align::field
-  std::vector<sim::ShapeDistance> keepClear;  // places without singularities
+  std::vector<sim::ShapeDistance> keepClear;  // regions to keep free of singularities
 };
 
-// Reads the scene's vector field, where it has one. Throws std::runtime_error that names the file and what is
-// wrong.
+// Reads the scene's vector field, if it has one. Throws std::runtime_error that names the file and the fault.
 OrientationGuide orientationGuide(const scenes::Scene& scene);
 
-// The wishes for the surface of this frame; both must outlive them.
+// Constraints for the surface of this frame; both arguments must outlive the result.
 texture::OrientWishes wishesFor(const OrientationGuide& guide, const sim::Frame& frame);
 
 }  // namespace fluidtex::pipeline

@@ -1,4 +1,4 @@
-// Grids from OpenVDB files.
+// Reads grids from OpenVDB files.
 #pragma once
 
 #include "foreign/grid.h"
@@ -14,15 +14,15 @@
 
 namespace fluidtex::pipeline {
 
-// The first grid of a type (FloatGrid or Vec3SGrid) in an OpenVDB file. Throws std::runtime_error that names
-// the file and what is wrong.
+// First grid of a type (FloatGrid or Vec3SGrid) in an OpenVDB file. Throws std::runtime_error that names the
+// file and the fault.
 template <typename Grid>
 typename Grid::Ptr readGrid(const std::filesystem::path& file) {
   constexpr bool kVectors = std::is_same_v<Grid, openvdb::Vec3SGrid>;
   static_assert(kVectors || std::is_same_v<Grid, openvdb::FloatGrid>);
   try {
     std::istringstream stream(foreign::readGrid(file, kVectors));
-    openvdb::io::Stream grids(stream, false);  // nothing is left to be read later
+    openvdb::io::Stream grids(stream, false);  // no delayed loading
     return openvdb::gridPtrCast<Grid>(grids.getGrids()->at(0));
   } catch (const foreign::Unreadable& error) {
     throw std::runtime_error(file.string() + ": " + error.what());

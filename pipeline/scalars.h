@@ -1,4 +1,4 @@
-// Numbers of a frame at places on its surface: what the texture's scale and its guidance follow.
+// Scalar fields of a frame at positions on its surface, for the texture's scale and guidance.
 #pragma once
 
 #include "texture/loops/parallel.h"
@@ -11,10 +11,10 @@
 
 namespace fluidtex::pipeline {
 
-// The piecewise-linear curve through the points, constant beyond the first and the last.
+// Piecewise linear curve through the points, constant beyond its ends.
 double curveAt(const std::vector<texture::CurvePoint>& points, double value);
 
-// curve(value(x)) for each position x; makeValue() gives a function `value` for each piece of the work.
+// curve(value(x)) at each position x; makeValue() makes a function `value` per task.
 template <typename MakeValue>
 std::vector<float> alongCurve(const std::vector<texture::CurvePoint>& points,
                               const std::vector<texture::Vec3f>& positions, const MakeValue& makeValue) {
@@ -28,7 +28,7 @@ std::vector<float> alongCurve(const std::vector<texture::CurvePoint>& points,
   return results;
 }
 
-// Makes functions that read a grid of numbers, linear between its values.
+// Makes functions that sample a scalar grid linearly.
 template <typename Grid>
 auto sampler(const Grid& grid) {
   return [&grid] {

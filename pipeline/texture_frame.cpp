@@ -23,7 +23,7 @@ double wallSeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Adds the time of its own life to a stage.
+// Adds its lifetime to a stage.
 class StageWatch {
  public:
   StageWatch(const Watch& watch, double& seconds) : m_watch(watch), m_seconds(seconds), m_start(now()) {}
@@ -45,14 +45,14 @@ texture::Seeds seedsFor(const TexturedSurface& last, const sim::Frame& frame,
   return {transport::moved(last.positions, frame), last.positions, last.triangles, last.scale};
 }
 
-// The first frame needs the coarser levels of the surface, too; so do all where each stands alone.
+// Whether the surface needs all pyramid levels: on the first frame, and where each frame is textured alone.
 bool needsAllLevels(const scenes::Scene& scene, const TexturedSurface& last) {
   const bool eachAlone =
       scene.texture.laterFrames == LaterFrames::alone && scene.texture.synthesis.method != Method::none;
   return last.empty() || eachAlone;
 }
 
-// What is uncovered in a wide piece has its texture found coarse to fine.
+// Adds coarser levels where fresh regions are wide, as these are textured coarse to fine.
 void addLevelsForFresh(const Texturing& texturing, const sim::Frame& frame, const Carried& carried,
                        const texture::VertexGraph& graph, Surface& surface) {
   const scenes::Scene& scene = texturing.scene;
@@ -64,7 +64,7 @@ void addLevelsForFresh(const Texturing& texturing, const sim::Frame& frame, cons
                             scaleIn(texturing.scale, frame), surface);
 }
 
-// Guidance by age means the surface's: texture that it has renewed does not make the surface younger.
+// Guidance by age means the surface's age, which renewed texture does not reset.
 void keepAge(const Carried& carried, double seconds, TexturedSurface& surface) {
   for (std::size_t v = 0; v < carried.age.size(); ++v)
     surface.age[v] = texture::believed(carried.trust[v]) ? carried.age[v] + float(seconds) : 0.0f;
@@ -86,7 +86,7 @@ TexturedSurface synthesized(Texturing& texturing, Surface surface, const Carried
   return result;
 }
 
-// By the method that the scene asks for; velocity and contact are left to fill.
+// Textures by the scene's method; velocity and contact are left to the caller.
 TexturedSurface textured(Texturing& texturing, Surface surface, const Carried& carried, int frame,
                          texture::SynthesisStats& stats, const std::function<void(double)>& progress) {
   const scenes::Scene& scene = texturing.scene;

@@ -1,6 +1,6 @@
-// One frame's way from the liquid's motion to its textured surface: surface preparation, transport,
-// orientation, guidance, synthesis [Kwatra07 sec. III]. The program, the benchmarks and whoever links the
-// library take this way.
+// One frame from the liquid's motion to its textured surface: surface preparation, transport, orientation,
+// guidance, synthesis [Kwatra07 sec. III]. Used by the program, the benchmarks and programs that link the
+// library.
 #pragma once
 
 #include "pipeline/orientation_guide.h"
@@ -18,8 +18,7 @@
 
 namespace fluidtex::pipeline {
 
-// What all frames of a run share. The exemplar's search tables are made when a frame first asks for them and
-// kept here.
+// Shared by all frames of a run. The exemplar's search tables are made on first use and kept here.
 struct Texturing {
   scenes::Scene scene;
   texture::Synthesizer synthesizer;
@@ -28,18 +27,18 @@ struct Texturing {
   TextureGuidance guidance;
 };
 
-// Reads what the scene's settings name: exemplar, maps, vector and scalar fields. cache: where search tables
-// are kept from run to run. Throws ExemplarError, or std::runtime_error that names a field's file.
+// Reads what the scene's settings name: exemplar, maps, vector and scalar fields. cache: folder of search
+// tables kept between runs. Throws ExemplarError, or std::runtime_error that names a field's file.
 Texturing makeTexturing(const scenes::Scene& scene, const texture::CacheFolder& cache = {});
-// The same with an exemplar from memory, prepared for scene.texture.surface.levels levels.
+// The same with an exemplar in memory, prepared for scene.texture.surface.levels levels.
 Texturing makeTexturing(const scenes::Scene& scene, texture::Exemplar exemplar,
                         const texture::CacheFolder& cache = {});
 
 enum class Stage { prepare, transport, synthesize };
 
-// Who is told how a frame gets on, and by which clock its stages are timed.
+// Callbacks: progress of a frame, and the clock that times its stages.
 struct Watch {
-  std::function<void(Stage, double part)> progress{};  // part: 0 to 1; what it throws ends the frame
+  std::function<void(Stage, double part)> progress{};  // part: 0 to 1; an exception ends the frame
   std::function<double()> seconds{};                   // empty: wall time
 };
 
@@ -48,18 +47,18 @@ struct FrameSeconds {
 };
 
 struct TexturedFrame {
-  // Its spacing is set as soon as there is a surface, and kept while there is none.
+  // Its spacing is set once there is a surface, and kept while there is none.
   texture::TexturedSurface surface;
   texture::SynthesisStats synthesis;
-  std::optional<std::vector<texture::Singularity>> singularities;  // not known without a surface
-  bool foreseenSpacing = false;  // chosen in this frame, for the surface that the liquid is going to have
+  std::optional<std::vector<texture::Singularity>> singularities;  // unknown without a surface
+  bool foreseenSpacing = false;  // chosen in this frame for the surface that is foreseen
   FrameSeconds seconds;
 };
 
-// last: the textured surface of the frame before, empty for the first one; its spacing, where it has one, is
-// kept, else it is scene.texture.spacing, or made of scene.texture.points. frame.substeps lead from there to
-// here. Same input, same bytes, on any number of threads. Throws as prepareSurface(), carry(), orient() and
-// synthesize() do.
+// Textures one frame. last: the previous frame's textured surface, empty on the first frame; its spacing is
+// kept, else it is scene.texture.spacing, or follows from scene.texture.points. frame.substeps lead from
+// there to this frame. The result does not depend on the number of threads. Throws as prepareSurface(),
+// carry(), orient() and synthesize().
 TexturedFrame textureFrame(Texturing& texturing, const texture::TexturedSurface& last,
                            const sim::Frame& frame, const Watch& watch = {});
 

@@ -31,7 +31,7 @@ std::vector<float> vorticities(const std::vector<Vec3f>& positions, const sim::F
   return result;
 }
 
-// Of surface that has just come to light: 0.
+// #V, s; 0 on newly exposed surface.
 std::vector<float> ages(const texture::Carried& carried, std::size_t count) {
   std::vector<float> result(count, 0.0f);
   for (std::size_t v = 0; v < carried.age.size(); ++v)
@@ -60,7 +60,7 @@ std::vector<float> levelsOn(const TextureGuidance& guidance, const sim::Frame& f
     case GuidanceBy::curvature:
       return along(texture::meanCurvature(mesh));
     case GuidanceBy::age:
-    case GuidanceBy::renewal:  // which of them age is, tools/textured decides
+    case GuidanceBy::renewal:  // keepAge() in texture_frame.cpp makes carried.age the surface's for `age`
       return along(ages(carried, mesh.positions.size()));
     case GuidanceBy::foam:
       mesh.foam = transport::foamAfter(mesh.positions, frame, carried, seconds, guidance.options.foam);

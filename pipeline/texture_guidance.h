@@ -1,4 +1,4 @@
-// What a scene lets steer its texture, in terms of one frame's motion.
+// A scene's guidance of its texture, for one frame's motion.
 #pragma once
 
 #include "scenes/scene.h"
@@ -14,14 +14,13 @@ struct TextureGuidance {
   openvdb::FloatGrid::Ptr field;  // of GuidanceBy::field
 };
 
-// Reads the scene's painted volume, where it has one. Throws std::runtime_error that names the file and what
-// is wrong.
+// Reads the scene's painted volume, if it has one. Throws std::runtime_error that names the file and the
+// fault.
 TextureGuidance textureGuidance(const scenes::Scene& scene);
 
-// Gives every level of the surface the guidance that is wanted on it (SurfaceMesh::guidance; foam too, where
-// that is what it follows); none where the scene has none. What moves the surface is not known in the first
-// frame: speed, vorticity and foam are 0 there. Ages and foam that was carried are level 0's; coarser levels
-// stand for surface that has just come to light. seconds: since the earlier frame.
+// Sets SurfaceMesh::guidance of every level (and foam, if guidance follows it); empty if the scene has none.
+// In the first frame motion is unknown: speed, vorticity and foam are 0. Ages and transported foam are those
+// of level 0; coarser levels count as newly exposed. seconds: since the earlier frame.
 void guide(const TextureGuidance& guidance, const sim::Frame& frame, const texture::Carried& carried,
            double seconds, texture::Surface& surface);
 

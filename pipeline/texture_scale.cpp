@@ -12,7 +12,7 @@ namespace {
 
 using texture::ScaleBy;
 
-// The curve through the points of what makeValue() reads.
+// Curve of the values that makeValue() reads.
 template <typename MakeValue>
 texture::PointScale mapped(const std::vector<texture::CurvePoint>& points, const MakeValue& makeValue) {
   return [&points, makeValue](const std::vector<texture::Vec3f>& positions) {

@@ -1,4 +1,4 @@
-// Where a scene wants its texture larger or smaller, in terms of one frame's motion.
+// A scene's scale of its texture, for one frame's motion.
 #pragma once
 
 #include "scenes/scene.h"
@@ -18,11 +18,11 @@ struct TextureScale {
   std::vector<sim::ShapeDistance> from;  // of ScaleBy::distance
 };
 
-// Reads the scene's painted volume, where it has one. Throws std::runtime_error that names the file and what
-// is wrong.
+// Reads the scene's painted volume, if it has one. Throws std::runtime_error that names the file and the
+// fault.
 TextureScale textureScale(const scenes::Scene& scene);
 
-// The factors for the surface of this frame; both must outlive them. Empty: 1 everywhere.
+// Factors for the surface of this frame; both arguments must outlive the result. Empty: 1 everywhere.
 texture::PointScale scaleIn(const TextureScale& scale, const sim::Frame& frame);
 
 }  // namespace fluidtex::pipeline

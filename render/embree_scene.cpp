@@ -1,7 +1,7 @@
-// On Embree 3 [Wald14]. Which of two triangles a ray through their common edge meets depends on the order
-// inside the structure. Embree's builder at medium quality (binned surface areas, no spatial splits) makes
-// the same structure on any number of threads: it bins by counts and bounds alone, and sorts the triangles of
-// a leaf. Higher quality, or a refitted scene, would need that to be looked at again.
+// Based on Embree 3 [Wald14]. Which of two triangles a ray through their common edge hits depends on the
+// structure. Embree's builder at medium quality (binned surface areas, no spatial splits) makes the same
+// structure on any number of threads: it bins by counts and bounds alone, and sorts the triangles of a leaf.
+// Higher quality, or a refitted scene, would have to be checked for that.
 #include "render/embree_scene.h"
 
 #include <embree3/rtcore.h>
@@ -68,7 +68,7 @@ void fillRay(RTCRay8& packet, std::size_t lane, const Ray& ray) {
   packet.flags[lane] = 0;
 }
 
-// Lanes beyond the last ray repeat it, so that every lane holds numbers; they are switched off.
+// Lanes beyond the last ray repeat it, so that all hold valid numbers; they are masked.
 template <typename Body>
 void forPackets(std::size_t count, const Body& body) {
   for (std::size_t first = 0; first < count; first += kPacket) {

@@ -1,4 +1,4 @@
-// The triangles of a picture in an acceleration structure, and rays against it.
+// Acceleration structure for the triangles of a picture.
 #pragma once
 
 #include "render/mesh.h"
@@ -12,7 +12,7 @@ namespace fluidtex::render {
 
 inline constexpr std::uint32_t kNothing = 0xffffffffu;
 
-// A ray and, after intersect(), what it met first.
+// A ray and, after intersect(), its first hit.
 struct Ray {
   Vec3f origin, direction;
   std::uint32_t geometry = kNothing;  // in the order of addition, or kNothing
@@ -22,7 +22,7 @@ struct Ray {
   bool hit() const { return geometry != kNothing; }
 };
 
-// Neighbouring rays that take much the same way are traced together; others one by one.
+// Coherent rays are traced in packets, others one by one.
 enum class Coherence { alike, scattered };
 
 class EmbreeScene {
@@ -32,17 +32,17 @@ class EmbreeScene {
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-  // Copies a mesh in and returns its number. Throws std::runtime_error if memory runs out.
+  // Copies a mesh and returns its geometry number. Throws std::runtime_error if memory runs out.
   std::uint32_t add(const std::vector<Vec3f>& positions, const std::vector<texture::Vec3I>& triangles);
 
-  // Builds, on all threads; to be called once after the last add(). The structure does not depend on their
-  // number.
+  // Builds the structure, on all threads; to be called once after the last add(). The result does not depend
+  // on the number of threads.
   void commit();
 
   // Finds the first hit of every ray.
   void intersect(std::span<Ray> rays, Coherence coherence) const;
 
-  // blocked[i] = 1 if anything lies on ray i, else 0. The rays' hits are left as they are.
+  // blocked[i] = 1 if anything lies on ray i, else 0. Hits are not recorded.
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked, Coherence coherence) const;
 
  private:

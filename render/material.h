@@ -1,12 +1,11 @@
-// How light leaves a surface: a matt base, and over it, where the surface is wet, a clear glossy coat.
+// Reflection model: a matt (Lambertian) base, and where the surface is wet, a clear glossy coat over it.
 //
 //   f(wo, wi) = coat(wo, wi) + (1 - F(wo)) (1 - F(wi)) / (1 - Fmean) * base / pi
 //
-// coat: microfacet reflection, GGX, Fresnel factor F by Schlick's approximation, both times `gloss`. What the
-// coat reflects is missing from the base, on the way in and on the way out; Fmean, the mean of F over the
-// hemisphere, makes a white base under a smooth coat return exactly all light. So no surface is ever brighter
-// than what shines on it. All directions here are in the local axes of the shading normal (+z) and point away
-// from the surface.
+// coat: microfacet reflection, GGX, Fresnel factor F by Schlick's approximation, both times `gloss`. The base
+// loses what the coat reflects, on the way in and on the way out. Fmean, the hemispherical mean of F, lets a
+// white base under a smooth coat reflect exactly all light, so energy is conserved. Directions are in the
+// local axes of the shading normal (+z) and point away from the surface.
 #pragma once
 
 #include "render/vec.h"
@@ -19,7 +18,7 @@ struct Material {
   float roughness = 0.05f;  // GGX alpha of the coat
 };
 
-// f(wo, wi) * cos(wi), and the density with which sampleMaterial() draws wi. Both directions above the
+// f(wo, wi) * cos(wi), and the pdf of sampleMaterial() at wi. Precondition: both directions are above the
 // surface.
 struct Scattering {
   Vec3f value{0.0f};
@@ -28,8 +27,8 @@ struct Scattering {
 
 Scattering evaluate(const Material& material, const Vec3f& wo, const Vec3f& wi);
 
-// A direction wi and its scattering; value 0 where the drawn direction is below the surface.
-// `choice` picks coat or base, `u` the direction.
+// A sampled direction wi and its scattering; value 0 if wi is below the surface. `choice` selects coat or
+// base, `u` the direction.
 struct MaterialSample {
   Vec3f wi;
   Scattering scattering;

@@ -19,14 +19,14 @@ struct Camera {
   double turn = 0.0;
 };
 
-// By default a white matt surface that faces the sun under the open sky has radiance 1: with exposure 1, a
-// texture's colours there are those of its exemplar.
+// With these defaults a white matt surface that faces the sun under the open sky has radiance 1: at exposure
+// 1 a texture's colours are those of its exemplar there.
 struct Light {
   Vec3d sunDirection{-0.35, -0.6, 0.75};  // towards the sun
   Vec3d sunColor{1.95, 1.86, 1.7};        // linear irradiance on a plane that faces the sun
   double sunSize = 4.0;                   // degrees across; soft shadows
   Vec3d skyColor{0.37, 0.42, 0.5};        // zenith, linear
-  Vec3d horizonColor{0.8, 0.8, 0.8};      // also all that is seen below the horizon where there is no ground
+  Vec3d horizonColor{0.8, 0.8, 0.8};      // also seen below the horizon where there is no ground
 };
 
 struct Surroundings {
@@ -36,21 +36,21 @@ struct Surroundings {
   Vec3d tankColor{0.16, 0.16, 0.17};
 };
 
-// Relief from one of the texture's maps, see render/bump.h; a surface without that map is drawn without.
+// Relief from one of the texture's maps, see render/bump.h; ignored on a surface without that map.
 struct Bump {
   std::string map;      // its name; empty: none
-  double height = 1.0;  // of values: spacings between 0 and 1; of normals: times their slope; 0: no relief
+  double height = 1.0;  // values: spacings between 0 and 1; normals: factor on their slope; 0: no relief
   bool any() const { return !map.empty() && height != 0.0; }
 };
 
 struct Options {
   int width = 960, height = 540;
-  int samples = 16;         // paths a pixel; powers of two are spread best
-  int bounces = 2;          // of light between surfaces; 0: what comes straight from sun and sky
+  int samples = 16;         // paths per pixel; powers of two are distributed best
+  int bounces = 2;          // of light between surfaces; 0: direct light only
   double gloss = 1.0;       // strength of the clear coat that makes liquid look wet, 0..1
   double roughness = 0.05;  // of the coat, GGX alpha
   Bump bump;
-  double exposure = 1.0;  // picture value = exposure * radiance, above 0.8 bent to stay below 1
+  double exposure = 1.0;  // picture value = exposure * radiance, compressed above 0.8 to below 1
   Camera camera;
   Light light;
   Surroundings surroundings;

@@ -1,4 +1,4 @@
-// Other programs, run without a shell.
+// Runs other programs, without a shell.
 #pragma once
 
 #include <string>
@@ -12,12 +12,11 @@ struct Outcome {
   std::string complaints;  // and to stderr
 };
 
-// Runs a program found on PATH, which reads `input`, and waits for its end. Throws std::runtime_error, with
-// the program's name and the reason, where it cannot be started. A program that ends without having read all
-// is no fault.
+// Runs a program found on PATH with `input` on its stdin, and waits for its end. Throws std::runtime_error,
+// with its name and the reason, if it cannot be started. It need not read all of its input.
 Outcome runOther(const std::vector<std::string>& arguments, const std::string& input = {});
 
-// The last line that says anything; never empty.
+// The last line with text; never empty.
 std::string lastLine(const std::string& text);
 
 }  // namespace fluidtex::render

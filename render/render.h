@@ -16,36 +16,37 @@ struct Picture {
   std::vector<float> rgb;  // height x width x 3, linear, rows from the top; render() gives values in 0..1
 };
 
-// A solid of the scene, drawn matt in one colour.
+// A solid of the scene, matt, in one colour.
 struct Solid {
   std::vector<texture::Vec3f> positions;
   std::vector<texture::Vec3I> triangles;
   Vec3d color;  // linear
 };
 
-// Linear RGBA, straight alpha, of the liquid inside a triangle, at barycentric weights; nothing where its
-// vertices' colours hold. Called from any thread.
+// Linear RGBA, straight alpha, of the liquid inside a triangle at barycentric weights; nothing where the
+// vertices' colours are interpolated. Called from any thread.
 using ColorBetween = std::function<std::optional<texture::Vec4f>(std::uint32_t, const texture::Vec3f&)>;
 
 struct View {
-  Vec3d domainSize;  // the domain is [0, domainSize]; tank and ground are built around it
-  // 0 at the first, 1 at the last frame of the animation: where a turning camera stands
+  Vec3d domainSize;  // the domain is [0, domainSize], with tank and ground around it
+  // Position of a turning camera: 0 at the first, 1 at the last frame of the animation.
   double progress = 0.0;
   int frame = 1;              // keys the random numbers
-  ColorBetween colorBetween;  // empty: colours of the liquid's vertices, interpolated
+  ColorBetween colorBetween;  // empty: the vertices' colours, interpolated
   bool seeThrough = false;    // colorBetween may give alpha below 1
 };
 
-// Same input, same bytes, on any number of threads. An empty surface gives a picture of the surroundings.
+// Renders a picture; the result does not depend on the number of threads. An empty surface gives the
+// surroundings alone.
 Picture render(const texture::TexturedSurface& surface, const std::vector<Solid>& solids,
                const Options& options, const View& view, const std::function<void(double)>& progress = {});
 
-// sRGB, 8 bits, PNG. Throws std::runtime_error that names the file. The caller gives a temporary name and
-// renames.
+// Writes sRGB, 8 bits, PNG. Throws std::runtime_error that names the file. Not atomic: the caller gives a
+// temporary name and renames.
 void writePng(const Picture& picture, const std::filesystem::path& file);
 
-// H.264, yuv420p, bt709 from frames first..last, FOLDER/frameName(FRAME).png. Throws std::runtime_error with
-// ffmpeg's last words.
+// Encodes frames first..last, FOLDER/frameName(FRAME).png, as H.264, yuv420p, bt709. Throws
+// std::runtime_error with ffmpeg's last line of output.
 void writeVideo(const std::filesystem::path& folder, int first, int last, double frameRate,
                 const std::filesystem::path& file);
 

@@ -1,9 +1,8 @@
-// Sample points and the maps from the unit square to the domains that are integrated over.
+// Sample points, and warps from the unit square to the domains of integration.
 //
-// The points of a pixel are a stretch of an Owen-scrambled Sobol sequence whose index runs along a Z-order
-// curve through the picture: neighbouring pixels get points that complete each other, so that what error is
-// left looks like fine grain. Nothing is kept between calls: a point follows from pixel, sample, dimension
-// and frame alone.
+// The points of a pixel are a stretch of an Owen-scrambled Sobol sequence whose index follows a Z-order curve
+// through the picture: points of neighbouring pixels are stratified together, so that the remaining error is
+// blue noise. There is no state: a point depends on pixel, sample, dimension and frame only.
 #pragma once
 
 #include "render/vec.h"
@@ -12,13 +11,13 @@
 
 namespace fluidtex::render {
 
-// A well mixed 32-bit hash of two numbers.
+// A 32-bit hash of two numbers.
 std::uint32_t hash(std::uint32_t a, std::uint32_t b);
 
-// All random numbers of one pixel.
+// Sample points of one pixel.
 class PixelSamples {
  public:
-  // `samples`: how many points the pixel will take, >= 1. Powers of two are spread best.
+  // samples: number of points the pixel will take, >= 1. Powers of two are distributed best.
   PixelSamples(int x, int y, int samples, std::uint32_t frame);
 
   // Point `sample` of the 2D dimension `dimension`, in [0,1) x [0,1). Points of different dimensions are
@@ -30,17 +29,16 @@ class PixelSamples {
   std::uint32_t m_seed;
 };
 
-// Offset from the pixel's centre under a tent filter that reaches `radius` pixels: density falls linearly to
-// zero there.
+// Offset from the pixel's centre under a tent filter of radius `radius`, pixels.
 Vec2f tentOffset(const Vec2f& u, float radius);
 
-// Even over the unit disc; points that are close in the square stay close in the disc.
+// Uniform on the unit disc; continuous.
 Vec2f uniformDisc(const Vec2f& u);
 
-// Unit vector around +z with density cos / pi.
+// Cosine-weighted unit vector around +z, pdf cos / pi.
 Vec3f cosineHemisphere(const Vec2f& u);
 
-// Unit vector around +z, even over the cap where z >= cosMax. Solid angle: 2 pi (1 - cosMax).
+// Uniform unit vector around +z in the cap z >= cosMax, of solid angle 2 pi (1 - cosMax).
 Vec3f uniformCone(const Vec2f& u, float cosMax);
 
 }  // namespace fluidtex::render

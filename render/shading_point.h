@@ -1,4 +1,4 @@
-// Everything that shading wants to know about the place where a ray met something.
+// Data for shading at the point where a ray hits a surface.
 #pragma once
 
 #include "render/embree_scene.h"
@@ -8,8 +8,7 @@
 
 namespace fluidtex::render {
 
-// What a picture is made of, in the order in which the meshes were added to the Embree scene: the liquid
-// first.
+// The geometry of a picture, in the order in which meshes were added to the Embree scene: the liquid first.
 struct Stage {
   const texture::TexturedSurface* liquid = nullptr;
   std::vector<Mesh> meshes;
@@ -24,24 +23,24 @@ inline constexpr std::uint32_t kLiquid = 0;  // the liquid's geometry number; me
 
 struct ShadingPoint {
   Vec3f position;
-  Vec3f origin;      // where rays that leave the point start: free of the surface, see below
+  Vec3f origin;      // start of secondary rays, offset from the surface, see below
   Vec3f faceNormal;  // unit, of the triangle, on the side the ray came from
   Vec3f normal;      // unit, smooth, with bumps; always on the side the ray came from
   Material material;
-  float opacity = 1.0f;  // 0: not there at all
+  float opacity = 1.0f;  // 0: invisible
 };
 
 // Linear colour and alpha of the liquid inside a triangle, at barycentric weights.
 Vec4f liquidColor(const Stage& stage, std::uint32_t triangle, const Vec3f& weights);
 
-// Of the hit alone: 1 except on liquid with alpha below 1.
+// At the hit only: 1 except on liquid with alpha below 1.
 float liquidOpacity(const Stage& stage, const Ray& ray);
 
-// `ray` has hit something. `origin` lies on the smooth surface that the vertex normals suggest, where that is
-// in front of the flat triangle [Hanika21], so that facets throw no shadow on themselves.
+// Precondition: `ray` has hit something. `origin` lies on the smooth surface that the vertex normals suggest,
+// where that is in front of the flat triangle [Hanika21], so that facets cast no shadow on themselves.
 ShadingPoint shadingPoint(const Stage& stage, const Ray& ray);
 
-// Where a ray that passes through the surface goes on.
+// Start of the ray that continues behind the surface.
 Vec3f originBehind(const Stage& stage, const Ray& ray);
 
 }  // namespace fluidtex::render

@@ -1,4 +1,4 @@
-// What lights the scene: a sky that brightens towards the horizon, and a sun with an angular size.
+// Light sources: a sky that brightens towards the horizon, and a sun of finite angular size.
 #pragma once
 
 #include "render/options.h"
@@ -14,8 +14,7 @@ struct Sky {
   float sunCosine;     // of its angular radius
   float sunPdf;        // 1 / solid angle of the disc
 
-  // Radiance that arrives from `direction`, the sun's disc not included. Below the horizon: the horizon's
-  // colour.
+  // Radiance from `direction`, without the sun's disc. Below the horizon: the horizon's colour.
   Vec3f radiance(const Vec3f& direction) const {
     // The gradient is steep at the horizon and flat at the zenith, as that of a clear sky is.
     const float below = 1.0f - std::clamp(direction[2], 0.0f, 1.0f);
@@ -25,7 +24,7 @@ struct Sky {
   bool inSun(const Vec3f& direction) const { return direction.dot(sunDirection) >= sunCosine; }
 };
 
-// Throws std::invalid_argument if the sun's direction is null.
+// Throws std::invalid_argument if the sun's direction is zero.
 Sky makeSky(const Light& light);
 
 }  // namespace fluidtex::render

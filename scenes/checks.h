@@ -1,4 +1,4 @@
-// Settings that do not go together: what needs several keys of a scene at once.
+// Validation across several keys of a scene.
 #pragma once
 
 #include "scenes/reader.h"
@@ -6,8 +6,7 @@
 
 namespace fluidtex::scenes {
 
-// Adds a fault for each combination that cannot work. Keys that have a fault of their own already are left
-// alone.
+// Adds a fault for each invalid combination. Keys that have a fault already are skipped.
 void check(const Scene& scene, Reader& reader);
 
 inline constexpr const char* kAxes[] = {"x", "y", "z"};

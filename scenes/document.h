@@ -1,5 +1,5 @@
-// A scene file as a tree of values that remember where they were written, so that tables can be laid over
-// each other (file, quality, command line) and a fault still points at the line that caused it.
+// A scene file as a tree of values with their source locations, so that tables can be overlaid (file,
+// quality, command line) and a fault still points at the line that caused it.
 #pragma once
 
 #include "scenes/faults.h"
@@ -34,20 +34,20 @@ std::string kindName(const Node& node);
 Entry* find(Table& table, const std::string& key);
 const Entry* find(const Table& table, const std::string& key);
 
-// Reads a TOML file into a table. A missing, unreadable or wrongly written file is a fault, and the table is
-// empty.
+// Parses a TOML file into a table. If it is missing, unreadable or not valid TOML, adds a fault and returns
+// an empty table.
 Node readDocument(const std::filesystem::path& file, Faults& faults);
 
-// One option of the command line as a table that can be laid over a document. KEY=VALUE: KEY dotted, VALUE as
-// in TOML, or a bare word, which is taken as a string. `layer` is its place among the options.
+// Parses one option of the command line into a table for overlay(). KEY=VALUE: KEY dotted, VALUE as in TOML,
+// or a bare word, taken as a string. layer: its index among the options.
 Node readAssignment(const std::string& assignment, int layer, Faults& faults);
 
-// Keys written as one quoted word, "domain.resolution", become tables in tables; all origins get the prefix.
+// Expands keys written as one quoted word, "domain.resolution", into nested tables; prepends the prefix to
+// all origins.
 Node expanded(const Node& table, const std::string& prefix, Faults& faults);
 
-// Lays a table over another: tables are merged, everything else is replaced. A table laid over a list
-// addresses its members by number, from 0. A key that excludes others (a shape, spacing or points) takes
-// their place.
+// Overlays a table: tables are merged, everything else is replaced. A table over a list addresses its members
+// by index, from 0. A key that excludes others (a shape, spacing or points) replaces them.
 void overlay(Node& base, const Node& layer, Faults& faults);
 
 }  // namespace fluidtex::scenes

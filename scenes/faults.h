@@ -1,4 +1,4 @@
-// Where a setting was written, and what is wrong with it.
+// Faults of a scene, with their source locations.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace fluidtex::scenes {
 
-// The place of one key: in the scene file or on the command line.
+// Source location of a key: in the scene file or on the command line.
 struct Origin {
   int layer = 0;             // 0: the file; 1, 2, ...: the options of the command line, as they were given
   int line = 1, column = 1;  // of the key, in the file
@@ -23,38 +23,37 @@ struct Fault {
 
 class Faults {
  public:
-  // More are counted and not kept: nobody reads them, and a damaged file has millions.
+  // Further faults are counted but not kept: a damaged file has millions.
   static constexpr std::size_t kMost = 100;
 
-  // Kept once, however often the same place is found wrong in the same way.
+  // Adds a fault, unless the same one is there for the same location.
   void add(const Origin& origin, const std::string& key, const std::string& wrong, const std::string& right);
   void add(const Fault& fault);
 
   bool has(const Fault& fault) const;
 
-  // Neither the key nor anything below it has a fault.
+  // Whether neither the key nor anything below it has a fault.
   bool clean(const std::string& key) const;
   bool empty() const { return m_faults.empty(); }
   bool full() const { return m_faults.size() >= kMost; }
   const std::vector<Fault>& all() const { return m_faults; }
 
-  // One line a fault: the file's in order of line and column, then the command line's. What a scene names is
-  // told shortened and without control characters.
+  // One line per fault: those of the file by line and column, then those of the command line. Names from the
+  // scene are shortened and stripped of control characters.
   std::vector<std::string> lines() const;
 
  private:
   std::vector<Fault> m_faults;
 };
 
-// The text itself, or of a long one its beginning and its end, about `most` bytes; no letter is cut in two.
+// The text, or the beginning and end of a long one, about `most` bytes; UTF-8 characters are kept whole.
 std::string shortened(const std::string& text, std::size_t most);
 
-// How many letters must be inserted, left out, replaced or swapped with their neighbour to turn a into b
-// (optimal string alignment; capitals count as their small letters).
+// Edit distance of a and b with insertion, deletion, replacement and transposition of neighbours (optimal
+// string alignment), case-insensitive.
 int editDistance(const std::string& a, const std::string& b);
 
-// The name most like the wrong one; empty if none is near enough to be what was meant, or the wrong one is
-// longer than any name.
+// The name nearest to a wrong one; empty if none is near enough, or the wrong one is longer than any name.
 std::string nearestName(const std::string& wrong, const std::vector<std::string>& names);
 
 // "a, b and c", with another word for "and" where wanted.

@@ -1,4 +1,4 @@
-// Values as they would stand in a scene file, for messages.
+// Formats values for messages, as in a scene file.
 #pragma once
 
 #include "scenes/visitor.h"
@@ -12,10 +12,10 @@ std::string written(double value);
 std::string written(const Vec3d& value);
 std::string written(const std::vector<int>& value);
 
-// "above 0", "0 or more", "from 8 to 4096"; empty where anything goes.
+// "above 0", "0 or more", "from 8 to 4096"; empty without limits.
 std::string rangeOf(const Limits& limits);
 
-// Whether the value is inside. Values that are not finite are only where the limits say so.
+// Whether the value is within the limits. Not finite values only are if the limits say so.
 bool within(const Limits& limits, double value);
 
 }  // namespace fluidtex::scenes

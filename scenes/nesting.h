@@ -1,5 +1,5 @@
-// How deep a text of TOML nests, before it is parsed: the parser's own tables end one in another, each on the
-// stack of the one around it, and it only limits brackets, not the parts of dotted keys.
+// Nesting depth of a TOML text, checked before parsing: the parser destroys nested tables recursively, on the
+// stack, and itself limits brackets only, not the parts of dotted keys.
 #pragma once
 
 #include <optional>
@@ -7,13 +7,13 @@
 
 namespace fluidtex::scenes {
 
-inline constexpr int kDeepest = 64;  // brackets and parts of keys, one in another
+inline constexpr int kDeepest = 64;  // nested brackets and parts of keys
 
 struct TextPlace {
   int line = 1, column = 1;
 };
 
-// The first place that lies deeper, if any.
+// The first place that is nested deeper, if any.
 std::optional<TextPlace> tooDeep(std::string_view text);
 
 }  // namespace fluidtex::scenes

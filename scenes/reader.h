@@ -1,4 +1,4 @@
-// Fills a scene from a document, going through the schema, and collects every fault on the way.
+// Fills a scene from a document by visiting the schema, and collects all faults.
 #pragma once
 
 #include "scenes/document.h"
@@ -12,8 +12,8 @@ namespace fluidtex::scenes {
 
 class Reader : public Visitor {
  public:
-  // `folder`: what file names inside the scene are relative to; those of the command line are relative to the
-  // current one.
+  // folder: base of relative file names inside the scene; those on the command line are relative to the
+  // current folder.
   Reader(const Node& document, std::filesystem::path folder, Faults& faults);
 
   void flag(const std::string& key, bool& value) override;
@@ -36,10 +36,10 @@ class Reader : public Visitor {
   void enterMember(std::size_t index) override;
   void leave() override;
 
-  // After the whole schema: says which keys nothing asked for, and what may have been meant.
+  // To be called after the whole schema: reports unknown keys, with suggestions.
   void reportUnknownKeys();
 
-  // For checks that take several keys together.
+  // For validation across several keys.
   bool given(const std::string& path) const;
   Origin originOf(const std::string& path) const;  // of the deepest part of the path that was written
   void fault(const std::string& path, const std::string& wrong, const std::string& right);

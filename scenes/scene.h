@@ -1,5 +1,4 @@
-// A scene file, read and checked: the settings of every room, plus what to do with them. Schema:
-// scenes/README.md.
+// A scene file, parsed and validated: the settings of every room. Schema: scenes/README.md.
 #pragma once
 
 #include "render/options.h"
@@ -17,7 +16,7 @@ namespace fluidtex::scenes {
 
 enum class Quality { preview, standard, final };
 
-// As on the command line: preview, default, final.
+// Name as on the command line: preview, default, final.
 const char* nameOf(Quality quality);
 
 struct Scene {
@@ -50,8 +49,8 @@ struct SceneError : std::runtime_error {
   std::vector<std::string> faults;
 };
 
-// Reads, applies [quality.NAME] and the overrides, checks everything. Paths inside are relative to the file's
-// own folder. Throws SceneError with all faults.
+// Parses, applies [quality.NAME] and the overrides, and validates. Paths inside are relative to the file's
+// folder. Throws SceneError with all faults.
 Scene loadScene(const std::filesystem::path& file, const Overrides& overrides = {});
 
 }  // namespace fluidtex::scenes

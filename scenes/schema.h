@@ -1,5 +1,5 @@
-// Every key of a scene file, with its limits and the setting it stands for. scenes/README.md tells users the
-// same.
+// Schema of a scene file: every key with its limits and the setting it stands for. Documented in
+// scenes/README.md.
 #pragma once
 
 #include "scenes/scene.h"
@@ -22,14 +22,13 @@ void describe(Visitor& visitor, Scene& scene);
 // The shape keys of one liquid, solid or part: kShapeKeys.
 void describeShape(Visitor& visitor, sim::Shape& shape);
 
-// The domain: [0, size], without an end on sides that are unbounded.
+// The domain [0, size], infinite on unbounded sides.
 sim::Box domainOf(const sim::Options& options);
 
-// Whether any of the shape can lie inside the domain. Meshes are taken to: their triangles are read later.
+// Whether any of the shape can be inside the domain. Meshes, which are read later, count as inside.
 bool reachesDomain(const sim::Shape& shape, const sim::Box& domain);
 
-// Whether there is an end to what of the shape lies inside the domain. What a difference takes away makes
-// none.
+// Whether the part of the shape inside the domain is bounded. What a difference subtracts bounds nothing.
 bool endsInDomain(const sim::Shape& shape, const sim::Box& domain);
 
 }  // namespace fluidtex::scenes

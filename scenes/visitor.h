@@ -1,5 +1,5 @@
-// How the schema (scenes/schema.h) and those who go through it talk: it names every key, once, and hands over
-// the variable behind it; a reader fills the variable from a file, a writer puts it into the resolved scene.
+// Interface between the schema (scenes/schema.h) and its visitors. The schema names every key once with the
+// variable behind it; a reader fills the variable from a file, a writer puts it into the resolved scene.
 #pragma once
 
 #include "sim/options.h"
@@ -14,7 +14,7 @@ namespace fluidtex::scenes {
 
 using sim::Vec3d;
 
-// What values a number may take; of vectors and lists, every member.
+// Range of a number; of vectors and lists, of every member.
 struct Limits {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   bool aboveLow = false;  // low itself is not allowed
@@ -42,26 +42,25 @@ class Visitor {
                       Need need = Need::optional) = 0;
   virtual void integers(const std::string& key, std::vector<int>& value, const Limits& limits) = 0;
   virtual void pixels(const std::string& key, int& width, int& height, const Limits& limits) = 0;
-  // A file that exists. `endings`: what its name may end in, in small letters; empty: anything.
+  // An existing file. endings: allowed extensions, in lower case; empty: any.
   virtual void file(const std::string& key, std::filesystem::path& value,
                     const std::vector<std::string>& endings) = 0;
-  // Files whose names differ in a number, whose place is %d in the last part of the name, or %04d for one of
-  // four digits. Whether they exist is not asked.
+  // A sequence of files, numbered by %d or %04d (four digits) in the last part of the name. Their existence
+  // is not checked.
   virtual void files(const std::string& key, std::filesystem::path& value,
                      const std::vector<std::string>& endings) = 0;
-  // One of a few words, by number.
+  // One of a few words, by index.
   virtual void choice(const std::string& key, int& value, const std::vector<std::string>& words) = 0;
 
-  // Which one of several keys that exclude each other is there; `current` says which one the value holds. The
-  // key itself is then visited as usual. A reader that finds none keeps the current one; that is a fault
-  // where one is required.
+  // Which of several exclusive keys is given; `current` is the one that the value holds. The key is then
+  // visited as usual. A reader that finds none keeps `current`, and adds a fault if one is required.
   virtual int alternative(int current, const std::vector<std::string>& keys, Need need) = 0;
   // The key that an alternative replaces.
   virtual void absent(const std::string& key) = 0;
 
-  // All up to the matching leave() is inside the table.
+  // Everything up to the matching leave() is inside the table.
   virtual void enter(const std::string& key, Need need) = 0;
-  // A list of tables: returns how many there are; each is entered by its number.
+  // A list of tables: returns their number; each is entered by its index.
   virtual std::size_t enterList(const std::string& key, std::size_t size, Need need) = 0;
   virtual void enterMember(std::size_t index) = 0;
   virtual void leave() = 0;

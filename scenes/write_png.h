@@ -1,4 +1,4 @@
-// PNG files of the programs that make what ships with the scenes.
+// Writes PNG files, for the programs that generate the shipped images.
 #pragma once
 
 #include <OpenImageIO/imageio.h>
@@ -7,8 +7,8 @@
 
 namespace fluidtex::scenes {
 
-// Writes an image as `spec` describes it; `pixels` in its format, row by row. When that fails, says so on
-// stderr and returns false.
+// Writes an image described by `spec`, with `pixels` in its format, row by row. On failure prints to stderr
+// and returns false.
 bool writePng(const std::string& file, const OIIO::ImageSpec& spec, const void* pixels);
 
 }  // namespace fluidtex::scenes

@@ -32,7 +32,8 @@ class Writer : public Visitor {
   }
   void file(const std::string& key, std::filesystem::path& value, const std::vector<std::string>&) override {
     // Absolute, so that it says the same wherever the scene is read from.
-    put(key, value.empty() ? Json() : Json(std::filesystem::absolute(value).lexically_normal().generic_string()));
+    put(key,
+        value.empty() ? Json() : Json(std::filesystem::absolute(value).lexically_normal().generic_string()));
   }
   void files(const std::string& key, std::filesystem::path& value,
              const std::vector<std::string>& endings) override {

@@ -1,16 +1,16 @@
-// Settings of what moves the liquid: the solver, or a flow known in closed form.
+// Settings of what moves the liquid: the solver, or an analytic flow.
 #pragma once
 
 namespace fluidtex::sim {
 
 enum class MotionKind { solver, rest, rotation, vortex, deformation, stretch, sourceSink };
 
-// A flow known in closed form (sim/motion/known_flow.h) is drawn out over the domain.
+// An analytic flow (sim/motion/known_flow.h) is scaled to the domain.
 struct MotionOptions {
   MotionKind flow = MotionKind::solver;
-  double period = 6.0;  // s, vortex and deformation: they turn back after half of it
-  // 1/s. Rotation: radians a second; vortex: the same of its middle at the start; stretch: how fast lengths
-  // along x grow; source and sink: how fast the area at the source grows.
+  double period = 6.0;  // s, vortex and deformation: they reverse after half of it
+  // 1/s. Rotation: radians a second; vortex: the same at its centre at the start; stretch: growth rate of
+  // lengths along x; source and sink: growth rate of area at the source.
   double rate = 1.0;
 };
 

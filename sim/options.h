@@ -1,6 +1,6 @@
-// Settings of the solver: what a scene file says about the liquid and its surroundings.
-// Units are SI; Z is up; right-handed. Positions are in world space, the domain is [0, size], and goes on
-// beyond it on sides that are unbounded.
+// Settings of the solver: the liquid and its surroundings as a scene file gives them.
+// Units are SI; Z is up; right-handed. Positions are in world space. The domain is [0, size], and extends
+// beyond it on unbounded sides.
 #pragma once
 
 #include "sim/shape.h"
@@ -19,7 +19,7 @@ namespace fluidtex::sim {
 
 inline constexpr double kForever = std::numeric_limits<double>::infinity();
 
-// Liquid that is put into the domain at time `from` (seconds), where no solid is.
+// Liquid that is poured into the domain at time `from` (seconds), outside solids.
 struct LiquidBody {
   Shape shape;
   Vec3d velocity{0.0};  // m/s
@@ -29,14 +29,14 @@ struct LiquidBody {
 
 enum class WallKind { slip, noSlip, friction };
 
-// What liquid meets at a solid's surface. It acts through viscosity: a liquid whose viscosity is negligible
-// on the grid slips along all walls.
+// Tangential boundary condition at a solid's surface. It acts through viscosity: a liquid whose viscosity is
+// negligible on the grid slips along all walls.
 struct Wall {
   WallKind kind = WallKind::slip;
-  // With friction, metres: how far behind the surface the velocity along it would be the wall's if it went on
-  // changing as in the liquid beside it (Navier's slip length). 0 is no slip, infinity free slip.
+  // Navier's slip length with friction, metres: the depth behind the surface at which the tangential
+  // velocity, extrapolated linearly from the liquid, equals the wall's. 0 is no slip, infinity free slip.
   double slipLength = 0.01;
-  Vec3d velocity{0.0};  // m/s, of the surface along itself (a belt, a driven lid)
+  Vec3d velocity{0.0};  // m/s, of the surface, tangential (a belt, a driven lid)
 };
 
 // Which of the domain's faces.
@@ -59,8 +59,8 @@ struct ViscosityLaw {
   double reference = 1400.0;           // K
   double slope = 0.04;                 // 1/K, exponential: viscosity exp(-slope (T - reference))
   double activationEnergy = 200000.0;  // J/mol, Arrhenius: viscosity exp(E / R (1/T - 1/reference))
-  // table, in place of Options::viscosity: by rising temperature; between them the viscosity's logarithm is
-  // linear, beyond them it is that of the first or the last.
+  // table, in place of Options::viscosity: by rising temperature. The logarithm of viscosity is linear
+  // between the points and constant beyond the first and the last.
   std::vector<ViscosityPoint> points{};
   double solidus = 0.0;         // K, solid below
   double solidViscosity = 1e6;  // Pa s, of the solid; the law exceeds it only as far as `viscosity` does
@@ -71,22 +71,22 @@ struct HeatOptions {
   double capacity = 1200.0;         // J/(kg K)
   double conductivity = 1.5;        // W/(m K)
   double emissivity = 0.0;          // 0 to 1, of the surface
-  double ambient = 293.15;          // K, around it
+  double ambient = 293.15;          // K, of the surroundings
   double wallTransfer = 0.0;        // W/(m2 K), to walls
   double wallTemperature = 293.15;  // K
   ViscosityLaw law;
 };
 
-// Where a moving solid is at a time: moved by `move` (metres) and turned by `turn` degrees about its axis.
+// Position of a moving solid at a time: moved by `move` (metres) and turned by `turn` degrees about its axis.
 struct Keyframe {
   double time = 0.0;  // s
   Vec3d move{0.0};
   double turn = 0.0;
 };
 
-// A solid that exists for from <= t < until (seconds). With keyframes it moves evenly from one to the next;
-// before the first and after the last it is at rest. A MeshSequence that has keyframes too is first put into
-// its shape, then moved.
+// A solid that exists for from <= t < until (seconds). With keyframes it moves at constant rates from one to
+// the next; before the first and after the last it is at rest. A MeshSequence that also has keyframes is
+// first deformed, then moved.
 struct Solid {
   std::string name;
   Shape shape;
@@ -102,9 +102,9 @@ struct RatePoint {
   double time = 0.0, factor = 1.0;
 };
 
-// A place that liquid comes from for from <= t < until: it is kept full, and through the faces of cells in it
-// liquid flows with `velocity` times a factor, which is linear between the points of `rate` and 1 without
-// any. With velocity 0 it is kept full only.
+// An inflow region for from <= t < until. It is kept full, and liquid flows through the faces of its cells
+// with `velocity` times a factor, which is linear between the points of `rate` and 1 without any. With
+// velocity 0 it is only kept full.
 struct Source {
   Shape shape;
   Vec3d velocity{0.0};          // m/s
@@ -113,25 +113,25 @@ struct Source {
   std::vector<RatePoint> rate;  // in the order of time
 };
 
-// A place that takes away all liquid in it for from <= t < until.
+// A region that removes all liquid in it for from <= t < until.
 struct Drain {
   Shape shape;
   double from = 0.0, until = kForever;
 };
 
-// What the domain's face is: a wall; an edge that liquid falls off (no pressure beyond, and nothing comes
-// back); a cut through a stream that goes on beyond, so that waves pass through; a plane beyond which all
-// goes on as its mirror image: liquid slips along it and never lets go; or no face: the domain goes on as far
-// as liquid gets.
+// Kinds of the domain's sides. wall: solid. open: an edge that liquid falls off, with no pressure beyond and
+// no inflow. stream: a cut through a stream that continues beyond, so that waves pass through. symmetry: a
+// plane beyond which everything is its mirror image; liquid slips along it and never separates. unbounded: no
+// side; the domain extends as far as liquid gets.
 enum class Side { wall, open, stream, symmetry, unbounded };
 
-// Whether nothing passes.
+// Whether nothing passes through the side.
 inline bool isClosed(Side side) {
   return side == Side::wall || side == Side::symmetry;
 }
 
 struct Options {
-  Vec3d size{1.0};  // of the domain, metres; on unbounded sides, where it would end
+  Vec3d size{1.0};  // of the domain, metres; on unbounded sides nominal
   // Its faces: at low x, high x, low y, high y, low z, high z.
   std::array<Side, 6> sides{};
   int resolution = 64;  // cells along the longest side of [0, size]
@@ -140,16 +140,16 @@ struct Options {
   double viscosity = 0.001;     // Pa s
   double surfaceTension = 0.0;  // N/m, of water 0.072
   HeatOptions heat;
-  std::vector<DomainWall> walls;  // what differs from a wall that slips; of several for one face, the last
+  std::vector<DomainWall> walls;  // other than free slip; of several for one face, the last
   double cfl = 3.0;               // a substep moves nothing further than this many cells
   double frameRate = 24.0;        // frames a second
   std::vector<LiquidBody> liquid;
   std::vector<Solid> solids;
   std::vector<Source> sources;
   std::vector<Drain> drains;
-  std::uint64_t seed = 1;  // of the scene: where markers are put
+  std::uint64_t seed = 1;  // of the scene: places of markers
 
-  // Of a side that is a wall, in the order of `sides`.
+  // The wall of a side, in the order of `sides`.
   Wall wallOf(int side) const {
     Wall wall;
     for (const DomainWall& given : walls) {

@@ -1,4 +1,4 @@
-// Shapes as a scene gives them: of liquid, solids, sources and drains. Metres, world space.
+// Shapes of liquid, solids, sources and drains, as a scene gives them. Metres, world space.
 #pragma once
 
 #include "sim/vec3.h"
@@ -38,19 +38,19 @@ struct MeshShape {
   Vec3d translate{0.0};
 };
 
-// One surface that changes its shape: closed meshes in numbered files of the same kinds. The file with number
-// `first` shows it at time `start` (seconds), each other one 1/frameRate later than the one before. All have
-// the same vertices and faces in the same order: each vertex goes in straight lines from file to file. Before
-// the first and after the last the surface is at rest. Only a solid changes; what else is made of a sequence
-// stays as in the first file.
+// A surface that changes its shape: closed meshes in numbered files of the same formats. The file with number
+// `first` shows it at time `start` (seconds), each next one 1/frameRate later. All have the same vertices and
+// faces in the same order; each vertex moves in straight lines from file to file. Before the first and after
+// the last the surface is at rest. Only solids change their shape; liquid, sources and drains stay as in the
+// first file.
 struct MeshSequence {
-  std::filesystem::path files;  // with the number's place in its last part: %d, or %04d for four digits
+  std::filesystem::path files;  // with a place for the number in its last part: %d, or %04d for four digits
   int first = 1, last = 1;
   double frameRate = 24.0, start = 0.0;
   double scale = 1.0;
   Vec3d translate{0.0};
 
-  // Of the n-th file, counted from 0.
+  // The time of the n-th file, counted from 0, s.
   double timeOf(int n) const { return start + n / frameRate; }
   std::filesystem::path fileOf(int n) const {
     std::string name = files.filename().string(), number = std::to_string(first + n);
@@ -65,8 +65,9 @@ struct MeshSequence {
 
 // Ground from a grey image of 8 or 16 bits: black lies at height `low`, white at `high`; one pixel is `pixel`
 // metres wide, the picture's top is at high y. translate: of its lower left corner, and of all heights.
-// Between pixel centres the heights are bicubic. All below is inside; where the picture ends at a side of
-// [0, size] or beyond, its rim goes on; on unbounded sides it does so wherever it ends.
+// Between pixel centres the heights are bicubic. Everything below is inside. Where the picture ends at a side
+// of [0, size] or beyond, its rim extends outward without end; on unbounded sides it does so wherever it
+// ends.
 struct HeightField {
   std::filesystem::path file;
   double pixel = 1.0;
@@ -80,7 +81,7 @@ struct Union {
   std::vector<Shape> parts;
 };
 
-// The first part less all the others.
+// The first part minus all the others.
 struct Difference {
   std::vector<Shape> parts;
 };

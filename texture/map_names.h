@@ -9,8 +9,7 @@
 
 namespace fluidtex::texture {
 
-// Whether a map of one's own may not have that name: that of a property which every vertex has anyway, or may
-// have.
+// Whether the name is reserved: that of a vertex property that every PLY has, or may have.
 inline bool isReservedName(const std::string& name) {
   static const std::set<std::string> kNames = {
       "x",  "y",     "z",   "nx",      "ny",     "nz",     "red",  "green", "blue",     "alpha",
@@ -19,7 +18,7 @@ inline bool isReservedName(const std::string& name) {
   return kNames.contains(name);
 }
 
-// The names of a vector's three parts in a PLY.
+// Names of a vector's three components in a PLY.
 inline std::vector<std::string> vectorNames(const std::string& name) {
   return {name + "_x", name + "_y", name + "_z"};
 }

@@ -1,5 +1,6 @@
-// Plain values that stand for a surface at the various stages of one frame. Arrays are per vertex of level 0
-// unless said otherwise, positions in metres.
+// Plain structs that describe a surface at the stages of one frame: mesh, transported texture, textured
+// surface.
+// Arrays have one entry per vertex of level 0 (#V) unless said otherwise. Positions are in metres.
 #pragma once
 
 #include <openvdb/Types.h>
@@ -16,90 +17,90 @@ using openvdb::Vec3f;
 using openvdb::Vec3I;
 using openvdb::Vec4f;
 
-// d(exemplar coordinate)/d(world position), texels per metre: row 0 for s (columns of the image, rightwards),
-// row 1 for t (rows, downwards); both rows tangent to the surface. Carried in world space, so that it means
-// the same whatever frame a vertex chooses.
+// Gradient of the exemplar coordinate in world space, texels per metre. Row s: columns of the image,
+// rightwards; row t: rows, downwards. Both rows are tangent to the surface. World space, so that the value
+// does not depend on the axes that a vertex chooses.
 struct TexelGradient {
   Vec3f s{0.0f}, t{0.0f};
 };
 
-// One level of detail: a closed, oriented, manifold mesh whose vertices are spread evenly over the surface.
+// One level of detail: a closed, oriented, manifold mesh with evenly spaced vertices.
 struct SurfaceMesh {
-  double spacing = 0.0;  // sigma: side of the square that one vertex stands for; one exemplar pixel, metres
+  double spacing = 0.0;  // sigma, metres: side of the square that one vertex stands for, one exemplar pixel
   std::vector<Vec3f> positions;    // #V
-  std::vector<Vec3f> normals;      // #V, unit, outward: grad(phi), or the mesh's own on rims
+  std::vector<Vec3f> normals;      // #V, unit, outward: grad(phi), or the mesh normal on rims
   std::vector<Vec3I> triangles;    // #T, counter-clockwise seen from outside
   std::vector<Vec3f> orientation;  // #V, unit, tangent; empty before orient()
-  std::vector<float> scale;  // #V: an exemplar pixel's side is spacing * scale there; empty: 1 everywhere
-  std::vector<float> guidance{};  // #V, 0..1: the level of the guidance map that is wanted there; empty: none
-  std::vector<float> foam{};      // #V, 0..1, where guidance follows it; else empty
+  std::vector<float> scale;        // #V: factor on the spacing, side of an exemplar pixel / spacing; empty: 1
+  std::vector<float> guidance{};   // #V, 0..1: level of the guidance map that is wanted; empty: unguided
+  std::vector<float> foam{};       // #V, 0..1: foam, where guidance follows it; else empty
   double spacingAt(std::uint32_t v) const { return scale.empty() ? spacing : spacing * double(scale[v]); }
 };
 
-// A vertex's local axes: d = orientation runs along the exemplar's columns to the right, b = d x n along its
-// rows downwards, seen from outside. ([Kwatra07] uses t = n x d = -b with the image upside down.) Local
-// coordinates are l = ((x - p) . d, (x - p) . b) / spacingAt, in exemplar pixels.
+// A vertex's local axes, seen from outside: d = orientation points right along the exemplar's columns, and b
+// = d x n points down its rows. ([Kwatra07] uses t = n x d = -b with the image upside down.) Local
+// coordinates of a point x are l = ((x - p) . d, (x - p) . b) / spacingAt, in exemplar pixels.
 inline Vec3f rowAxis(const Vec3f& d, const Vec3f& n) {
   return d.cross(n);
 }
 
-// What prepareSurface() makes: levels[0] is the finest; coarser ones have 2^L times its spacing. Level count
-// is one where the texture is carried over from an earlier frame. Empty (no levels) when there is no surface.
+// Result of prepareSurface(). levels[0] is the finest; level L has 2^L times its spacing. Later frames have
+// one level, until addCoarserLevels() adds more. No levels: there is no surface.
 struct Surface {
   std::vector<SurfaceMesh> levels;
   bool empty() const { return levels.empty() || levels[0].positions.empty(); }
 };
 
-// What renewed vertices showed before. Their colour is mixed from the old place and the new until the old one
-// has faded.
+// Cross-fade at renewed vertices: the colour is mixed from the former exemplar coordinate and the new one
+// until the weight of the former is 0.
 struct Fading {
-  std::vector<Vec2f> coordinate;  // exemplar coordinate, texels
+  std::vector<Vec2f> coordinate;  // former exemplar coordinate, texels
   std::vector<TexelGradient> gradient;
-  std::vector<float> weight;  // 1: all of the colour is the old place's, 0: none, and the place means nothing
-  std::vector<float> speed;   // 1/s: by how much the weight falls
+  std::vector<float> weight;  // 1 to 0, of the former colour; at 0 its coordinate means nothing
+  std::vector<float> speed;   // 1/s, decrease of the weight
 };
 
-// Nothing that fades, at `count` vertices.
+// No cross-fade, at `count` vertices.
 inline Fading noFading(std::size_t count) {
   return {std::vector<Vec2f>(count, Vec2f(0.0f)), std::vector<TexelGradient>(count),
           std::vector<float>(count, 0.0f), std::vector<float>(count, 0.0f)};
 }
 
-// What each vertex shows.
+// Texture at the vertices.
 struct VertexTexture {
   std::vector<Vec4f> color;  // #V: linear RGBA, straight alpha
   std::vector<Vec2f>
       coordinate;  // #V: exemplar coordinate, texels; texel centres at integers, origin top left
   std::vector<TexelGradient> gradient;  // #V
   Fading fading;
-  std::vector<float> age;               // #V: s since the texture here was last renewed
-  std::vector<float> trust;             // #V, 0..1: how far what was carried here can be believed
-  std::vector<Vec3f> previousPosition;  // #V: where the vertex was one frame ago, on the old surface
+  std::vector<float> age;               // #V, s since the texture was last renewed
+  std::vector<float> trust;             // #V, 0..1: confidence in the transported values
+  std::vector<Vec3f> previousPosition;  // #V: position one frame ago, on the old surface
 };
 
-// The earlier frame's texture brought onto a new surface: colours are barycentric means (what method kwatra07
-// carries), gradients those after the flow's deformation. Every array has one entry per vertex of levels[0],
-// or none at all on the first frame.
+// The previous frame's texture, transported onto a new surface. Colours are barycentric means (used by method
+// kwatra07). Gradients are deformed by the flow. Every array has one entry per vertex of levels[0]; on the
+// first frame all are empty.
 struct Carried : VertexTexture {
-  std::vector<Vec3f> orientation;  // unit, tangent, turned with the flow
-  std::vector<float> foam;         // 0..1, barycentric; empty where the earlier surface had none
+  std::vector<Vec3f> orientation;  // #V, unit, tangent, turned by the flow
+  std::vector<float> foam;         // #V, 0..1, barycentric; empty where the old surface had none
   bool empty() const { return previousPosition.empty(); }
 };
 
-// What synthesize() reports.
+// Report of synthesize().
 struct SynthesisStats {
-  double energyStart = 0.0, energyEnd = 0.0;  // E of the last pass's window, before and after
-  int iterations = 0;                         // all levels and windows
-  double renewed = 1.0;  // share of vertices whose exemplar coordinate is not the carried one
+  double energyStart = 0.0, energyEnd = 0.0;  // energy E of the last pass: at its start, at its end
+  int iterations = 0;                         // total over all levels and windows
+  double renewed = 1.0;  // share of vertices whose exemplar coordinate is not the transported one
 };
 
-// The end product of a frame: rendered, written, measured, and carried to the next. texture/vertex_arrays.h
-// lists its arrays.
+// The result of a frame: rendered, written, measured, and transported to the next frame. Its arrays are
+// listed in texture/vertex_arrays.h.
 struct TexturedSurface : SurfaceMesh, VertexTexture {
   std::vector<Vec3f> velocity;                        // #V, m/s
   std::vector<std::uint8_t> contact;                  // #V: 1 where the vertex touches a solid
-  std::map<std::string, std::vector<float>> maps;     // #V each: further maps of the exemplar by name
-  std::map<std::string, std::vector<Vec3f>> vectors;  // #V each: unit or zero, in space: maps of vectors
+  std::map<std::string, std::vector<float>> maps;     // #V each: further scalar maps of the exemplar, by name
+  std::map<std::string, std::vector<Vec3f>> vectors;  // #V each: vector maps; world space, unit or zero
   int exemplarWidth = 0, exemplarHeight = 0;          // texels
   bool empty() const { return positions.empty(); }
 };

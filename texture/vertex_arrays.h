@@ -1,7 +1,6 @@
-// Every array of a surface that has one entry a vertex. What checks surfaces, makes room for what is carried
-// and keeps states walks these lists: a further array is a member in texture/surface.h and a line here. How
-// it is carried (transport/carry.cpp, transport/onto.cpp) and its properties in a PLY (tools/ply.cpp) it has
-// to say itself.
+// Lists of all per-vertex arrays of a surface, for code that checks, resizes, transports or saves them. A new
+// array needs a member in texture/surface.h and a line here. Its transport (transport/carry.cpp,
+// transport/onto.cpp) and its PLY properties (tools/ply.cpp) have to be written by hand.
 #pragma once
 
 #include "texture/surface.h"
@@ -11,12 +10,12 @@
 
 namespace fluidtex::texture {
 
-// Whether an array may be empty instead.
+// Whether an array may be empty.
 enum class Array { needed, optional };
 
 namespace detail {
 
-// `Part&`, const where `Whole` is.
+// `Part&`, const where `Whole` is const.
 template <class Part, class Whole>
 auto& partOf(Whole& whole) {
   return static_cast<std::conditional_t<std::is_const_v<Whole>, const Part, Part>&>(whole);
@@ -24,8 +23,8 @@ auto& partOf(Whole& whole) {
 
 }  // namespace detail
 
-// visit(array, Array) for each array of a mesh. That none is left out, the compiler sees: the names must be
-// as many as the members.
+// visit(array, Array) for each array of a mesh. The structured binding fails to compile if a member is
+// missing.
 template <class Mesh, class Visit>
 void forEachMeshArray(Mesh& mesh, const Visit& visit) {
   auto& [spacing, positions, normals, triangles, orientation, scale, guidance, foam] =
@@ -38,7 +37,7 @@ void forEachMeshArray(Mesh& mesh, const Visit& visit) {
   visit(foam, Array::optional);
 }
 
-// The same for the arrays of what vertices show.
+// The same for the arrays of a VertexTexture.
 template <class Texture, class Visit>
 void forEachTextureArray(Texture& texture, const Visit& visit) {
   auto& [color, coordinate, gradient, fading, age, trust, previousPosition] =
@@ -56,7 +55,7 @@ void forEachTextureArray(Texture& texture, const Visit& visit) {
   visit(previousPosition, Array::needed);
 }
 
-// The same for all arrays of a finished frame's surface, further maps by name included.
+// The same for all arrays of a textured surface, further maps by name included.
 template <class Surface, class Visit>
 void forEachVertexArray(Surface& surface, const Visit& visit) {
   static_assert(sizeof(TexturedSurface) == sizeof(SurfaceMesh) + sizeof(VertexTexture) +
@@ -72,7 +71,7 @@ void forEachVertexArray(Surface& surface, const Visit& visit) {
   for (auto& [name, values] : surface.vectors) visit(values, Array::needed);
 }
 
-// Whether an array has an entry for each of `count` vertices, or none where it may.
+// Whether an array has `count` entries, or is empty where it may be.
 template <class Values>
 bool fits(const Values& values, Array array, std::size_t count) {
   return values.size() == count || (array == Array::optional && values.empty());

@@ -1,4 +1,4 @@
-// Further maps on the surfaces of a finished run: what `fluidtex apply` does.
+// fluidtex apply: further maps on the surfaces of a finished run.
 #pragma once
 
 #include "texture/options.h"
@@ -11,16 +11,16 @@ namespace fluidtex::tools {
 
 struct ApplyWishes {
   std::filesystem::path out;              // the run's folder
-  std::vector<texture::MapOptions> maps;  // `color` stands for the colours
+  std::vector<texture::MapOptions> maps;  // `color` replaces the colours
   std::filesystem::path exemplar;         // empty: the run's own
 };
 
-// Looks the maps up at every vertex of every surface of the run, and writes the surfaces anew with them;
-// nothing is synthesized. Throws UsageError where the folder holds no run, or a name cannot be that of a map,
-// and ExemplarError where an image cannot be read; then nothing has changed.
+// Looks the maps up at every vertex of the run's surfaces and rewrites the surfaces with them, without
+// synthesis. Throws UsageError if the folder holds no run or a name is not valid for a map, ExemplarError if
+// an image cannot be read; then nothing has changed.
 void applyMaps(const ApplyWishes& wishes);
 
-// "NAME=FILE", "NAME:normals=FILE" or "NAME:directions=FILE". Throws UsageError where it is something else.
+// Parses "NAME=FILE", "NAME:normals=FILE" or "NAME:directions=FILE". Throws UsageError for anything else.
 texture::MapOptions parseMap(const std::string& text);
 
 }  // namespace fluidtex::tools

@@ -1,4 +1,4 @@
-// Files that never bear their final name half written: temporary name, flush to disk, rename.
+// Atomic writes: temporary name, flush to disk, rename; no file bears its final name half written.
 #pragma once
 
 #include <filesystem>
@@ -7,29 +7,27 @@
 
 namespace fluidtex::tools {
 
-// Calls write(TEMPORARY) with a name in the same folder and the same extension, flushes what it wrote and
-// renames it to `file`. The folder is made where missing. Whatever bore the temporary name before is removed;
-// a link, not what it leads to. If write throws, or the file cannot be flushed or renamed
-// (std::system_error), the temporary file is removed and the exception goes on. It is for `write` to throw
-// where the disk took less than it was given: writeBytes() does.
+// Calls write(TEMPORARY) with a name in the same folder and the same extension, flushes the file and renames
+// it to `file`. Creates the folder if missing. Removes what bore the temporary name before; of a link, the
+// link. If write throws, or flush or rename fails (std::system_error), the temporary file is removed and the
+// exception propagates. `write` has to throw if the disk takes less than it is given, as writeBytes() does.
 void writeAtomically(const std::filesystem::path& file,
                      const std::function<void(const std::filesystem::path&)>& write);
 
-// The same for a whole folder: `write` fills an empty temporary folder, every file in it is flushed. A folder
-// that was there before is taken away just before; killed in between, neither is there, but never a part of
-// one.
+// The same for a whole folder: `write` fills an empty temporary folder, whose files are flushed. An existing
+// folder is removed just before the rename: a kill in between leaves neither, but never a part of one.
 void writeFolderAtomically(const std::filesystem::path& folder,
                            const std::function<void(const std::filesystem::path&)>& write);
 
-// Puts the bytes into a new file. Throws std::system_error that names it where not every one got there.
+// Writes the bytes to a new file. Throws std::system_error that names it unless all of them were written.
 void writeBytes(const std::filesystem::path& file, std::string_view bytes);
 
 void writeTextAtomically(const std::filesystem::path& file, std::string_view text);
 
-// Removes a folder that may be there, under a temporary name, so that no part of it ever bears its own.
+// Removes a folder, if it exists, under a temporary name, so that no part of it ever bears its own.
 void removeFolderAtomically(const std::filesystem::path& folder);
 
-// Removes what a killed run left behind under temporary names, directly inside `folder`.
+// Removes temporaries of a killed run directly inside `folder`.
 void removeTemporaries(const std::filesystem::path& folder);
 
 }  // namespace fluidtex::tools

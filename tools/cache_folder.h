@@ -1,12 +1,12 @@
-// Where the program keeps what it would otherwise compute anew on each run.
+// Location of the cache between runs.
 #pragma once
 
 #include <filesystem>
 
 namespace fluidtex::tools {
 
-// $XDG_CACHE_HOME/fluidtex, or ~/.cache/fluidtex where that is not set or no absolute name, as the XDG Base
-// Directory Specification has it. Empty, for nothing is kept, where HOME is not set either.
+// $XDG_CACHE_HOME/fluidtex, or ~/.cache/fluidtex if that is unset or not absolute, as in the XDG Base
+// Directory Specification. Empty, for no cache, if HOME is unset too.
 std::filesystem::path cacheFolder();
 
 }  // namespace fluidtex::tools

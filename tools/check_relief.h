@@ -1,4 +1,4 @@
-// Whether the map that relief is to be drawn from can give any.
+// Checks that the relief's map can be drawn as relief.
 #pragma once
 
 #include "render/options.h"
@@ -6,8 +6,8 @@
 
 namespace fluidtex::tools {
 
-// Only the pictures themselves tell how many channels maps have. Throws texture::ExemplarError where the
-// relief's map holds values of several.
+// The number of a map's channels is known only from its picture. Throws texture::ExemplarError if the
+// relief's map holds values of several channels.
 void checkRelief(const render::Bump& bump, const texture::Exemplar& exemplar);
 
 }  // namespace fluidtex::tools

@@ -1,4 +1,4 @@
-// What the pictures of a scene show between the points of the surface.
+// Colours between the points of the surface, for a scene's pictures.
 #pragma once
 
 #include "render/render.h"
@@ -8,12 +8,12 @@
 
 namespace fluidtex::tools {
 
-// The picture to look up, read from its file; nothing where points' colours are interpolated: because the
-// scene wants so, or because its colours are not those of exemplar coordinates. Throws ExemplarError: it
-// cannot be read, or has not the exemplar's shape.
+// The picture to look up, read from its file. Nothing if the points' colours are interpolated: because the
+// scene says so, or because its colours are not looked up at exemplar coordinates. Throws ExemplarError if it
+// cannot be read or has not the exemplar's aspect ratio.
 std::optional<texture::Detail> detailOf(const texture::Options& options);
 
-// Looks `detail` up on `surface`; empty without one. Both must outlive the result.
+// Look-up of `detail` on `surface`; empty without `detail`. Both must outlive the result.
 render::ColorBetween colorBetween(const std::optional<texture::Detail>& detail,
                                   const texture::TexturedSurface& surface);
 

@@ -1,4 +1,4 @@
-// The subcommands of the program; each adds itself to the command line and does its work when it was chosen.
+// Subcommands of the program; each adds itself to the command line, and runs if chosen.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,12 +9,12 @@
 
 namespace fluidtex::tools {
 
-// What every subcommand that takes a scene understands.
+// Options of every subcommand that takes a scene.
 struct CommonOptions {
   std::filesystem::path scene, out, exemplar;
   std::string frames, quality = "default";
   std::vector<std::string> set;
-  int threads = 0;  // 0: one a core
+  int threads = 0;  // 0: one per core
   bool resume = false, noRender = false, quiet = false, verbose = false;
 };
 

@@ -1,4 +1,4 @@
-// The figures of runs that are set side by side.
+// Table of measures, to compare runs.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace fluidtex::tools {
 
-// Means over the frames of a finished run; nothing where a figure is not known.
+// Means over the frames of a finished run; nothing where a measure is unknown.
 struct Compared {
   std::string label;
   std::optional<double> likeness, sharpness, alongFlow, pop, shape;  // as `fluidtex measure` defines them
@@ -16,8 +16,8 @@ struct Compared {
   std::optional<double> seconds;  // of transport and synthesis, on these frames
 };
 
-// Reads OUT/run.json, and, where it is there, OUT/measure.json of `fluidtex measure`. Throws
-// std::runtime_error where the first is missing or one is damaged.
+// Reads OUT/run.json, and OUT/measure.json of `fluidtex measure` if it exists. Throws std::runtime_error if
+// the first is missing or one is damaged.
 Compared comparedRun(const std::string& label, const std::filesystem::path& out);
 
 std::string toJson(const std::vector<Compared>& rows);

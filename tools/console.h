@@ -1,5 +1,5 @@
-// What the program prints. Its progress and its complaints are for who looks on: where they cannot be
-// printed, the work goes on. What it was called for has to get there.
+// Console output. Progress and messages may fail to print without stopping the work; results must not get
+// lost.
 #pragma once
 
 #include <fmt/core.h>
@@ -9,9 +9,9 @@
 
 namespace fluidtex::tools {
 
-// To be called first of all. Standard streams that were closed lead nowhere from then on: the next file that
-// is opened would take their place, and what is printed would go into it. No signal ends the program where a
-// pipe's reader has gone or a file may not grow any more: the call that writes says so.
+// To be called first. Opens closed standard streams to nowhere, since the next file that is opened would take
+// their place and receive what is printed. Ignores the signals of broken pipes and file size limits, so that
+// the write reports the error.
 void openStandardStreams();
 
 void sayText(std::string_view text);
@@ -23,13 +23,13 @@ void say(fmt::format_string<Args...> format, Args&&... args) {
   sayText(fmt::format(format, std::forward<Args>(args)...));
 }
 
-// On stdout; whether it got there, finishPrinting() tells.
+// On stdout; failures are reported by finishPrinting().
 template <typename... Args>
 void print(fmt::format_string<Args...> format, Args&&... args) {
   printText(fmt::format(format, std::forward<Args>(args)...));
 }
 
-// Throws std::runtime_error where anything that was printed on stdout did not get there; once.
+// Throws std::runtime_error, once, if anything printed on stdout was lost.
 void finishPrinting();
 
 }  // namespace fluidtex::tools

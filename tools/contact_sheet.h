@@ -1,4 +1,4 @@
-// Pictures side by side, each with its name, as one picture.
+// Contact sheet: labelled pictures in one picture.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@ namespace fluidtex::tools {
 
 struct LabelledPicture {
   std::filesystem::path file;
-  std::string label;  // in the upper left corner; none where empty
+  std::string label;  // in the upper left corner; empty: none
 };
 
-// `columns` pictures a row, from left to right and top to bottom, each scaled to `width` pixels and the
-// height that the first picture's shape asks for. The format is that of the file's ending, sRGB, 8 bits.
-// Throws std::runtime_error that names the picture that cannot be read, or the file that cannot be written.
+// `columns` pictures per row, left to right and top to bottom, each scaled to a width of `width` pixels and
+// the height of the first picture's aspect ratio. sRGB, 8 bits; format by the file's extension. Throws
+// std::runtime_error that names the picture that cannot be read, or the file that cannot be written.
 void writeContactSheet(const std::vector<LabelledPicture>& pictures, int columns, int width,
                        const std::filesystem::path& file);
 

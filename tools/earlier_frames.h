@@ -1,4 +1,4 @@
-// What a run that goes on has from the run before it.
+// What a resumed run takes over from the run before.
 #pragma once
 
 #include "scenes/scene.h"
@@ -19,10 +19,10 @@ struct EarlierFrames {
   bool writeLastAgain = false;       // files of the last are lost or changed
 };
 
-// Looks through options.out for frames that are done, up to the scene's last one `last`, and removes what a
-// killed run left half-written. now: the report of this run, still without frames. Nothing where there is
-// none to go on from. Throws UsageError where the scene or its files are others, or a file of a frame is not
-// as it was written, and std::runtime_error for a damaged state.
+// Looks in options.out for finished frames, up to the scene's last one `last`, and removes half-written files
+// of a killed run. now: report of this run, without frames. Nothing if there is nothing to resume. Throws
+// UsageError if the scene or its files differ, or a frame's file has changed since it was written, and
+// std::runtime_error for a damaged state.
 std::optional<EarlierFrames> earlierFrames(const scenes::Scene& scene, const RunOptions& options,
                                            const Report& now, int last);
 

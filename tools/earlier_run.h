@@ -1,5 +1,5 @@
-// What an earlier run has left in the out folder. Only what a run writes itself is touched; the user's own
-// files in the same folders stay.
+// Files of an earlier run in the out folder. Only files that a run writes are touched; the user's own files
+// in the same folders stay.
 #pragma once
 
 #include "tools/journal.h"
@@ -11,23 +11,23 @@
 
 namespace fluidtex::tools {
 
-// Removes all temporary files and folders that a killed run left behind.
+// Removes all temporary files and folders of a killed run.
 void removeLeftovers(const std::filesystem::path& out);
 
-// Makes the folder where it is missing and removes frames, surfaces, states, journal, report, video and log
-// of an earlier run of the scene. The state goes first: a kill on the way leaves nothing that could be
-// continued wrongly.
+// Creates the folder if missing, and removes frames, surfaces, states, journal, report, video and log of an
+// earlier run of the scene. The state goes first, so that a kill in between leaves nothing that could be
+// resumed wrongly.
 void clearEarlierRun(const std::filesystem::path& out, const std::string& sceneName);
 
-// What a frame leaves, relative to `out`: its surface, its picture where `rendered`, the scene's own mesh
-// where `onto`.
+// Files of a frame, relative to `out`: its surface, its picture if `rendered`, the scene's own mesh if
+// `onto`.
 std::vector<std::string> resultsOf(int frame, bool rendered, bool onto);
 
 struct Broken {
   int frame = 0;
   std::string name;      // relative to `out`
-  bool there = false;    // but not as the run wrote it
-  bool written = false;  // by the run, and lost or changed since; else it was never asked for
+  bool there = false;    // it exists, but not as the run wrote it
+  bool written = false;  // by the run, and lost or changed since; else it was never requested
 };
 
 // The first result of frames first..last that is not as the journal says.

@@ -1,4 +1,4 @@
-// What a command throws where the user has to act, and how every exception becomes an exit code.
+// Exceptions of commands for user errors, and exit codes of all exceptions.
 #pragma once
 
 #include <functional>
@@ -8,20 +8,20 @@ namespace fluidtex::tools {
 
 enum ExitCode { kDone = 0, kInputWrong = 1, kFailed = 2, kInterrupted = 130 };
 
-// The user's wishes do not fit the scene or what lies in the out folder; one sentence.
+// The arguments do not fit the scene or the contents of the out folder; one sentence.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Stopped on request; the state of the last whole frame is on disk.
+// Stopped on request; the state of the last complete frame is on disk.
 struct Interrupted : std::runtime_error {
   Interrupted()
       : std::runtime_error(
             "interrupted; the same command with --resume goes on from the last finished frame") {}
 };
 
-// Calls body; every exception becomes its sentence on stderr (all the faults of a scene, a line each) and an
-// exit code: wrong scenes, exemplars, meshes and wishes kInputWrong, Interrupted kInterrupted, all else
+// Calls body. Prints an exception's sentence on stderr (for a scene one line per fault) and returns its exit
+// code: invalid scenes, exemplars, meshes and arguments kInputWrong, Interrupted kInterrupted, all else
 // kFailed.
 int guarded(const std::function<void()>& body);
 

@@ -1,4 +1,4 @@
-// What a file's content is known by again.
+// Identifies a file's content.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@ struct Fingerprint {
   bool operator==(const Fingerprint&) const = default;
 };
 
-// Throws std::system_error that names the file where it cannot be read.
+// Throws std::system_error that names the file if it cannot be read.
 Fingerprint fingerprintOf(const std::filesystem::path& file);
 
-// The same hash, of a text.
+// The same hash of a text.
 std::string hashOf(std::string_view text);
 
 }  // namespace fluidtex::tools

@@ -1,4 +1,4 @@
-// What fluidtex run has left in a folder, for commands that work on it afterwards.
+// Reads the folder of a finished run, for commands that work on it.
 #pragma once
 
 #include "texture/exemplar/exemplar.h"
@@ -15,26 +15,25 @@ struct FinishedRun {
   std::filesystem::path exemplar;  // the image's name
   texture::Image color;            // and its pixels, linear RGBA
   bool toroidal = false;
-  std::vector<int> frames;  // whose surface is there, ascending; never none
+  std::vector<int> frames;  // with a surface on disk, ascending; never empty
   std::filesystem::path surfaceOf(int frame) const;
 };
 
-// What the report says of a frame; null where it says nothing.
+// The report's record of a frame; null if there is none.
 const Json* recordOf(const FinishedRun& run, int frame);
 Json* recordOf(FinishedRun& run, int frame);
 
-// The frame's spacing, metres, as the report says; or else of as many squares as the surface has points,
-// since one vertex shows a texel.
+// The frame's spacing from the report, metres; else from area / points, as one vertex stands for one texel.
 double spacingOf(const FinishedRun& run, const texture::TexturedSurface& surface, int frame);
 
-// The same for a surface in the folder of a run whose report may be gone.
+// The same for a surface in the folder of a run whose report may be missing.
 double spacingOf(const std::filesystem::path& out, const texture::TexturedSurface& surface, int frame);
 
-// The folder as it is given, if it is one: what works on a run makes none. Throws UsageError.
+// Returns the folder if it exists; commands that work on a run create none. Throws UsageError otherwise.
 const std::filesystem::path& existing(const std::filesystem::path& out);
 
-// `exemplar`: instead of the run's own, where that is no longer at its place; else empty. Throws UsageError
-// where the folder holds no run, or its exemplar is gone.
+// exemplar: replaces the run's own, if that has moved; else empty. Throws UsageError if the folder holds no
+// run, or its exemplar is missing.
 FinishedRun openRun(const std::filesystem::path& out, const std::filesystem::path& exemplar);
 
 }  // namespace fluidtex::tools

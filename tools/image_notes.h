@@ -1,4 +1,4 @@
-// What there is to say of a scene's pictures before they are used.
+// Warnings about a scene's pictures.
 #pragma once
 
 #include "texture/options.h"
@@ -9,11 +9,11 @@
 
 namespace fluidtex::tools {
 
-// One sentence for each picture of colours whose own colour profile cannot be followed. Only the beginning of
-// each file is looked at; of what cannot be read at all, reading it tells.
+// One sentence for each colour picture whose colour profile cannot be applied. Reads only the beginning of
+// each file; unreadable ones are reported when they are read.
 std::vector<std::string> imageNotes(const std::vector<std::filesystem::path>& pictures);
 
-// The pictures of colours that a scene has: its exemplar, and a finer picture of it.
+// A scene's colour pictures: its exemplar, and a finer picture of it.
 std::vector<std::filesystem::path> colorPictures(const texture::ExemplarOptions& options);
 
 }  // namespace fluidtex::tools

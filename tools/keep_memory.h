@@ -1,13 +1,13 @@
-// Memory that is freed stays with the process.
+// Keeps freed memory in the process.
 #pragma once
 
 #include <malloc.h>
 
 namespace fluidtex::tools {
 
-// Every frame needs about as much as the one before it, in pieces of some megabytes, which malloc would hand
-// back to the system each time: for surfaces of a million points a sixth of preparation was spent on having
-// the same pages cleared again. To be called first of all.
+// Each frame needs about the same memory as the last, in blocks of megabytes that malloc would return to the
+// system: on surfaces of a million points, clearing the same pages again took a sixth of surface preparation.
+// To be called first.
 inline void keepMemory() {
   constexpr int kNever = -1;
   mallopt(M_MMAP_MAX, 0);

@@ -1,4 +1,4 @@
-// How good the texture of a finished run is, in figures: what `fluidtex measure` does.
+// fluidtex measure: quality measures of a finished run's texture.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,13 @@ namespace fluidtex::tools {
 struct MeasureWishes {
   std::filesystem::path out;       // the run's folder
   std::filesystem::path exemplar;  // empty: the run's own
-  std::filesystem::path json;      // all figures go there too; empty: nowhere
-  int every = 8;                   // likeness and pieces on every so-many-th frame and the last
+  std::filesystem::path json;      // file for all measures; empty: none
+  int every = 8;                   // likeness and pieces on every so-many-th frame, and on the last
   bool quiet = false;              // no table on stdout
 };
 
 // Reads run.json and surface/, and fills likeness, sharpness and change_along_flow of run.json. Throws
-// UsageError where the folder holds no run, or its exemplar is gone.
+// UsageError if the folder holds no run, or its exemplar is missing.
 void measureRun(const MeasureWishes& wishes);
 
 }  // namespace fluidtex::tools

@@ -1,4 +1,4 @@
-// How much memory a scene takes, as far as it can be told beforehand.
+// Estimate of a scene's memory.
 #pragma once
 
 #include "pipeline/liquid_plan.h"
@@ -8,10 +8,10 @@
 
 namespace fluidtex::tools {
 
-// What a cell of liquid takes, bytes.
+// Bytes per cell of liquid.
 inline constexpr double kBytesPerLiquidCell = 5000.0;
 
-// Points on the surface of all liquid of the scene; nothing where sources bring more of it than can be told.
+// Points on the surface of all liquid of the scene; nothing if sources bring an unknown amount.
 std::optional<double> plannedPoints(const scenes::Scene& scene, const pipeline::LiquidPlan& liquid);
 
 // Bytes, without what flows in from sources.

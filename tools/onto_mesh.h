@@ -1,4 +1,4 @@
-// A frame's texture on the mesh that the scene names in [texture.onto].
+// A frame's texture on the mesh of [texture.onto].
 #pragma once
 
 #include "sim/options.h"
@@ -6,8 +6,8 @@
 
 namespace fluidtex::tools {
 
-// Reads the frame's file (frames count from 1) and brings the surface's maps onto it. Polygons are cut into
-// triangles from their first corner; vertices keep their order. `symmetry` is that of the exemplar. Throws
+// Reads the frame's file (frames count from 1) and transfers the surface's maps to it. Polygons are
+// fan-triangulated from their first corner; vertices keep their order. symmetry: of the exemplar. Throws
 // sim::MeshError.
 texture::TexturedSurface ontoMesh(const texture::TexturedSurface& surface, const sim::MeshSequence& meshes,
                                   int frame, int symmetry);

@@ -1,16 +1,16 @@
-// The folder that a command writes into.
+// Output folder of a command.
 #pragma once
 
 #include <filesystem>
 
 namespace fluidtex::tools {
 
-// Held by one process at a time, as long as this lives and no longer than the process does; and nothing in it
-// leads out of it, so that what a run writes or removes there is there.
+// Locked by one process at a time, for the lifetime of this object and at most of the process. Contains no
+// links for what a run writes or removes, so that all of it is inside the folder.
 class OutFolder {
  public:
-  // Makes the folder where it is missing. Throws UsageError, with the folder's name, where it can be neither
-  // made nor written into, another process holds it, or something that a run writes or removes is a link.
+  // Creates the folder if missing. Throws UsageError, with the folder's name, if it cannot be created or
+  // written, if another process holds it, or if something that a run writes or removes is a link.
   explicit OutFolder(const std::filesystem::path& folder);
   ~OutFolder();
   OutFolder(const OutFolder&) = delete;

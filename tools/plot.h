@@ -1,4 +1,4 @@
-// Curves as pictures, drawn by gnuplot.
+// Plots curves with gnuplot.
 #pragma once
 
 #include "tests/validation/case.h"
@@ -7,7 +7,7 @@
 
 namespace fluidtex::tools {
 
-// Writes the plot as an SVG file, atomically. Throws std::runtime_error when gnuplot is missing or fails.
+// Writes the plot as an SVG file, atomically. Throws std::runtime_error if gnuplot is missing or fails.
 void writePlot(const validation::Plot& plot, const std::filesystem::path& file);
 
 }  // namespace fluidtex::tools

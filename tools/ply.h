@@ -1,5 +1,4 @@
-// The textured surface as a PLY file, for Blender and every other program; the properties are listed in
-// docs/reference/files.md.
+// Writes the textured surface as a PLY file; its properties are listed in docs/reference/files.md.
 #pragma once
 
 #include "texture/surface.h"
@@ -9,8 +8,8 @@
 
 namespace fluidtex::tools {
 
-// Binary little endian. Colours are written as sRGB bytes, exemplar coordinates as 0..1 from the top left
-// corner. Throws std::system_error when the file cannot be written.
+// Binary little endian. Colours are sRGB bytes, exemplar coordinates 0..1 from the top left corner. Throws
+// std::system_error if the file cannot be written.
 void writePly(const texture::TexturedSurface& surface, const std::filesystem::path& file);
 
 }  // namespace fluidtex::tools

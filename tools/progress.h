@@ -1,4 +1,4 @@
-// How far a run is: a bar that redraws itself on a terminal, one plain line a frame elsewhere.
+// Progress of a run: a bar on a terminal, one line per frame elsewhere.
 #pragma once
 
 #include <chrono>
@@ -8,13 +8,13 @@ namespace fluidtex::tools {
 
 class Progress {
  public:
-  // Frames first..last are still to be made. `quiet`: says nothing at all.
+  // Frames first..last are to be made. quiet: prints nothing.
   Progress(int first, int last, bool quiet);
   ~Progress();
 
   // Stage `stage` of frame `frame` is done to the share `part`, 0..1. Redraws at most ten times a second.
   void update(int frame, const std::string& stage, double part = 0.0);
-  // The frame is done; `summary` says what it took, in a few words.
+  // The frame is done; `summary` is printed with it.
   void frameDone(int frame, const std::string& summary);
 
  private:

@@ -1,4 +1,4 @@
-// A textured surface read back from its PLY file.
+// Reads a textured surface from its PLY file.
 #pragma once
 
 #include "texture/surface.h"
@@ -7,9 +7,9 @@
 
 namespace fluidtex::tools {
 
-// Reads back what writePly() wrote of a texture from an exemplar of that size (texels), with its maps and the
-// place that fades; gradients, which the file does not hold, are zero. Throws UsageError that names the file
-// where it is something else.
+// Reads the output of writePly() for an exemplar of that size (texels), with further maps and cross-fade.
+// Gradients, which the file does not hold, are zero. Throws UsageError that names the file if it is anything
+// else.
 texture::TexturedSurface readPly(const std::filesystem::path& file, int exemplarWidth, int exemplarHeight);
 
 }  // namespace fluidtex::tools

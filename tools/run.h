@@ -1,4 +1,4 @@
-// What `fluidtex run` does with a loaded scene.
+// fluidtex run, for a loaded scene.
 #pragma once
 
 #include "scenes/scene.h"
@@ -6,8 +6,8 @@
 
 namespace fluidtex::tools {
 
-// Runs the scene into the folder: threads, log file and Ctrl-C as the command line and the user have it.
-// Throws as runScene() does.
+// Runs the scene into the folder, with threads, log file and Ctrl-C as on the command line. Throws as
+// runScene().
 void runInto(const std::filesystem::path& out, const scenes::Scene& scene, const CommonOptions& options);
 
 }  // namespace fluidtex::tools

@@ -1,11 +1,11 @@
-// What the program is at, for the sentence that it ends with where memory runs out.
+// The current work of the program, for the message when memory runs out.
 #pragma once
 
 #include <exception>
 
 namespace fluidtex::tools {
 
-// `what` it makes, and what to lower so that this takes less.
+// `what` it makes, and which setting lowers its memory.
 struct Work {
   const char* what;
   const char* lower;
@@ -21,20 +21,18 @@ inline constexpr Work kOnPicture{"the picture", "render.size or texture.points"}
 inline constexpr Work kOnRun{"the surfaces of the run", "their number of points"};
 inline constexpr Work kOnFrameFiles{"the frame's files", "texture.points or domain.resolution"};
 
-// From now on; `frame` 0: none. The work must live for ever.
+// Sets the current work; `frame` 0: none. The work must have static lifetime.
 void nowAt(const Work& work, int frame = 0);
 
-// "out of memory: ..." with what was last told to be made, and what may be lowered. Needs no memory of its
-// own; the same text at each call.
+// "out of memory: ..." with the current work and the setting that lowers it. Allocates nothing; returns the
+// same text at each call.
 const char* outOfMemory();
 
-// What to do where this was thrown since no thread could be started, to be put behind its own words; else
-// empty.
+// Advice to append to the message if the exception means that no thread could be started; else empty.
 const char* threadAdvice(const std::exception& error);
 
-// From now on the program ends with one sentence and kFailed where an exception is thrown that nobody can
-// catch: a library cannot start a thread, or memory runs out in one of its threads. What has a final name
-// stays whole.
+// Makes the program end with one sentence and kFailed on an exception that nobody can catch: a library cannot
+// start a thread, or memory runs out in one of its threads. Files with a final name stay intact.
 void endWithSentence();
 
 }  // namespace fluidtex::tools

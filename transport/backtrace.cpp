@@ -17,16 +17,15 @@
 namespace fluidtex::transport {
 namespace {
 
-// An inner step moves at most this many cells, and deforms by at most this strain where the gradient is
-// followed.
+// Bounds on an inner step: cells of motion, and strain where the gradient is followed.
 constexpr double kCellsPerStep = 1.0;
 constexpr double kStrainPerStep = 0.5;
-// Of one substep; a velocity that asks for more is not a velocity of the simulation.
+// Per substep; a velocity that needs more is not one of the simulation.
 constexpr int kMaxSteps = 64;
-// Velocities are laid side by side where the paths' box has no more cells than this for each of them: reading
-// a path's values one by one costs about as much as copying these.
+// Velocities are copied to a dense window if the paths' box has at most this many cells per path: reading a
+// path's values one by one costs about as much as copying these.
 constexpr double kCellsPerPath = 40.0;
-constexpr double kMargin = 0.25;  // cells around them
+constexpr double kMargin = 0.25;  // cells around the box
 constexpr std::size_t kGroupsPerTask = 16;
 
 double largestEntry(const Mat3d& a) {
@@ -35,7 +34,7 @@ double largestEntry(const Mat3d& a) {
   return largest;
 }
 
-// A path in progress. With direction -1 time runs backwards.
+// A path in progress. direction -1: backwards in time.
 struct Path {
   Vec3d x;
   Mat3d map;            // d x / d start
@@ -45,8 +44,8 @@ struct Path {
 };
 
 // One inner step, the `step`-th of its substep, of dX/ds = sign u(X), dB/ds = sign A(X) B, A = grad u. A is
-// taken in the middle of the step, and held: B is multiplied by exp(h A) up to its third power, second order
-// in all and third where A is the same everywhere.
+// evaluated in the middle of the step and held constant: B is multiplied by exp(h A) up to third power.
+// Second order, third where A is constant.
 template <bool kGradient>
 void advance(VelocitySampler& sampler, double sign, int step, Path& path) {
   const VelocitySample first = sampler.velocity(path.x);
@@ -81,7 +80,8 @@ void advance(VelocitySampler& sampler, double sign, int step, Path& path) {
   if (steps > 1.0) path.left = left - length;
 }
 
-// The velocity around the paths, and where an inner step takes them if they all move about as the middle one.
+// Focuses the sampler on the velocities around the paths, as far as an inner step moves them if they all move
+// like the middle one.
 void focusOn(const std::vector<Path>& paths, double sign, VelocitySampler& sampler) {
   Vec3d lower = paths[0].x, upper = paths[0].x;
   for (const Path& path : paths) {
@@ -99,7 +99,7 @@ void focusOn(const std::vector<Path>& paths, double sign, VelocitySampler& sampl
   if (size.x() * size.y() * size.z() < kCellsPerPath * double(paths.size())) sampler.focus(lower, upper);
 }
 
-// Paths that start beside each other, through one substep.
+// Takes a group of adjacent paths through one substep.
 template <bool kGradient>
 void follow(VelocitySampler& sampler, double dt, double sign, std::vector<Path>& paths) {
   if (sampler.voxelSize() == 0.0) return;
@@ -115,7 +115,7 @@ void follow(VelocitySampler& sampler, double dt, double sign, std::vector<Path>&
   }
 }
 
-// Positions by leaf of the velocity grids, rising within each: which leaf, and the position's index.
+// Positions by leaf of the velocity grids, ascending within each: the leaf, and the position's index.
 struct Key {
   std::uint64_t leaf;
   std::uint32_t index;
@@ -137,8 +137,8 @@ std::vector<Key> keysByLeaf(const std::vector<Vec3f>& positions, double voxelSiz
   return keys;
 }
 
-// finish(path) for each position, once its path has gone through all substeps. Those of a leaf go together,
-// so that they share what is laid out for them.
+// Calls finish(path) for each position after all substeps. Positions of a leaf are traced together and share
+// a window of velocities.
 template <bool kGradient, typename Finish>
 void followAll(const std::vector<Vec3f>& positions, const sim::Frame& frame, double sign,
                const Finish& finish) {

@@ -13,9 +13,9 @@ namespace {
 
 using openvdb::Coord;
 
-// A face that asks for more cells a substep than the trace follows has no velocity of the simulation.
+// Cells per substep: faster faces have no velocity of the simulation.
 constexpr double kFastest = 64.0;
-constexpr double kMostCells = 0.9;  // that a part of a substep moves, summed over the axes
+constexpr double kMostCells = 0.9;  // cells per part of a substep, summed over the axes
 
 const sim::FloatGrid::ConstPtr& component(const sim::Substep& substep, int axis) {
   return axis == 0 ? substep.u : axis == 1 ? substep.v : substep.w;

@@ -28,12 +28,10 @@ using texture::SurfaceMesh;
 using texture::TexturedSurface;
 using texture::Vec3f;
 
-// A triangle that faces the other way is taken only if all that agree are further off by this many scales of
-// trust.
+// Penalty for a triangle that faces the other way, in units of the length scale of trust.
 constexpr double kOtherSide = 4.0;
 
-// The length over which trust falls off, at least: what separates surfaces is seen neither below half a voxel
-// nor below the spacing.
+// Least length scale of trust: surfaces closer than half a voxel, or than the spacing, cannot be told apart.
 double halfVoxel(const sim::Frame& frame) {
   double voxel = 0.0;
   if (!frame.substeps.empty()) voxel = VelocitySampler(frame.substeps.back()).voxelSize();
@@ -41,22 +39,21 @@ double halfVoxel(const sim::Frame& frame) {
   return 0.5 * voxel;
 }
 
-// The previous surface, and how to find things on it.
+// The previous surface, with its acceleration structure.
 struct Source {
   const TexturedSurface& surface;
   ClosestPoint closest;
-  std::vector<Vec3f> slopes;  // of the orientation's angle
+  std::vector<Vec3f> slopes;  // of the angle of the orientation
   int symmetry;
 
-  // `penalty`, metres: what facing the other way costs.
+  // penalty: metres, for facing the other way.
   Landing landing(const Vec3d& x, const Vec3f& normal, double penalty) const {
     return landingAt(surface, closest.nearest(x, normal, penalty));
   }
   Vec3f direction(const Landing& landing) const { return directionAt(surface, slopes, landing, symmetry); }
 };
 
-// The paper's orientation: extended off the old surface, moved and turned on the grid. 0 where the grid has
-// nothing.
+// The paper's orientation: extended off the old surface and advected on the grid. 0 beyond the band.
 std::vector<Vec3f> gridOrientation(const Source& source, const sim::Frame& frame, const SurfaceMesh& next,
                                    bool turning) {
   const auto extended = [&](const Vec3d& x) {
@@ -65,10 +62,10 @@ std::vector<Vec3f> gridOrientation(const Source& source, const sim::Frame& frame
   return directionsOnGrid(next.positions, frame, source.surface.positions, extended, turning);
 }
 
-// Above it no component is unknown altogether, and 0 for that.
+// Above it, every component is partly known; below, the slope is 0.
 constexpr double kAllKnown = 0.7;
 
-// d(velocity) / d(axis) by differences over `h` to both sides, or to the one where velocity is known.
+// d(velocity) / d(axis) by differences over `h` to both sides, or to the side where velocity is known.
 Vec3d slopeAt(VelocitySampler& sampler, const Vec3d& x, int axis, double h) {
   Vec3d step(0.0);
   step[axis] = h;
@@ -82,7 +79,7 @@ Vec3d slopeAt(VelocitySampler& sampler, const Vec3d& x, int axis, double h) {
   return known(ahead) && known(behind) ? (ahead.velocity - behind.velocity) / width : Vec3d(0.0);
 }
 
-// All that is picked up has one entry a vertex. (Whether the triangles' vertices exist, ClosestPoint looks.)
+// Checks that arrays have one entry per vertex. (ClosestPoint checks the triangles' vertices.)
 void checkSizes(const TexturedSurface& previous, const SurfaceMesh& next, int symmetry) {
   if (symmetry < 1) throw std::invalid_argument("carry: the symmetry must be 1 or more");
   if (next.normals.size() != next.positions.size())

@@ -11,7 +11,7 @@ namespace {
 
 using openvdb::Coord;
 
-// Of a triangle's size: what rounding may cost where triangles are ruled out, so that none is that would tie.
+// Relative to a triangle's size: tolerance of culling, so that rounding never culls a tie.
 constexpr float kSlack = 2e-3f;
 
 std::size_t hashOf(const Coord& c) {
@@ -21,7 +21,7 @@ std::size_t hashOf(const Coord& c) {
   return std::size_t(h ^ (h >> 32));
 }
 
-// Barycentric weights of the point of triangle (0, ab, ac) that is closest to p.
+// Barycentric weights of the point of triangle (0, ab, ac) closest to p.
 Vec3f closestWeights(const Vec3f& p, const Vec3f& ab, const Vec3f& ac) {
   const float d1 = ab.dot(p), d2 = ac.dot(p);
   if (d1 <= 0.0f && d2 <= 0.0f) return {1, 0, 0};
@@ -63,8 +63,7 @@ struct ClosestPoint::Search {
 };
 
 inline openvdb::Coord ClosestPoint::cellOf(const Vec3d& x) const {
-  // Far outside all cells the number of the cell no longer matters, only that it exists. In this order
-  // minimum and maximum are one instruction each.
+  // Far outside all cells any cell index will do. In this order min and max are one instruction each.
   const auto part = [&](double value) {
     return int(std::max(-1e9, std::min(1e9, std::floor(value * m_cellsPerMetre))));
   };
@@ -92,7 +91,7 @@ ClosestPoint::ClosestPoint(const std::vector<Vec3f>& positions, const std::vecto
         std::max({middle.lengthSqr(), (ab - middle).lengthSqr(), (ac - middle).lengthSqr()});
     m_bounds[t] = {a + middle, (1.0f + kSlack) * std::sqrt(radius2), n};
   }
-  // The second bound keeps one huge triangle among small ones from filling millions of cells.
+  // The second bound keeps a huge triangle among small ones from filling millions of cells.
   m_cellSize = std::max({1.3 * sum / double(triangles.size()), longest / 32.0, 1e-30});
   m_cellsPerMetre = 1.0 / m_cellSize;
 
@@ -146,7 +145,7 @@ ClosestPoint::Block& ClosestPoint::makeBlock(const Coord& origin) {
 
 template <typename Visit>
 void ClosestPoint::forEachCell(std::uint32_t triangle, const Visit& visit) const {
-  // Without area: its points are on the edges of its neighbours.
+  // Degenerate: its points are on its neighbours' edges.
   if (m_bounds[triangle].radius < 0.0f) return;
   const Vec3I& t = m_triangles[triangle];
   const Vec3f &a = m_positions[t[0]], &b = m_positions[t[1]], &c = m_positions[t[2]];
@@ -159,7 +158,7 @@ void ClosestPoint::forEachCell(std::uint32_t triangle, const Visit& visit) const
   }
 }
 
-// To the cube of so many cells along a side.
+// To the cube of `cells` cells per side.
 double ClosestPoint::squaredDistance(const Vec3d& x, const Coord& lower, int cells) const {
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -214,7 +213,7 @@ void ClosestPoint::visitCells(const Coord& lower, const Coord& upper, Search& se
   }
 }
 
-// Every triangle that can matter, block by block, the nearest block first.
+// Visits every triangle that can matter, block by block, the nearest block first.
 void ClosestPoint::visitAll(Search& search) const {
   const auto visit = [&](const Block& block) {
     visitCells(block.origin, block.origin.offsetBy(kSide - 1), search);

@@ -1,4 +1,4 @@
-// Closest points on a triangle mesh, with regard to which side they lie on.
+// Closest points on a triangle mesh, with a penalty on opposite sides.
 #pragma once
 
 #include <openvdb/Types.h>
@@ -15,23 +15,23 @@ using openvdb::Vec3I;
 
 struct SurfacePoint {
   std::uint32_t triangle = 0;
-  Vec3f weight{0.0f};     // of the triangle's corners, barycentric
+  Vec3f weight{0.0f};     // barycentric
   Vec3d position{0.0};    // metres
-  double distance = 0.0;  // from the position asked for, metres
+  double distance = 0.0;  // from the query, metres
 };
 
-// Triangles sorted into cubes of about two edge lengths, the cubes into blocks of 8^3. Surface meshes are
-// even, so that a cube holds a handful of triangles and most queries look into one to eight cubes; far away
-// from the surface whole blocks are ruled out at once.
+// Triangles in cells of about two edge lengths, cells in blocks of 8^3. Surface meshes are even, so a cell
+// holds a handful of triangles and most queries visit one to eight cells; far from the surface whole blocks
+// are culled.
 class ClosestPoint {
  public:
-  // The arrays are referred to, not copied; at least one triangle, all of whose vertices exist. Else throws
-  // std::invalid_argument.
+  // Keeps references to the arrays. Throws std::invalid_argument if there is no triangle, or one with a
+  // vertex that does not exist.
   ClosestPoint(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles);
 
-  // The point with the least distance^2 + (penalty * disagreement)^2 over all triangles. Disagreement is 0 up
+  // The point that minimises distance^2 + (penalty * disagreement)^2 over all triangles. Disagreement is 0 up
   // to 60 degrees between the triangle's normal and `normal` (unit), and rises with the cosine to 1 for the
-  // opposite side; `penalty` is in metres. Ties go to the triangle with the smaller index.
+  // opposite side. penalty: metres. Ties: smaller triangle index.
   SurfacePoint nearest(const Vec3d& x, const Vec3f& normal, double penalty) const;
 
  private:
@@ -40,10 +40,10 @@ class ClosestPoint {
     openvdb::Coord origin;                                         // first cell
     std::array<std::uint32_t, kSide * kSide * kSide + 1> first{};  // into m_entries, by cell
   };
-  // What rules a triangle out before its corners are looked up.
+  // Culling data of a triangle.
   struct Bounds {
     Vec3f center{0.0f};
-    float radius = -1.0f;  // of a ball around its corners, metres; below 0 where it has no area
+    float radius = -1.0f;  // bounding sphere, metres; negative if degenerate
     Vec3f normal{0.0f};    // unit
   };
   struct Search;
@@ -63,8 +63,8 @@ class ClosestPoint {
   double m_cellSize = 0.0, m_cellsPerMetre = 0.0;
   std::vector<Bounds> m_bounds;  // of the triangles
   std::vector<Block> m_blocks;
-  std::vector<std::uint32_t> m_table;    // open addressing by block origin: index + 1, 0 where free
-  std::vector<std::uint32_t> m_entries;  // triangles by cell, rising within each
+  std::vector<std::uint32_t> m_table;    // open addressing by block origin: index + 1, 0: free
+  std::vector<std::uint32_t> m_entries;  // triangles by cell, ascending in each
 };
 
 }  // namespace fluidtex::transport

@@ -1,4 +1,4 @@
-// The cubic triangle: Farin, Triangular Bernstein-Bezier Patches (1986); its middle point has quadratic
+// Cubic triangle: Farin, Triangular Bernstein-Bezier Patches (1986); its middle point has quadratic
 // precision.
 #include "transport/cubic_directions.h"
 
@@ -13,17 +13,17 @@
 namespace fluidtex::transport {
 namespace {
 
-// A ring averages the slope as it fits it, by h^2/8 of its Laplacian; a mean over the ring differs by h^2/4.
+// The fit over a ring smooths the slope by h^2/8 of its Laplacian; a mean over the ring differs from it by
+// h^2/4.
 constexpr float kSharpen = 0.5f;
 constexpr int kSharpenSweeps = 2;
-// A neighbour that has turned by more than this part of the period says that a singularity is near, where the
-// angle has no slope.
+// Share of the period: a larger turn to a neighbour indicates a singularity, where the angle has no slope.
 constexpr float kMostTurn = 0.25f;
-// The cubic leaves the linear interpolant by no more than this, radians: beside singularities slopes are
-// wild.
+// Radians: bound on the cubic's deviation from the linear interpolant, since slopes are unreliable beside
+// singularities.
 constexpr float kMostBend = 0.3f;
 
-// Neighbours of every vertex, in no order.
+// One-rings, unordered.
 struct Rings {
   std::vector<std::uint32_t> first, neighbor;
 };
@@ -44,12 +44,13 @@ Rings ringsOf(const TexturedSurface& surface) {
   return rings;
 }
 
-// x, tangent at `from`, in the plane of `to`.
+// Parallel transport of x from the tangent plane of `from` to that of `to`; x itself where they are nearly
+// opposite.
 Vec3f turned(const Vec3f& x, const Vec3f& from, const Vec3f& to) {
   return from.dot(to) > -0.9f ? texture::turnedTangent(x, from, to) : x;
 }
 
-// From a to b about n, counter-clockwise, the smallest up to turns of `period`.
+// Angle from a to b about n, counter-clockwise, smallest up to multiples of `period`.
 float angleBetween(const Vec3f& a, const Vec3f& b, const Vec3f& n, float period) {
   const float angle = std::atan2(n.dot(a.cross(b)), a.dot(b));
   return angle - period * std::round(angle / period);

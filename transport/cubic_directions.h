@@ -1,19 +1,19 @@
-// A field of directions between the vertices of a mesh, to higher order. Interpolated linearly once a frame
-// it wears off: after 100 frames of a single vortex on 64 cells it is 9 degrees off, cubically 0.6.
+// Cubic interpolation of directions between the vertices of a mesh. Linear interpolation once a frame wears a
+// field off: after 100 frames of a single vortex on 64 cells it is 9 degrees off, cubic 0.6.
 #pragma once
 
 #include "transport/pick_up.h"
 
 namespace fluidtex::transport {
 
-// #V, radians per metre: how the angle of surface.orientation grows along the surface, counter-clockwise seen
-// from outside, up to turns of 360 / symmetry degrees. Least squares over the ring of neighbours, with the
-// smoothing that lies in it taken back: fourth order on an even mesh.
+// #V, radians per metre: gradient along the surface of the angle of surface.orientation, counter-clockwise
+// seen from outside, up to rotations by 360 / symmetry degrees. Least squares over the one-ring, with the
+// fit's own smoothing corrected: fourth order on an even mesh.
 std::vector<Vec3f> angleSlopes(const TexturedSurface& surface, int symmetry);
 
-// The direction at a place: unit, tangent at landing.normal. The corners' angles against the nearest corner's
-// direction, each turned into the place's tangent plane, are joined by the cubic Bezier triangle that has
-// their slopes.
+// Direction at a landing point: unit, tangent at landing.normal. The corners' angles against the nearest
+// corner's direction, each parallel transported to the landing point's tangent plane, are interpolated by the
+// cubic Bezier triangle with their slopes.
 Vec3f directionAt(const TexturedSurface& surface, const std::vector<Vec3f>& slopes, const Landing& landing,
                   int symmetry);
 

@@ -9,13 +9,13 @@
 
 namespace fluidtex::transport {
 
-// How much of the surface is foam at each position, 0..1, at the end of a frame. Water that is sheared,
-// turned or squeezed fast takes air in: there is at least as much foam as the size of the velocity's gradient
-// (1/s, the root of the sum of its squares) asks for, smoothly from options.from to options.full. What
-// `carried` brings along fades by exp(-seconds / options.lifetime), where it is believed
-// (texture/frames/renewal.h). In the first frame, and where no velocity is known, nothing is added. carried:
-// one entry per position, or empty; else, or where the options make no sense, std::invalid_argument is
-// thrown.
+// Foam, 0..1, at each position at the end of a frame. Water that is sheared, rotated or compressed fast
+// entrains air: foam is at least smoothstep(options.from, options.full) of the Frobenius norm of the velocity
+// gradient, 1/s. Transported foam decays by exp(-seconds / options.lifetime) and counts where its trust is
+// sufficient (believed(), texture/frames/renewal.h). In the first frame, and where velocity is unknown, none
+// is added.
+// carried: one entry per position, or empty. Throws std::invalid_argument if it is neither, or unless
+// lifetime > 0 and from < full.
 std::vector<float> foamAfter(const std::vector<texture::Vec3f>& positions, const sim::Frame& frame,
                              const texture::Carried& carried, double seconds, const texture::Foam& options);
 

@@ -12,7 +12,7 @@ namespace fluidtex::transport {
 
 namespace {
 
-// An upper bound of how far the flow carries anything along an axis in the frame, metres.
+// Upper bound on the displacement along an axis in the frame, metres.
 double farthest(const Band& band, const sim::Frame& frame) {
   double sum = 0.0;
   for (const sim::Substep& substep : frame.substeps) {
@@ -39,8 +39,8 @@ sim::MaskTree cellsAround(const Band& band, const std::vector<Vec3f>& points, do
 
 }  // namespace
 
-// What is stored is the displacement, coordinate - place: smooth beyond the rim too, where a cell without an
-// upwind neighbour keeps its own.
+// The field is the displacement, coordinate - position: smooth beyond the rim too, where a cell without
+// upwind neighbour keeps its value.
 Backtrace traceOnGrid(const std::vector<Vec3f>& positions, const sim::Frame& frame) {
   const Band band = bandOf(frame);
   std::vector<Vec3d> displacement(band.cells.size(), Vec3d(0.0));
@@ -71,7 +71,7 @@ Backtrace traceOnGrid(const std::vector<Vec3f>& positions, const sim::Frame& fra
     trace.origin[v] += moved;
     for (std::size_t i = 0; i < 8; ++i) {
       if (corners.cell[i] == Band::kNone) continue;
-      // Missing corners count as having the mean, whose slope is nothing.
+      // Missing corners take the mean, whose slope is zero.
       const Vec3d value = displacement[std::size_t(corners.cell[i])] - moved;
       for (int axis = 0; axis < 3; ++axis)
         trace.map[v].setCol(axis, trace.map[v].col(axis) + value * corners.slope[i][axis]);
@@ -98,8 +98,8 @@ std::vector<Vec3f> directionsOnGrid(const std::vector<Vec3f>& positions, const s
           const Vec3d along = velocityGradient(band, velocity, cell) * d;
           rate += along - d * d.dot(along);
         }
-        // The length drifts where the line is compressed: it is brought back in every step. Components that
-        // are scalars have no length to keep.
+        // The length drifts where the flow compresses: renormalised in every step. As scalars the components
+        // have no length to keep.
         Vec3d next = d + rate * dt;
         if (turning) next.normalize(0.0);
         return next;

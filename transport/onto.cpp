@@ -12,7 +12,7 @@ namespace {
 
 using texture::forEachIndex;
 
-// A side that faces away is taken only where no other is within so many spacings.
+// Penalty for a side that faces away, in spacings.
 constexpr double kOtherSide = 4.0;
 
 std::vector<Vec3f> normalsOf(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles) {
@@ -32,8 +32,8 @@ std::vector<Vec3f> normalsOf(const std::vector<Vec3f>& positions, const std::vec
   return normals;
 }
 
-// A vector that goes with the surface: the mean of the corners' that point about as the nearest one's does,
-// since others belong to another piece, turned to where the normal is `to`. Of length 1, or 0.
+// A vector attached to the surface: mean over the corners whose vector is close to the nearest corner's, as
+// others belong to another patch; parallel transported to the normal `to`. Length 1, or 0.
 Vec3f vectorAt(const std::vector<Vec3f>& values, const Landing& landing, const Vec3f& to) {
   const Vec3f &nearest = values[landing.nearestVertex()], &from = landing.normal;
   Vec3f mean(0.0f);
@@ -94,7 +94,7 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
     result.age[v] = valueAt(surface.age, landing);
     result.trust[v] = valueAt(surface.trust, landing) *
                       landingTrust(landing, surface.spacingAt(landing.nearestVertex()), normal);
-    // What the place moved by, so that a vertex off the surface keeps its distance.
+    // Displacement of the closest point, so that a vertex off the surface keeps its distance.
     const Vec3f before = valueAt(surface.previousPosition, landing);
     result.previousPosition[v] += before - Vec3f(landing.point.position);
     result.velocity[v] = valueAt(surface.velocity, landing);

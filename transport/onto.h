@@ -1,19 +1,22 @@
-// A textured surface's maps on a mesh of someone else's: any triangles near by, closed or not.
+// A textured surface's maps on a mesh from elsewhere: any triangles close to it, closed or not.
 #pragma once
 
 #include "texture/surface.h"
 
 namespace fluidtex::transport {
 
-// Every vertex of the mesh gets what is at the closest point of `surface`, of the side that faces as it does
-// where there is one within a few spacings: colour, velocity, age and the further maps by barycentric
-// interpolation; exemplar coordinate from the nearest corner and its gradient; orientation by a cubic,
-// directions that turns of 360 / symmetry degrees make equal counting as one, laid into the vertex's tangent
-// plane; vectors of maps from the corners that agree with the nearest one, turned with the normal and of
-// length 1 or 0; contact of the nearest corner. Normals are the mean of the triangles around, by area. trust
-// falls with the distance from the surface. previousPosition is where the place was, or, where there was no
-// earlier frame, the vertex itself. An empty surface gives grey vertices without trust. Throws
-// std::invalid_argument if a triangle's vertex does not exist.
+// Each vertex of the mesh takes the values at the closest point of `surface`, preferring triangles within a
+// few spacings that face as it does:
+//  - colour, velocity, age and further maps: barycentric;
+//  - exemplar coordinate: from the nearest corner and its gradient;
+//  - orientation: cubic, with directions equal under rotations by 360 / symmetry degrees as one, projected to
+//    the vertex's tangent plane;
+//  - vector maps: from corners that agree with the nearest one, turned with the normal, of length 1 or 0;
+//  - contact: from the nearest corner.
+// Normals are area-weighted means of the triangles around. trust falls with the distance from the surface.
+// previousPosition is that of the closest point's place, or the vertex itself without an earlier frame. An
+// empty surface gives grey vertices without trust. Throws std::invalid_argument if a triangle's vertex does
+// not exist.
 texture::TexturedSurface onto(const texture::TexturedSurface& surface, std::vector<texture::Vec3f> positions,
                               std::vector<texture::Vec3I> triangles, int symmetry = 1);
 

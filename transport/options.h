@@ -1,16 +1,16 @@
-// Settings of transport: what a scene file says under texture.transport.
+// Settings of transport, `texture.transport` in a scene file.
 #pragma once
 
 namespace fluidtex::transport {
 
 enum class Method {
-  trace,  // ours: each vertex is followed back through the velocities of the substeps
-  grid,   // the paper's: fields on the simulation's grid, first-order upwind [Kwatra07 sec. VI]
+  trace,  // each vertex is traced back through the velocities of the substeps
+  grid,   // fields on the simulation's grid, first-order upwind [Kwatra07 sec. VI]
 };
 
 enum class Turning {
   vector,   // directions turn with the flow, equation (4)
-  scalars,  // their components are moved along and nothing more: what the paper shows to be wrong
+  scalars,  // components advected without turning; shown to be wrong in [Kwatra07]
 };
 
 struct Options {

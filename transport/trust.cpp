@@ -10,7 +10,7 @@ namespace fluidtex::transport {
 namespace {
 
 constexpr float kMuchStretch = 2.0f, kLeastForStretch = 0.6f;
-// Of a difference between neighbours, in spacings (or edges, where these are longer).
+// Deviation between neighbours, in spacings (or edges, where these are longer).
 constexpr float kUsualJump = 0.5f, kLargeJump = 1.5f;
 
 void lower(float& value, float to) {

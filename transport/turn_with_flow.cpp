@@ -10,7 +10,7 @@ using openvdb::Vec3d;
 
 namespace {
 
-// adj(B) = det(B) B^-1; defined where B has no inverse too.
+// adj(B) = det(B) B^-1; defined for singular B too.
 Mat3d adjugate(const Mat3d& b) {
   const Vec3d r0 = b.row(0), r1 = b.row(1), r2 = b.row(2);
   Mat3d result;

@@ -18,7 +18,7 @@ using Leaf = sim::FloatTree::LeafNodeType;
 constexpr int kSide = int(Leaf::DIM);
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-// Between four values, [2 dFirst + dSecond].
+// Bilinear between four values, [2 dFirst + dSecond].
 [[gnu::always_inline]] inline double bilinear(const std::array<double, 4>& v, double first, double second) {
   const double v0 = v[0] + second * (v[1] - v[0]), v1 = v[2] + second * (v[3] - v[2]);
   return v0 + first * (v1 - v0);
@@ -29,7 +29,7 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
   return below + t.x() * (bilinear({c[4], c[5], c[6], c[7]}, t.y(), t.z()) - below);
 }
 
-// The mean of the known values takes the place of the others; the share of those that are known.
+// Replaces unknown values by the mean of the known ones; returns the share of known values.
 double fillUnknown(std::array<double, 8>& c) {
   double sum = 0.0;
   int known = 0;
@@ -43,9 +43,9 @@ double fillUnknown(std::array<double, 8>& c) {
   return known / 8.0;
 }
 
-// f(t + 1/2) - f(t - 1/2) along an axis: the mean of the slopes of this cell and of the next one, weighted by
-// how far the voxel around t reaches into each. Where the next one is not all known, this cell's own.
-// at(i, j, k) is the value so many voxels from the cell's lowest corner, c the corners' [4 i + 2 j + k].
+// f(t + 1/2) - f(t - 1/2) along an axis: slopes of this cell and the next one, weighted by how far the voxel
+// around t reaches into each. This cell's own where the next one is not all known. at(i, j, k): value so many
+// voxels from the cell's lowest corner; c: the corners' values [4 i + 2 j + k].
 template <int kAxis, typename At>
 double slope(const At& at, const std::array<double, 8>& c, const Vec3d& t) {
   constexpr unsigned kAlong = 4u >> kAxis, kFirst = kAxis == 0 ? 2 : 4, kSecond = kAxis == 2 ? 2 : 1;
@@ -66,7 +66,7 @@ double slope(const At& at, const std::array<double, 8>& c, const Vec3d& t) {
   return std::isfinite(change) ? own + change : own;
 }
 
-// Value and slopes at t within a cell; the share of its corners that are known.
+// Value and slopes at t within a cell; returns the share of its corners that are known.
 template <bool kGradient, typename At>
 double interpolate(const At& at, const Vec3d& t, double& value, Vec3d& slopes) {
   std::array<double, 8> c{at(0, 0, 0), at(0, 0, 1), at(0, 1, 0), at(0, 1, 1),
@@ -120,8 +120,8 @@ void VelocitySampler::focus(const Vec3d& lower, const Vec3d& upper) {
       component.window.size = Coord(0);
       continue;
     }
-    // One voxel more below and two above: what a cell and its slopes read. Along z by whole leaves, so that
-    // every row of a leaf is copied by one instruction.
+    // One voxel more below and two above, as a cell and its slopes read. Along z by whole leaves, so that
+    // each row of a leaf is one copy.
     Coord first = Coord::floor(openvdb::math::minComponent(a, b)).offsetBy(-1);
     Coord end = Coord::floor(openvdb::math::maxComponent(a, b)).offsetBy(3);
     first.z() &= ~(kSide - 1);
@@ -139,7 +139,7 @@ void VelocitySampler::fill(Component& component) {
   window.values.resize(std::size_t(size.x()) * std::size_t(size.y()) * std::size_t(size.z()));
   float* const to = window.values.data();
   const std::ptrdiff_t alongY = size.z(), alongX = alongY * size.y();
-  // What is unknown takes this.
+  // For unknown values.
   const Float8 unknown = Float8{} + kUnknown;
   for (int x0 = first.x() & ~(kSide - 1); x0 < end.x(); x0 += kSide) {
     const int xFirst = std::max(x0, first.x()), xEnd = std::min(x0 + kSide, end.x());

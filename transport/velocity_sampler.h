@@ -1,4 +1,4 @@
-// Trilinear velocity and velocity gradient from the staggered grids of one substep.
+// Trilinear velocity and its gradient from the staggered grids of one substep.
 #pragma once
 
 #include "sim/frame/frame.h"
@@ -14,23 +14,23 @@ using openvdb::Vec3d;
 
 struct VelocitySample {
   Vec3d velocity{0.0};  // m/s
-  // gradient[i][j] = d u_i / d x_j, 1/s, by the difference of the interpolated velocity over a voxel along
-  // x_j: continuous and second order, as the slope within a cell is not. Only where asked for.
+  // gradient[i][j] = d u_i / d x_j, 1/s: difference of the interpolated velocity over a voxel along x_j,
+  // continuous and second order, unlike the slope within a cell. Filled by velocityAndGradient() only.
   Mat3d gradient;
-  double known = 0.0;  // share of the values around that are known, 0..1
+  double known = 0.0;  // share of the surrounding values that are known, 0..1
 };
 
 // Reads the grids in place, each component through its own transform. A value is known where it is active and
-// finite. Where some of the values around a position are unknown the mean of the others stands for them;
-// where all are, the velocity is zero. Make one for each thread.
+// finite. Unknown values around a position are replaced by the mean of the known ones; if all are unknown,
+// the velocity is zero. One sampler per thread.
 class VelocitySampler {
  public:
-  // Throws std::invalid_argument if a grid's transform is not a scaling (one factor per axis) and a shift.
-  // A grid that is null counts as unknown everywhere.
+  // Throws std::invalid_argument if a grid's transform is not a scaling (one factor per axis) and a
+  // translation. A null grid is unknown everywhere.
   explicit VelocitySampler(const sim::Substep& substep);
 
-  // Lays the values that positions in the box (metres) need side by side, so that reading there costs a
-  // third; worth it where there are many. It replaces the last box, and changes no sample by a bit.
+  // Copies the values needed in the box (metres) to dense arrays, which makes samples there three times as
+  // fast; worth it for many samples. Replaces the last box. Samples are bitwise unchanged.
   void focus(const Vec3d& lower, const Vec3d& upper);
 
   VelocitySample velocity(const Vec3d& x);
@@ -41,7 +41,7 @@ class VelocitySampler {
   }  // smallest over axes and components, metres; 0 without grids
 
  private:
-  // Values of a box, those that are unknown as NaN.
+  // Dense copy of a box of values, unknown ones as NaN.
   struct Window {
     openvdb::Coord origin{0}, size{0};  // first voxel; voxels along each axis
     std::vector<float> values;          // z fastest

@@ -1,4 +1,4 @@
-// Which places can be those of voxels.
+// Range check of voxel indices.
 #pragma once
 
 #include <openvdb/openvdb.h>
@@ -7,7 +7,7 @@
 
 namespace fluidtex::transport {
 
-// Whether a voxel of that number can be, with some more beside it; also false where it is no number.
+// Whether a voxel index fits an int with some margin; false for NaN too.
 inline bool withinReach(const openvdb::Vec3d& index) {
   constexpr double kReach = 1 << 30;
   return std::abs(index.x()) < kReach && std::abs(index.y()) < kReach && std::abs(index.z()) < kReach;

@@ -1,4 +1,5 @@
-// Shapes are asked, not put on the grid: only blocks of cells that a surface may cross are cut into eight.
+// Shapes are evaluated and not sampled on the grid: only blocks of cells that a surface may cross are divided
+// into eight.
 #include "sim/flows/flows.h"
 #include "sim/shapes/shape_distance.h"
 #include "sim/solids/domain.h"
@@ -12,7 +13,8 @@ namespace {
 
 enum class Found { nothing, inSolid, open };
 
-// What lies at the middles of the domain's cells inside a shape at time t; looks no further once it is open.
+// What is found at the centres of the domain's cells inside a shape at time t; the search ends at the first
+// one outside solids.
 Found look(const Shape& shape, const Options& options, const Solids& solids, double t) {
   const double h = options.voxelSize();
   const ShapeDistance distance(shape, h, domainBox(options));
@@ -26,7 +28,8 @@ Found look(const Shape& shape, const Options& options, const Solids& solids, dou
     const Coord cell = low.offsetBy(half);
     const Vec3d x = h * (cell.asVec3d() + Vec3d(0.5));
     const double d = distance(x);
-    // To the farthest middle of a cell in the block, and one more for what distances of meshes lack.
+    // Distance to the farthest cell centre of the block, and one cell more for the error of distances to
+    // meshes.
     const double reach = h * (std::sqrt(3.0) * half + 1.0);
     if (d < 0.0 && cells.isInside(cell)) found = solids.distance(x, t) > 0.0 ? Found::open : Found::inSolid;
     if (size == 1 || found == Found::open || d > reach) return;
@@ -47,7 +50,7 @@ Found look(const Shape& shape, const Options& options, const Solids& solids, dou
 
 std::vector<std::string> flowWarnings(const Options& options, const Solids& solids) {
   std::vector<std::string> warnings;
-  // inSolid, unseen: what becomes of it there, or where no cell's centre is in it.
+  // inSolid, unseen: what happens to it in a solid, or where no cell centre is in it.
   const auto tell = [&](const std::string& name, const std::string& inSolid, const std::string& unseen,
                         const Shape& shape, double t) {
     const Found found = look(shape, options, solids, t);

@@ -16,13 +16,13 @@
 namespace fluidtex::sim {
 namespace {
 
-// A source's surface whose normal has a larger share than this along the velocity is its front.
+// A source's surface is its front where its normal has more than this share along the velocity.
 constexpr double kFront = 0.1;
-// Liquid that stands less than this many cells over a source's side has crept there; deeper, the source is
-// under water.
+// Liquid less than this many cells thick on a source's side has crept there; with more, the source is under
+// water.
 constexpr double kBare = 0.25;
 
-// The value of a curve, level before its first point and after its last one.
+// The value of a curve, constant before its first point and after its last one.
 double rateAt(const std::vector<RatePoint>& rate, double t) {
   if (rate.empty()) return 1.0;
   if (t <= rate.front().time) return rate.front().factor;
@@ -34,15 +34,15 @@ double rateAt(const std::vector<RatePoint>& rate, double t) {
   return rate.back().factor;
 }
 
-// All faces of the domain's cells whose middle lies in the source. Its back is shut, for under water what
-// leaves at the front would come in there.
+// All faces of the domain's cells whose centre lies in the source. Its back is closed: under water, what
+// leaves at the front would enter there.
 std::array<FloatGrid::Ptr, 3> facesOf(const FloatGrid& phi, const Vec3d& velocity, const CoordBBox& domain) {
   const auto shape = phi.getConstUnsafeAccessor();
   const auto outside = [&](const Coord& cell) {
     return domain.isInside(cell) && shape.getValue(cell) >= 0.0f;
   };
-  // On a round front, a staircase of cells, what comes out of one step goes back into the next: only so does
-  // as much come in all as the front itself would give. Into other outer faces nothing goes.
+  // On a round front, a staircase of cells, what flows out of one step flows back into the next: only this
+  // gives the flux of the front itself. Nothing flows into other outer faces.
   const auto isFed = [&](const Coord& cell) {
     for (int axis = 0; axis < 3; ++axis) {
       Coord upstream = cell;
@@ -81,8 +81,8 @@ std::vector<FloatLeaf*> touchLeaves(FloatGrid& phi, const std::vector<Coord>& or
   return leaves;
 }
 
-// Whether air lies just outside the source's surface there, on another side than the one it flows out of.
-// place: a cell; distance: the source's there.
+// Whether air lies just outside the source's surface there, on a side other than its front. place: a cell;
+// distance: the source's there.
 bool bareSide(const FloatGrid& phi, const FloatGrid& shape, const Coord& place, float distance,
               const Vec3d& velocity) {
   const double h = phi.voxelSize()[0];
@@ -98,8 +98,8 @@ bool bareSide(const FloatGrid& phi, const FloatGrid& shape, const Coord& place, 
   return openvdb::tools::BoxSampler::sample(phi.constTree(), outside) > 0.0f;
 }
 
-// phi = min(phi, source). Where the sides of a source that flows lie bare they are the surface: liquid that
-// has crept over them is taken away, or what little rises there would draw the next after it.
+// phi = min(phi, source). Where the sides of a flowing source are bare they are the surface: liquid that has
+// crept over them is removed, or the little that rises there would draw up more.
 void fill(FloatGrid& phi, const SourceGrids& source) {
   const std::vector<FloatLeaf*> leaves = touchLeaves(phi, wetLeaves(*source.phi, CoordBBox::inf()));
   const float background = phi.background(), band = 2.0f * static_cast<float>(phi.voxelSize()[0]);
@@ -133,7 +133,7 @@ void empty(FloatGrid& phi, const FloatGrid& drain) {
   });
 }
 
-// Drops the markers of one side that lie in the shape.
+// Drops the liquid markers, or the air markers, that lie in the shape.
 void dropWithin(Markers& markers, const FloatGrid& shape, bool ofLiquid) {
   dropMarkers(markers, [&](const Marker& m, const Coord& cell) {
     return (m.radius < 0.0f) == ofLiquid && shape.constTree().getValue(cell) < 0.0f;
@@ -146,7 +146,7 @@ struct GivenFaces {
   void set(int axis, const Coord& face, float speed) { grid[axis]->tree().setValueOn(face, speed); }
 };
 
-// The cells among these between which all their liquid lies.
+// Bounding box of the liquid in these cells.
 CoordBBox boxAround(const FloatGrid& phi, const CoordBBox& cells) {
   CoordBBox box;
   for (const Coord& origin : wetLeaves(phi, cells)) box.expand(CoordBBox::createCube(origin, kLeafDim));
@@ -154,7 +154,7 @@ CoordBBox boxAround(const FloatGrid& phi, const CoordBBox& cells) {
   return box;
 }
 
-// Depth of the liquid in the column of cells through `cell` along `down`, metres. box: around it.
+// Depth of the liquid in the column of cells through `cell` along `down`, metres. box: bounds of the liquid.
 double depthOf(const FloatGrid& phi, const SolidField& solid, const CoordBBox& box, Coord cell, int down) {
   const auto liquid = phi.getConstUnsafeAccessor();
   const auto wall = solid.phi->getConstUnsafeAccessor();
@@ -166,7 +166,7 @@ double depthOf(const FloatGrid& phi, const SolidField& solid, const CoordBBox& b
   return depth;
 }
 
-// Through one side of the domain: what arrives there by the end of the step.
+// Gives one stream side of the domain the velocity that arrives there by the end of the step.
 void giveStream(GivenFaces& given, int side, const SolidField& solid, const FloatGrid& phi,
                 const Velocity& before, const Vec3d& gravity, double dt) {
   const int axis = side / 2, out = side % 2 == 0 ? -1 : 1;
@@ -186,7 +186,8 @@ void giveStream(GivenFaces& given, int side, const SolidField& solid, const Floa
     layer.max()[axis] = layer.min()[axis];
   }
   const CoordBBox box = boxAround(phi, layer);
-  // Waves on shallow water run along the surface only: not where the side is the floor or the ceiling.
+  // Shallow-water waves run along the surface only: there are none where the side is the floor or the
+  // ceiling.
   const bool waves = axis != down;
   const int beside = waves ? across : (axis + 1) % 3, along = waves ? down : (axis + 2) % 3;
   for (int i = box.min()[beside]; i <= box.max()[beside]; ++i) {
@@ -203,7 +204,7 @@ void giveStream(GivenFaces& given, int side, const SolidField& solid, const Floa
         wave = waves ? std::sqrt(std::abs(gravity[down]) * depthOf(phi, solid, box, cell, down)) : 0.0;
       const double here = out * speed.getValue(face);
       const double back = std::clamp((here + wave) * dt / h, 0.0, kLeafDim - 1.0);
-      // The faces on the way inwards, as far as they are open.
+      // The faces inwards from the side, as far as they are open.
       const auto valueAt = [&](int steps) {
         Coord at = face, last = face;
         for (int n = 0; n < steps; ++n) {

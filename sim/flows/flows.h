@@ -1,4 +1,4 @@
-// Where liquid comes in and goes out: sources, drains, and sides of the domain through which a stream leaves.
+// Inflow and outflow: sources, drains, and stream sides of the domain.
 #pragma once
 
 #include "sim/grid/mac_grid.h"
@@ -12,14 +12,14 @@ namespace fluidtex::sim {
 
 // A source on the grid.
 struct SourceGrids {
-  FloatGrid::Ptr phi;        // the liquid that is always there
+  FloatGrid::Ptr phi;        // signed distance, metres: the cells that are kept full
   Vec3d speed{0.0};          // m/s
   double temperature = 0.0;  // K
   std::array<FloatGrid::Ptr, 3>
       velocity{};  // active at all faces of its cells; null where it only keeps full
 };
 
-// What runs at one time.
+// The sources and drains that are active at one time.
 struct RunningFlows {
   struct Running {
     const SourceGrids* source;
@@ -31,17 +31,17 @@ struct RunningFlows {
   bool empty() const { return sources.empty() && drains.empty(); }
 };
 
-// The sources and drains of a scene over time. Their shapes are put on the grid once, when constructed.
+// The sources and drains of a scene over time. Their shapes are sampled on the grid once, in the constructor.
 class Flows {
  public:
   explicit Flows(const Options& options);
 
   RunningFlows at(double t) const;
 
-  // The first time after t at which a source or a drain begins or ends; kForever where none does.
+  // The first time after t at which a source or a drain begins or ends; kForever where there is none.
   double nextChange(double t) const;
 
-  // Where liquid can come from: the phi of each source.
+  // The phi of each source: where liquid can enter.
   std::vector<const FloatGrid*> places() const;
 
  private:
@@ -57,17 +57,18 @@ class Flows {
   std::vector<FloatGrid::Ptr> m_drainGrids;
 };
 
-// One sentence for each body of liquid, source or drain that cannot do anything. Looks only where surfaces
-// are, and keeps nothing.
+// One sentence for each body of liquid, source or drain that has no effect. Examines only the neighbourhood
+// of surfaces, and stores nothing.
 std::vector<std::string> flowWarnings(const Options& options, const Solids& solids);
 
 // Fills the sources and empties the drains: changes phi, which must be reinitialised afterwards, and drops
-// the markers of the air in sources and those of the liquid in drains.
+// air markers in sources and liquid markers in drains.
 void applyFlows(FloatGrid& phi, Markers& markers, const RunningFlows& flows);
 
-// The solids with the faces whose velocity is given: those in sources, and open faces of the domain that a
-// stream leaves through. There the velocity `before` is carried out by itself and by the waves of shallow
-// water [Orlanski, "A simple boundary condition for unbounded hyperbolic flows", 1976], for dt seconds.
+// The solids with given velocities added: at faces in sources, and at open faces on stream sides of the
+// domain. On stream sides the velocity `before` is advected outward by itself and by the waves of shallow
+// water, for dt seconds.
+// Source: Orlanski, "A simple boundary condition for unbounded hyperbolic flows", 1976.
 SolidField withFlows(const SolidField& solid, const RunningFlows& flows, const FloatGrid& phi,
                      const Velocity& before, const Vec3d& gravity, double dt);
 

@@ -12,11 +12,11 @@
 namespace fluidtex::sim {
 namespace {
 
-// In one step the surface moves at most a few cells; this many iterations renew the distance as far out.
+// The surface moves at most a few cells in a step; this many iterations renew the distance that far out.
 constexpr int kReinitIterations = 8;
 
-// What is known of places that a solid has just left is what stands beside them now; markers there are those
-// of a surface that only went on behind the solid's.
+// Places that a solid has just left take the values of what is beside them now. Markers there belong to a
+// surface that was only extrapolated behind the solid's.
 void dropLeft(Markers& markers, const FloatGrid& left) {
   const float deep = -kDeepInSolid * static_cast<float>(left.voxelSize()[0]);
   dropMarkers(markers,

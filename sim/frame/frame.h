@@ -1,6 +1,5 @@
-// The seam: all that a source of motion tells the rest of the program about one animation frame.
-// Immutable and shared. Everything behind it (our solver, another simulator's files) stays unknown
-// downstream.
+// All that a source of motion tells the rest of the program about one animation frame. Immutable and shared.
+// What produced it (this solver, or files of another simulator) stays unknown downstream.
 #pragma once
 
 #include "sim/grid/grids.h"
@@ -25,12 +24,12 @@ struct Substep {
   FloatGrid::ConstPtr u, v, w;
 };
 
-// What the solver found out while it made this frame; a value that does not apply stays at its default.
+// Statistics of the solver for this frame; values that do not apply stay at their default.
 struct FrameStats {
   double dtMin = 0.0;           // s, shortest substep
   std::int64_t cells = 0;       // liquid cells
   double volume = 0.0;          // m3 of liquid
-  double deficit = 0.0;         // m3 that its surface has lost and that is still to be given back
+  double deficit = 0.0;         // m3, volume deficit: lost by the surface, still to be given back
   int pressureIterations = 0;   // summed over the substeps
   int viscosityIterations = 0;  // summed over the substeps
   double pressureResidual = 0;  // largest relative residual of the substeps

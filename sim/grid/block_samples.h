@@ -53,11 +53,12 @@ struct BlockSamples {
   }
 };
 
-// The range of values at the eight corners of each of a block's cells: what is sampled in it lies between.
+// The range of the values at the eight corners of each of a block's cells, which bounds all samples in the
+// cell.
 struct CellRanges {
   std::array<float, kLeafSize> low, high;
 
-  // May be less than a marker's own range by rounding.
+  // By rounding a marker's sample may exceed the range by this.
   static constexpr float kRounding = 1e-4f;
 
   void find(const BlockSamples& samples) {

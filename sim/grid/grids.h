@@ -1,6 +1,6 @@
-// The solver's grids: as OpenVDB's own, in blocks of 8 x 8 x 8 values, but with small nodes above the blocks.
-// OpenVDB's FloatGrid costs 2.4 MB before it holds a value, since a tree with indices on both sides of 0
-// needs eight nodes of 262 kB; a solver that keeps forty grids has no use for boxes of 4096 cells.
+// The solver's grids: OpenVDB grids with blocks of 8 x 8 x 8 values, but with small nodes above the blocks.
+// OpenVDB's FloatGrid takes 2.4 MB before it holds a value, since a tree with indices on both sides of 0
+// needs eight nodes of 262 kB. A solver with forty grids has no use for nodes of 4096 cells.
 #pragma once
 
 #include <openvdb/openvdb.h>
@@ -16,14 +16,14 @@ using FloatGrid = openvdb::Grid<FloatTree>;
 using MaskTree = TreeOf<openvdb::ValueMask>;
 using MaskGrid = openvdb::Grid<MaskTree>;
 
-// The same grid as other programs know it, and back: every value and every active state, also those of tiles,
-// transform, name and other metadata. Tiles are as large as they can be.
+// Conversion to OpenVDB's own grid type, and back: keeps every value and active state, also those of tiles,
+// and transform, name and other metadata. Tiles are as large as they can be.
 openvdb::FloatGrid::Ptr toOpenVdb(const FloatGrid& grid);
 FloatGrid::Ptr fromOpenVdb(const openvdb::FloatGrid& grid);
 
 }  // namespace fluidtex::sim
 
-// What is not inline of these is compiled in grids.cpp only; it is more than most files have of their own.
+// Their non-inline members are compiled in grids.cpp only, since they take longer than most files' own code.
 extern template class openvdb::Grid<fluidtex::sim::FloatTree>;
 extern template class openvdb::tree::Tree<fluidtex::sim::FloatTree::RootNodeType>;
 extern template class openvdb::Grid<fluidtex::sim::MaskTree>;

@@ -1,4 +1,4 @@
-// A leaf's values with layers of its neighbours' around them, side by side: what stencils are read from.
+// A leaf's values with layers of its neighbours' around them in one array, for stencils.
 #pragma once
 
 #include "sim/grid/mac_grid.h"
@@ -16,13 +16,13 @@ struct LeafBlock {
 
   std::array<float, kCount> value;
 
-  // Where the leaf's voxel at an offset is, and the one at (i, j, k) from its lowest one.
+  // Index of the leaf's voxel at an offset, and of the one at (i, j, k) from its lowest one.
   static constexpr int index(int offset) { return index(offset >> 6, (offset >> 3) & 7, offset & 7); }
   static constexpr int index(int i, int j, int k) {
     return (i + kHalo) * kStride[0] + (j + kHalo) * kStride[1] + k + kHalo;
   }
 
-  // From a tree, as gather() does it. crossOnly: leaves out what is off the leaf along more than one axis.
+  // Loads from a tree, as gather() does. crossOnly: leaves out what is off the leaf along more than one axis.
   void load(const FloatTree& tree, const Coord& origin, bool crossOnly = false) {
     gather(tree, origin, kHalo, value.data(), crossOnly);
   }

@@ -15,12 +15,12 @@ namespace fluidtex::sim {
 using LeafPatch = LeafBlock<1>;  // its edges stay unset
 inline constexpr auto& kPatchStride = LeafPatch::kStride;
 
-// Where the voxel at an offset of the leaf is in its patch.
+// Index in the patch of the voxel at an offset of the leaf.
 inline int patchIndex(int offset) {
   return LeafPatch::index(offset);
 }
 
-// Of a leaf of a tree.
+// The patch of a leaf of a tree.
 inline LeafPatch patchOf(const FloatTree& tree, const Coord& origin) {
   LeafPatch patch{};
   patch.load(tree, origin, true);
@@ -45,7 +45,7 @@ void loadFace(const LeafTable& leaves, const std::vector<float>& values, std::si
   }
 }
 
-// A leaf's values and those next to its faces along kAxis; the rest stays as it was.
+// Loads a leaf's values and those next to its faces along kAxis; the rest is unchanged.
 template <int kAxis, class Outside>
 void loadPatchAlong(const LeafTable& leaves, const std::vector<float>& values, std::size_t leaf,
                     LeafPatch& patch, const Outside& outside) {
@@ -55,7 +55,8 @@ void loadPatchAlong(const LeafTable& leaves, const std::vector<float>& values, s
   for (const int up : {0, 1}) loadFace<kAxis>(leaves, values, leaf, up, patch, outside);
 }
 
-// values: of all leaves. Where there is no next leaf, what `outside` makes of the value in this one.
+// Loads a leaf's values and those next to its six faces. values: of all leaves. Where there is no next leaf:
+// outside(the value in this one).
 template <class Outside>
 void loadPatch(const LeafTable& leaves, const std::vector<float>& values, std::size_t leaf, LeafPatch& patch,
                const Outside& outside) {

@@ -79,7 +79,7 @@ std::vector<Coord> wetLeaves(const FloatGrid& phi, const CoordBBox& within) {
   };
   for (const FloatLeaf* leaf : leavesOf(phi.constTree()))
     if (inBox(leaf->origin())) origins.push_back(leaf->origin());
-  // Tiles of liquid, cut into blocks; those of a level set are inactive.
+  // Tiles of liquid, split into blocks; those of a level set are inactive.
   const auto addTile = [&](openvdb::CoordBBox box) {
     box.intersect({low, high});
     if (box.empty()) return;
@@ -93,7 +93,7 @@ std::vector<Coord> wetLeaves(const FloatGrid& phi, const CoordBBox& within) {
   for (; tile; ++tile) {
     if (*tile < 0.0f) addTile(tile.getBoundingBox());
   }
-  // Nodes have thousands of tiles: only those in the box are looked at.
+  // Nodes have thousands of tiles: only those in the box are visited.
   using Upper = FloatTree::RootNodeType::ChildNodeType;
   using Lower = Upper::ChildNodeType;
   addTilesOf<Upper>(phi.constTree(), {low, high}, addTile);

@@ -1,5 +1,5 @@
-// The leaves of a tree as a numbered list with neighbours: for kernels that walk from voxel to voxel in an
-// order of their own, on flat arrays of 512 values a leaf.
+// The leaves of a tree as a numbered list with neighbours, for kernels that visit voxels in an order of their
+// own, on flat arrays of 512 values a leaf.
 #pragma once
 
 #include "sim/grid/mac_grid.h"
@@ -36,14 +36,15 @@ struct LeafTable {
 
 LeafTable makeLeafTable(const FloatTree& tree);
 
-// The values of another tree on these leaves; where it has none, its tile or background value.
+// The values of a tree on these leaves; where it has no leaf, its tile or background value.
 std::vector<float> sampleOn(const LeafTable& table, const FloatTree& tree);
 
-// The tree's value of a whole leaf block: its buffer, or `scratch` (512 floats) filled with the tile's value.
+// The tree's 512 values of a leaf block: the leaf's buffer, or `scratch` (512 floats) filled with the tile's
+// value.
 const float* leafValues(const FloatTree& tree, const Coord& origin, float* scratch);
 
-// Origins, in order, of the leaves touching the box where phi has a leaf or is inside: all liquid, and the
-// band.
+// Origins, sorted, of the leaves touching the box where phi has a leaf or is inside: all liquid, and the
+// narrow band.
 std::vector<Coord> wetLeaves(const FloatGrid& phi, const CoordBBox& within);
 
 }  // namespace fluidtex::sim

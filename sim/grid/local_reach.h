@@ -1,5 +1,5 @@
-// How far a flow leads in a step, here and there: most of a liquid is much slower than its fastest jet, and
-// what is traced there needs smaller neighbourhoods.
+// How far a flow moves anything in a step, by place: most of a liquid is much slower than its fastest jet,
+// and traces there need smaller neighbourhoods.
 #pragma once
 
 #include "sim/grid/mac_grid.h"
@@ -11,10 +11,10 @@ class LocalReach {
   // For dt seconds, positive.
   LocalReach(const Velocity& velocity, double dt);
 
-  // At least as far, in cells along each axis, as anything gets that starts in the leaf at `origin`; right
-  // where that is no more than a leaf. The leaf need not be one of the velocity's.
+  // Upper bound, in cells along each axis, of the distance that anything moves that starts in the leaf at
+  // `origin`; valid where that is no more than a leaf. The leaf need not be one of the velocity's.
   float from(const Coord& origin) const;
-  // Of all leaves.
+  // The largest of all leaves.
   float farthest() const { return m_farthest; }
 
  private:

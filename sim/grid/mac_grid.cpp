@@ -32,7 +32,7 @@ openvdb::math::Transform::Ptr faceTransform(double h, int axis) {
 }
 
 Coord cellCount(const Vec3d& size, double h) {
-  // A side that is a whole number of cells but for rounding gets no further cell.
+  // A side that is a whole number of cells except for rounding gets no further cell.
   constexpr double kSlack = 1e-6;
   Coord n;
   for (int a = 0; a < 3; ++a) n[a] = std::max(1, static_cast<int>(std::ceil(size[a] / h - kSlack)));
@@ -122,7 +122,7 @@ std::vector<const FloatLeaf*> leavesOf(const FloatTree& tree) {
 
 namespace {
 
-// Halo and width are known when compiled, so that each row is a few moves.
+// Halo and width are known at compile time, so that each row is a few moves.
 template <int kHalo>
 void copyBox(const float* const* block, float* out, bool crossOnly) {
   constexpr int kSide = kLeafDim + 2 * kHalo;
@@ -153,8 +153,8 @@ constexpr auto kCopyBox = []<int... kHalo>(std::integer_sequence<int, kHalo...>)
 
 void gather(const FloatTree& tree, const Coord& origin, int halo, float* out, bool crossOnly) {
   require(halo >= 0 && halo <= kLeafDim, "gather: a halo of 0 to 8 cells");
-  // What stands in for leaves that are missing: blocks of one value. Few trees have more than two of them
-  // side by side; where one does, a block is filled again for the next leaf.
+  // Blocks of one value in place of missing leaves. Few trees have more than two of them side by side; where
+  // one does, a block is refilled for the next leaf.
   constexpr int kFills = 4;
   struct Fill {
     std::array<float, kLeafSize> value;
@@ -215,7 +215,7 @@ double maxAbs(const Velocity& velocity) {
           for (std::size_t n = range.begin(); n != range.end(); ++n) {
             const auto& active = leaves[n]->getValueMask();
             const float* values = leaves[n]->buffer().data();
-            // Eight side by side; what is not finite is infinity or NaN, and 0 times it is NaN.
+            // Eight side by side; 0 times a value that is not finite (infinity, NaN) is NaN.
             float zero[kLeafDim] = {}, highest[kLeafDim] = {};
             for (int row = 0; row < kLeafSize / kLeafDim; ++row) {
               const int on = active.getWord<std::uint8_t>(static_cast<openvdb::Index>(row));

@@ -1,12 +1,12 @@
-// The direction in which a distance grows.
+// Normals of a distance function.
 #pragma once
 
 #include "sim/vec3.h"
 
 namespace fluidtex::sim {
 
-// Unit vector of the steepest rise at x of distance(Vec3d), by differences over `width` to both sides, in the
-// same unit as x; zero where it does not change.
+// The normalised gradient at x of distance(Vec3d), by central differences over `width` to both sides, in the
+// same unit as x; zero where the gradient is.
 template <class Distance>
 Vec3d normalAt(const Distance& distance, const Vec3d& x, double width) {
   Vec3d normal;

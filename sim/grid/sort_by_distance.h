@@ -1,4 +1,4 @@
-// Voxels in the order of their distance.
+// Sorting of voxels by distance.
 #pragma once
 
 #include <cstdint>
@@ -6,17 +6,17 @@
 
 namespace fluidtex::sim {
 
-// A voxel of a LeafTable and how far it is from where a sweep begins.
+// A voxel of a LeafTable with its distance from the start of a sweep.
 struct FarVoxel {
   std::uint32_t key;  // see sortKey
   std::uint32_t voxel;
 };
 
-// A number that grows with the distance; voxels of a later group come after all of an earlier one. Groups 0
-// and 1. The last bit of the distance's mantissa is lost.
+// An integer that increases with the distance; voxels of group 1 come after all of group 0. The last bit of
+// the distance's mantissa is lost.
 std::uint32_t sortKey(float distance, int group = 0);
 
-// By key; equal ones keep their order.
+// Sorts by key; the order of equal keys is kept.
 void sortByDistance(std::vector<FarVoxel>& voxels);
 
 }  // namespace fluidtex::sim

@@ -1,5 +1,5 @@
-// Trilinear interpolation in a block of floats, z fastest: the innermost loops of everything that moves along
-// the velocity. Four-wide and, for two places at once, eight-wide instructions.
+// Trilinear interpolation in a block of floats, z fastest: the innermost loops of all traces along the
+// velocity. Four-wide instructions and, for two places at once, eight-wide ones.
 #pragma once
 
 #include <immintrin.h>
@@ -8,7 +8,7 @@
 
 namespace fluidtex::sim {
 
-// x, y, z in the first three lanes; the fourth is not looked at.
+// x, y, z in the first three lanes; the fourth is unused.
 using Lanes = __m128;
 
 inline Lanes lanes(float x, float y, float z, float w = 0.0f) {
@@ -27,7 +27,7 @@ inline float lane2(Lanes a) {
   return _mm_cvtss_f32(_mm_movehl_ps(a, a));
 }
 
-// Two places side by side, each as in Lanes: where one waits for memory the other goes on.
+// Two places side by side, each as in Lanes: the latencies of their loads overlap.
 using LanePairs = __m256;
 
 inline LanePairs pairs(Lanes first, Lanes second) {
@@ -49,7 +49,8 @@ inline Lanes facePoints(const float* p, std::ptrdiff_t dy) {
   return _mm_loadh_pi(low, reinterpret_cast<const __m64*>(p + dy));
 }
 
-// The box of eight samples whose lowest is p, at tx, ty, tz in [0, 1] of the way to the highest.
+// Interpolates between the eight samples whose lowest is p; tx, ty, tz in [0, 1] from the lowest to the
+// highest.
 inline float trilinear(const float* p, std::ptrdiff_t dx, std::ptrdiff_t dy, float tx, float ty, float tz) {
   const Lanes low = facePoints(p, dy), high = facePoints(p + dx, dy);
   const Lanes face = low + lanes(tx) * (high - low);
@@ -64,8 +65,8 @@ struct StaggeredBlocks {
   const float* component[3];
   std::ptrdiff_t side;  // samples along each axis
 
-  // At each of two places `centred`, in cells from the first cell centre (the sample u(i, j, k) is at
-  // (i - 1/2, j, k)); all samples needed must be there. What one gives does not depend on the other.
+  // Values at each of two places `centred`, in cells from the first cell centre (the sample u(i, j, k) is at
+  // (i - 1/2, j, k)); all samples needed must be there. The two results are independent.
   [[gnu::always_inline]] LanePairs at(LanePairs centred) const {
     const LanePairs shifted = centred + pairs(0.5f);
     const __m256i cell = _mm256_cvttps_epi32(centred), face = _mm256_cvttps_epi32(shifted);

@@ -1,4 +1,4 @@
-// A leaf's neighbourhood copied side by side, for kernels that sample fields at many places around a leaf.
+// A leaf's neighbourhood copied into one array, for kernels that sample fields at many places around a leaf.
 #pragma once
 
 #include "sim/grid/mac_grid.h"
@@ -29,7 +29,7 @@ struct Window {
         values(std::make_unique_for_overwrite<float[]>(side * side * side)),
         shift(sampleShift) {}
 
-  // Before load(); no more than the halo it was made with.
+  // Call before load(); at most the halo given to the constructor.
   void setHalo(int width) {
     halo = width;
     side = kLeafDim + 2 * width;
@@ -50,9 +50,9 @@ struct Window {
     return tricubic(place.low, side * side, side, lane0(t), lane1(t), lane2(t));
   }
 
-  // The samples of a cell and those around it, and x from that cell's middle, in cells; of samples at cell
-  // centres. x is taken at most a cell outside of the cell. cell: from the leaf's lowest one, at most halo -
-  // 2 outside the leaf.
+  // The samples of a cell and those around it, and x from that cell's centre, in cells; for samples at cell
+  // centres. x is clamped to a cell outside the cell. cell: from the leaf's lowest one, at most halo - 2
+  // outside the leaf.
   Vec3f around(Coord cell, const Vec3f& x, Stencil& out) const {
     constexpr int kReach = VisibleCells::kReach;
     constexpr float kFarthest = static_cast<float>(kReach) - 0.5f;
@@ -82,7 +82,7 @@ struct Window {
 
  private:
   // The lowest of the eight samples around x, and where x is between them. Positions nearer to the window's
-  // edge than `around` samples, or beyond it, are taken there.
+  // edge than `around` samples, or beyond it, are clamped to that.
   struct Place {
     const float* low;
     Lanes t;
@@ -99,8 +99,8 @@ struct Window {
   }
 };
 
-// Calls body(i, j) for the voxels of a leaf for which wanted() holds, two at a time; with an odd number of
-// them the last comes twice.
+// Calls body(i, j) for the voxels of a leaf for which wanted() holds, two at a time; with an odd number the
+// last is repeated.
 template <class Wanted, class Body>
 void forPairs(const Wanted& wanted, const Body& body) {
   int waiting = -1;
@@ -146,7 +146,7 @@ struct VelocityWindow {
     return Vec3f(lane0(velocity), lane1(velocity), lane2(velocity));
   }
 
-  // Where x gets to along the velocity; step: dt / h, negative to trace back.
+  // The place to which the velocity moves x; step: dt / h, negative to trace back.
   Vec3f trace(const Vec3f& x, float step) const {
     const Start start{lanes(x[0], x[1], x[2]), velocityAt(x)};
     return traceOn(start, start, step)[0];

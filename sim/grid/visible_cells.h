@@ -1,4 +1,4 @@
-// Which of the cells around one lie on its own side of a thin solid, and their values.
+// Visibility of the cells around one: which of them lie on its side of a thin solid, and their values.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 
 namespace fluidtex::sim {
 
-// Cells that are seen from one cell, of the 5 x 5 x 5 around it.
+// The cells visible from one cell, of the 5 x 5 x 5 around it.
 struct VisibleCells {
   static constexpr int kReach = 2, kSide = 2 * kReach + 1, kCount = kSide * kSide * kSide;
   static constexpr int kStride[3] = {kSide * kSide, kSide, 1};

@@ -1,4 +1,4 @@
-// One bit a voxel on the leaves of a table: where a kernel has work, found for 64 voxels at a time.
+// Masks of one bit a voxel on the leaves of a table: where a kernel has work, found for 64 voxels at a time.
 #pragma once
 
 #include "sim/grid/leaf_table.h"
@@ -36,7 +36,7 @@ void forLeaves(const LeafTable& table, const Body& body) {
   tbb::parallel_for(std::size_t{0}, table.size(), body);
 }
 
-// Calls body(voxel) for those of one leaf that are set.
+// Calls body(voxel) for the set voxels of one leaf.
 template <typename Body>
 void forBits(const LeafBits& bits, std::size_t leaf, const Body& body) {
   for (std::size_t i = 0; i < bits.size(); ++i) {
@@ -45,7 +45,7 @@ void forBits(const LeafBits& bits, std::size_t leaf, const Body& body) {
   }
 }
 
-// Where test(value) holds. values: #voxels.
+// The voxels where test(value) holds. values: #voxels.
 template <typename Test>
 VoxelMask maskOf(const LeafTable& table, const std::vector<float>& values, const Test& test) {
   VoxelMask mask(table.size());
@@ -63,7 +63,7 @@ VoxelMask maskOf(const LeafTable& table, const std::vector<float>& values, const
 // A leaf's voxels whose neighbour towards direction 0..5 (as in LeafTable::next) is set.
 LeafBits besideThose(const LeafTable& table, const VoxelMask& mask, std::size_t leaf, int direction);
 
-// Those with any such neighbour.
+// A leaf's voxels with any neighbour that is set.
 LeafBits besideAny(const LeafTable& table, const VoxelMask& mask, std::size_t leaf);
 
 }  // namespace fluidtex::sim

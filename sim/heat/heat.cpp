@@ -189,17 +189,17 @@ bool conductHeat(FloatGrid& temperature, const FloatGrid& phi, const SolidField&
         const bool linked = neighbor >= 0 && share > 0.0f;
         system.rows.neighbor[i][side] = linked ? neighbor : n;
         system.rows.link[i][side] = linked ? static_cast<float>(conduction * share) : 0.0f;
-        // The faces of cells towards the air are larger than the surface by 1 / |normal|, one axis with the
-        // other.
+        // The area of cell faces towards the air exceeds that of the surface: each counts by its axis's share
+        // of the normal.
         if (neighbor < 0 && share > 0.0f && liquid.getValue(beside) >= 0.0f)
           surface += share * (length > 0.0 ? std::abs(normal[axis]) / length : 1.0);
       }
-      // T^4 - ambient^4 = (T^2 + ambient^2) (T + ambient) (T - ambient), the first two factors at the
-      // temperature before: heat goes from the warmer to the colder in proportion to their difference, as it
-      // is conducted and given to walls. Each equation then says that a cell is a mean, with weights of at
-      // least 0, of what it was, its neighbours, its walls and what is around, so that none can leave the
-      // range of these. The chord through both temperatures is below the tangent at t where t is less than
-      // ambient: along that one liquid of 300 K between walls of 1500 K would go to 47,000 K in a long step.
+      // T^4 - ambient^4 = (T^2 + ambient^2) (T + ambient) (T - ambient), the first two factors at the old
+      // temperature: radiation is then linear in the temperature difference, as conduction and wall losses
+      // are. In each equation a cell is a mean, with non-negative weights, of its old value, its neighbours,
+      // its walls and the surroundings, so none can leave their range. Linearising by the tangent at t does
+      // not have this property where t is below ambient: liquid of 300 K between walls of 1500 K would reach
+      // 47,000 K in a long step.
       const double ambient = heat.ambient;
       const double shine = radiation * surface * (t * t + ambient * ambient) * (t + ambient);
       system.anchor[i] = 1.0 + shine + wallLoss * wall;

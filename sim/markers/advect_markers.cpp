@@ -13,13 +13,13 @@
 namespace fluidtex::sim {
 namespace {
 
-// A marker of the air goes where the flow takes away more than this share of a cell in a step: there liquid
-// meets liquid, and without air pressure nothing of the gap is left. Kept, such markers would hold it open
-// and eat the liquid that flows in: the dam break at 96 cells ends with half of its water. Twice this share
-// keeps 4% less of it by frame 30.
+// An air marker is dropped where the flow removes more than this share of a cell in a step: there liquid
+// meets liquid, and without air pressure nothing of the gap remains. If kept, such markers hold the gap open
+// and remove the liquid that flows in: the dam break at 96 cells ends with half of its water. Twice this
+// share keeps 4% less of it by frame 30.
 constexpr float kMaxSqueeze = 0.1f;
 
-// Number of the neighbour (27 with the block itself) and the shift to it.
+// Index of the neighbour (27 with the block itself) and the shift to it.
 int neighborNumber(int di, int dj, int dk) {
   return (di + 1) * 9 + (dj + 1) * 3 + dk + 1;
 }
@@ -28,10 +28,10 @@ Coord neighborShift(int number) {
   return Coord((number / 9 - 1) * kLeafDim, (number / 3 % 3 - 1) * kLeafDim, (number % 3 - 1) * kLeafDim);
 }
 
-// Which way a coordinate has left [0, 8), and brings it back.
+// The side on which a coordinate has left [0, 8); wraps it back.
 int wrap(float& x) {
   if (x < 0.0f) {
-    if (x + kLeafDim >= float(kLeafDim)) {  // by rounding: it stays
+    if (x + kLeafDim >= float(kLeafDim)) {  // by rounding: not wrapped
       x = 0.0f;
       return 0;
     }
@@ -45,7 +45,7 @@ int wrap(float& x) {
   return 0;
 }
 
-// Velocities around a block in cells per step, and how far they press a cell's volume out of it.
+// Velocities around a block in cells per step, and the volume that they squeeze out of a cell.
 struct Motion {
   std::array<BlockSamples, 3> speed{BlockSamples(2), BlockSamples(2), BlockSamples(2)};
   BlockSamples squeeze{1};
@@ -71,7 +71,7 @@ struct Motion {
     }
   }
 
-  // Two at a time: one alone waits for each of its three velocities.
+  // Two at a time, since one alone waits for each of its three velocities.
   void trace(Marker& m, Marker& other) const {
     const StaggeredBlocks blocks{{speed[0].value.data(), speed[1].value.data(), speed[2].value.data()},
                                  speed[0].side};
@@ -93,7 +93,8 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt, cons
   const double h = velocity.component[0]->voxelSize()[0];
   const float scale = static_cast<float>(dt / h);
   const LocalReach reach(velocity, dt);
-  // Farther, and markers would leave the neighbouring blocks, and their velocities what is copied of those.
+  // Beyond this, markers would leave the neighbouring blocks, and read velocities beyond what is copied of
+  // those.
   require(dt * maxAbs(velocity) < kMaxTrace * h && reach.farthest() < kMaxTrace,
           "advectMarkers: nothing may move five cells or more in a step");
   // Of a block: the markers that stay in it, and those that leave, by the neighbour they end in.
@@ -117,7 +118,7 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt, cons
         return m.radius > 0.0f && motion.squeeze.at(m.x, m.y, m.z) > kMaxSqueeze;
       });
     }
-    // In the middle of a thin wall a marker is between two sides, and the least that moves it would put the
+    // In the middle of a thin wall a marker is between the two sides, and the smallest motion would put the
     // liquid of one side into the air of the other.
     const Sight sight(visibility, markers[n].origin);
     before.clear();
@@ -136,7 +137,7 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt, cons
         leave.emplace_back(to, m);
       }
     }
-    markers[n].markers = std::vector<Marker>();  // and not {}, which keeps its room
+    markers[n].markers = std::vector<Marker>();  // frees the memory, unlike {}
     for (int to = 0; to < 27; ++to) start[to + 1] += start[to];
     std::array<std::int32_t, 28> next = start;
     parts[n].stay = stay;
@@ -165,7 +166,7 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt, cons
       Moved& part = parts[std::size_t(source - markers.data())];
       if (from == kHere) {
         all.insert(all.end(), part.stay.begin(), part.stay.end());
-        part.stay = std::vector<Marker>();  // nobody else wants them
+        part.stay = std::vector<Marker>();  // frees the memory early
       } else {
         const Marker* first = part.leave.data();
         all.insert(all.end(), first + part.start[26 - from], first + part.start[27 - from]);

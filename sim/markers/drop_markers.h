@@ -1,4 +1,4 @@
-// Markers that are gone.
+// Removal of markers.
 #pragma once
 
 #include "sim/markers/markers.h"
@@ -9,8 +9,8 @@
 
 namespace fluidtex::sim {
 
-// Drops the markers for which gone(marker, cell) holds, and blocks that are left without any. cell: the one
-// whose centre is nearest to the marker. `gone` is called from several threads at once.
+// Drops the markers for which gone(marker, cell) holds, and blocks left without any. cell: the one whose
+// centre is nearest to the marker. `gone` is called from several threads at once.
 template <class Gone>
 void dropMarkers(Markers& markers, const Gone& gone) {
   tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {

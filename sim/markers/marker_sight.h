@@ -1,4 +1,4 @@
-// Which cells a marker beside a thin wall sees: those that its nearest cell does.
+// Visibility for markers beside thin walls: that of the nearest cell.
 #pragma once
 
 #include "sim/markers/markers.h"
@@ -14,7 +14,7 @@ inline int nearestCell(float x) {
   return static_cast<int>(std::floor(x + 0.5f));
 }
 
-// What the markers of a block see.
+// Visibility for the markers of one block.
 class Sight {
  public:
   // visibility: null where no solid is thin.
@@ -23,13 +23,13 @@ class Sight {
       m_visibility = nullptr;
   }
   bool any() const { return m_visibility != nullptr; }
-  // null where all is seen.
+  // null where all is visible.
   const VisibleCells* at(const Marker& m) const {
     if (m_visibility == nullptr) return nullptr;
     return m_visibility->around(m_origin + nearestTo(m));
   }
-  // Whether a thin wall is between two places of a marker, as far as is known: of those more than two cells
-  // apart nothing is.
+  // Whether a thin wall separates two places of a marker. False for places more than two cells apart, where
+  // nothing is known.
   bool parts(const Marker& from, const Marker& to) const {
     const Coord way = nearestTo(to) - nearestTo(from);
     int at = VisibleCells::kMiddle;

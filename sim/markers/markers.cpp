@@ -18,13 +18,13 @@ using Vec3f = openvdb::Vec3f;
 // Distances here are in cells.
 constexpr float kSmallest = 0.1f, kLargest = 0.5f;  // radii [Enright02 sec. 3.1]
 constexpr int kPerCell = 16;                        // markers of a full cell
-constexpr float kBand = 1.5f;                       // cells: how far from the surface markers are kept
-// How deep in solids markers are put.
+constexpr float kBand = 1.5f;                       // cells: largest distance of markers from the surface
+// Largest depth in solids at which markers are seeded.
 constexpr float kWallDepth = 0.5f;
-// Markers of the air this many cells inside the liquid belong to a bubble that has closed.
+// Air markers this many cells inside the liquid belong to a bubble that has closed.
 constexpr float kDeepestAir = 1.0f;
 
-// The same for any order of cells. 20 bits each, so that 7 + x stays below 8.
+// Random numbers of a cell, independent of the order of cells. 20 bits each, so that 7 + x stays below 8.
 class CellRandom {
  public:
   CellRandom(std::uint64_t seed, const Coord& cell) : m_state(seed) {
@@ -54,8 +54,8 @@ bool escaped(const Marker& m, float phi) {
   return side(m) * phi < -std::abs(m.radius);
 }
 
-// Whether the liquid here is no more than a film on the wall: no cell around is liquid, and it gets farther
-// one cell away from the wall. (A thread that stands on a wall is as near there as here.)
+// Whether the liquid here is only a film on the wall: no cell around is liquid, and the distance to the
+// liquid grows one cell away from the wall. (Beside a thread that stands on a wall it does not.)
 bool liesOnWall(const Marker& m, const BlockSamples& distance, const BlockSamples& solid) {
   if (distance.anyNegative(m.x, m.y, m.z)) return false;
   const Vec3f slope(solid.at(m.x + 0.5f, m.y, m.z) - solid.at(m.x - 0.5f, m.y, m.z),
@@ -67,10 +67,10 @@ bool liesOnWall(const Marker& m, const BlockSamples& distance, const BlockSample
   return distance.at(away[0], away[1], away[2]) > distance.at(m.x, m.y, m.z) + 0.5f;
 }
 
-// Beside thin walls: what VisibleCells reach around a marker's nearest cell.
+// Halo that VisibleCells reach around a marker's nearest cell, beside thin walls.
 constexpr int kThinWallHalo = VisibleCells::kReach + 1;
 
-// A corner of the cube of cell centres around a marker, as VisibleCells of its nearest cell know it.
+// A corner of the cube of cell centres around a marker, as an index into VisibleCells of its nearest cell.
 int cornerOf(const Marker& m, int corner) {
   constexpr const int* kStride = VisibleCells::kStride;
   return VisibleCells::kMiddle + (int(m.x) + (corner >> 2) - nearestCell(m.x)) * kStride[0] +
@@ -78,7 +78,7 @@ int cornerOf(const Marker& m, int corner) {
          (int(m.z) + (corner & 1) - nearestCell(m.z)) * kStride[2];
 }
 
-// phi, in cells, where a marker is.
+// phi, in cells, at a marker.
 float sample(const BlockSamples& distance, const Marker& m, const VisibleCells* visible) {
   if (visible == nullptr) return distance.at(m.x, m.y, m.z);
   constexpr int kReach = VisibleCells::kReach;
@@ -88,7 +88,7 @@ float sample(const BlockSamples& distance, const Marker& m, const VisibleCells* 
     for (int j = -kReach; j <= kReach; ++j, to += VisibleCells::kSide)
       std::copy_n(distance.sample(nearestCell(m.x) + i, nearestCell(m.y) + j, nearestCell(m.z) - kReach),
                   VisibleCells::kSide, to);
-  goOnBehind(values, *visible);
+  extrapolateBehind(values, *visible);
   return trilinear(values.data() + cornerOf(m, 0), VisibleCells::kStride[0], VisibleCells::kStride[1],
                    m.x - std::floor(m.x), m.y - std::floor(m.y), m.z - std::floor(m.z));
 }
@@ -206,9 +206,9 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
         if (!open || out) {
           const float wall = solid.at(m.x, m.y, m.z);
           if (wall < -1.0f) continue;
-          // Liquid that runs over a wall leaves none of the air between; it cannot flow out from there.
+          // Liquid that runs over a wall leaves no air between, since air cannot flow out there.
           if (out && m.radius > 0.0f && wall < 1.0f) continue;
-          // What is left of a film at a wall, with no cell of liquid: nothing would move it any more.
+          // The rest of a film at a wall, without a liquid cell: nothing would move it any more.
           if (out && wall < 1.0f && liesOnWall(m, distance, solid)) continue;
         }
         if (!out && there >= 2 * kPerCell) continue;
@@ -216,7 +216,7 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
         measure(m, here);
         kept.push_back(m);
       }
-      block->markers = std::vector<Marker>();  // nobody else wants them
+      block->markers = std::vector<Marker>();  // frees the memory early
     }
     for (std::size_t c = 0; c < kLeafSize; ++c) {
       if (count[c] > kPerCell / 2) continue;

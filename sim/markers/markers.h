@@ -1,7 +1,7 @@
 // Marker particles on both sides of the surface: the particle level set method of Enright, Fedkiw, Ferziger,
-// Mitchell, "A hybrid particle level set method for improved interface capturing", 2002. Markers are carried
-// by the flow and keep what the grid loses: edges, films, volume. Where one has come out on the wrong side of
-// the surface, phi is in error and is put right by it.
+// Mitchell, "A hybrid particle level set method for improved interface capturing", 2002. Markers are advected
+// with the flow and keep what the grid loses: edges, films, volume. Where one has escaped to the wrong side
+// of the surface, it corrects phi.
 #pragma once
 
 #include "sim/grid/mac_grid.h"
@@ -13,8 +13,8 @@
 
 namespace fluidtex::sim {
 
-// A sphere that touched the surface when it was last measured. In units of cells: x, y, z from the centre of
-// the first cell of its block, each in [0, 8); radius 0.1 to 0.5, negative for a marker of the liquid.
+// A sphere that touched the surface when its radius was last set. In units of cells: x, y, z from the centre
+// of the first cell of its block, each in [0, 8); radius 0.1 to 0.5, negative for a liquid marker.
 struct Marker {
   float x, y, z, radius;
 };
@@ -25,7 +25,7 @@ struct MarkerBlock {
   std::vector<Marker> markers;
 };
 
-// In the order of their origins, none empty.
+// Sorted by origin, none empty.
 using Markers = std::vector<MarkerBlock>;
 
 // The block at that origin; null where there is none.
@@ -37,25 +37,26 @@ auto findBlock(Blocks& markers, const Coord& origin) {
   return it != markers.end() && it->origin == origin ? &*it : nullptr;
 }
 
-// Markers for a surface: of the liquid and of the air, in every cell that the band reaches, none deep in
-// solids. visibility: of the solids (SolidField), null for none that are thin.
+// Liquid and air markers for a surface, in every cell that the markers' band reaches, none deep in solids.
+// visibility: of the solids (SolidField), null where none is thin.
 Markers seedMarkers(const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed,
                     const Visibility* visibility = nullptr);
 
-// The markers dt seconds later (give them away: there are too many to keep twice): third-order Runge-Kutta,
-// velocity trilinear. Throws std::invalid_argument where dt max|u| / h is not below 5 (kMaxTrace).
-// Markers of the air that the flow squeezes out between liquid and liquid are dropped, and those that come
-// out on the other side of a thin solid. visibility: of the solids (SolidField), null for none that are thin.
+// The markers dt seconds later: third-order Runge-Kutta, velocity trilinear. Move the markers in: there are
+// too many to copy.
+// Dropped: air markers that the flow squeezes out between liquid and liquid, and markers that come out on the
+// other side of a thin solid. visibility: of the solids (SolidField), null where none is thin.
+// Throws std::invalid_argument where dt max|u| / h is not below 5 (kMaxTrace).
 Markers advectMarkers(Markers markers, const Velocity& velocity, double dt,
                       const Visibility* visibility = nullptr);
 
-// Puts phi right at the corners of cells with escaped markers, those farther on the wrong side than their
-// radius; at those that are on the marker's side of a thin solid.
+// Corrects phi at the corners of cells with escaped markers, those farther on the wrong side than their
+// radius; only at corners on the marker's side of a thin solid.
 void correctPhi(FloatGrid& phi, const Markers& markers, const Visibility* visibility = nullptr);
 
-// Measures the radii anew; drops markers that have left the band, those in solids, and those of bubbles that
-// have closed; and fills cells near the surface that have no more than half of what they should. `seed` must
-// differ from call to call.
+// Updates the radii; drops markers that have left the band, those in solids, and those of bubbles that have
+// closed; reseeds cells near the surface that have no more than half of their markers. `seed` must differ
+// from call to call.
 void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed,
                      const Visibility* visibility = nullptr);
 

@@ -29,7 +29,7 @@ Key keyOf(const Polygon& polygon) {
   return key;
 }
 
-// Of the polygons with the same corners: all of them, in order, and how many more are turned one way.
+// A group of polygons with the same corners: its members, sorted, and the surplus of one orientation.
 struct Twins {
   std::vector<std::size_t> members;
   int surplus = 0;
@@ -114,7 +114,7 @@ Polygons withoutTwins(const Polygons& polygons) {
     return some;
   };
   const auto closes = [](const Polygons& some) { return !some.empty() && openEdges(some).none(); };
-  // Walls between, which face both ways; faces that are there twice; both, with faces turned anyhow.
+  // In this order: walls within, whose faces cancel; duplicates; both, with faces of any orientation.
   if (Polygons some = kept([](const Twins& twins) { return twins.surplus != 0; }); closes(some)) return some;
   if (Polygons some = kept([](const Twins&) { return true; }); closes(some)) return some;
   if (Polygons some = kept([](const Twins& twins) { return twins.members.size() % 2 != 0; }); closes(some))

@@ -1,6 +1,5 @@
-// Fans where they will do, else ears, one after the other: Meisters, "Polygons have ears", 1975. CGAL's
-// triangulation takes no polygon that touches itself, as those with holes do, whose rims are joined by a
-// slit.
+// Fans where they suffice, else ear clipping: Meisters, "Polygons have ears", 1975. CGAL's triangulation
+// takes no polygon that touches itself, as those with holes do, whose rims are joined by a slit.
 #include "sim/meshes/cut_polygon.h"
 
 #include "sim/meshes/closed_surface.h"
@@ -50,7 +49,7 @@ class Ears {
       const std::size_t ear = next(at);
       triangles.push_back({before(ear), m_left[ear], behind(ear)});
       m_left.erase(m_left.begin() + std::ptrdiff_t(ear));
-      // The corner behind may have become one; going on from there makes no fan of slivers.
+      // The next corner may have become an ear; continuing there avoids a fan of slivers.
       at = ear < m_left.size() ? ear : 0;
     }
     triangles.push_back({m_left[0], m_left[1], m_left[2]});
@@ -64,7 +63,7 @@ class Ears {
     return turn(m_places[before(i)], m_places[m_left[i]], m_places[behind(i)]);
   }
 
-  // The first ear from a corner on; where there is none, what comes next to one: a straight corner, or any.
+  // The first ear from a corner on; where there is none, a straight corner, or else any.
   std::size_t next(std::size_t from) const {
     std::size_t second = from;
     double flattest = kForever;

@@ -1,4 +1,4 @@
-// Whether a place lies inside closed surfaces.
+// Winding numbers of closed surfaces.
 #pragma once
 
 #include "sim/meshes/triangle_mesh.h"
@@ -11,16 +11,16 @@
 
 namespace fluidtex::sim {
 
-// Winding numbers of triangles that together are closed, by the line along an axis through a place: which
-// triangles it meets is decided exactly (on a lattice of 2^-29 of the mesh's width), also where it runs along
-// edges and through vertices.
+// Winding numbers of triangles that together are closed, by the line along an axis through a place. Which
+// triangles it crosses is decided exactly (on a lattice of 2^-29 of the mesh's width), also where it runs
+// along edges and through vertices.
 class InsideTest {
  public:
   explicit InsideTest(TriangleMesh mesh);
   explicit InsideTest(std::shared_ptr<const TriangleTree> surface);
 
-  // Where the line at (x, y) passes a triangle: its height, and whether it comes in (1) or out (-1) on its
-  // way down. Not sorted.
+  // A crossing of the vertical line at (x, y) with a triangle: its height, and whether the line enters (1) or
+  // leaves (-1) on its way down. Crossings are not sorted.
   struct Crossing {
     double z;
     int step;
@@ -28,10 +28,9 @@ class InsideTest {
   using Crossings = std::vector<Crossing>;
   void crossings(double x, double y, Crossings& found) const;
 
-  // How often the surfaces go around the place, as seen along the line: above 0 inside surfaces that are
-  // turned outward, 0 outside.
+  // Winding number of the place along the line: above 0 inside surfaces that are turned outward, 0 outside.
   static int winding(const Crossings& crossings, double z);
-  // By the line along an axis: one that does not run along the surface beside the place takes less time.
+  // By the line along an axis; one that does not run along the surface beside the place takes less time.
   int winding(const Vec3d& x, int axis = 2) const;
 
  private:

@@ -1,7 +1,7 @@
 // At corners of cells distances are OpenVDB's, without signs; the signs are those of winding numbers.
-// OpenVDB's own, by a flood from outside, fill cavities and what is narrower than two cells, and need all of
-// the mesh. Between corners distances are those of the closest triangle: interpolated ones would miss walls
-// and gaps that have no corner in them, and round off all that have few.
+// OpenVDB's own signs, by a flood fill from outside, fill cavities and gaps narrower than two cells, and need
+// all of the mesh. Between corners distances are those of the closest triangle: interpolated ones would miss
+// walls and gaps that have no corner in them, and round off those that have few.
 #include "sim/meshes/mesh_distance.h"
 
 #include "sim/grid/mac_grid.h"
@@ -59,7 +59,7 @@ std::vector<Vec3d> clipped(std::vector<Vec3d> polygon, const BBoxd& box) {
   return polygon;
 }
 
-// Triangles without those that lie beyond the box, and cut there. Not closed.
+// Triangles within the box, clipped to it. Not closed.
 TriangleMesh within(const TriangleMesh& mesh, const BBoxd& box) {
   TriangleMesh part;
   for (const Vec3I& t : mesh.triangles) {
@@ -138,7 +138,7 @@ void forLeaves(const std::vector<Leaf*>& leaves, const InsideTest& inside, doubl
                     });
 }
 
-// Gives distances their signs.
+// Sets the signs of the distances.
 void setSigns(openvdb::FloatGrid& grid, const InsideTest& inside, double h) {
   forLeaves(leavesByColumn(grid), inside, h, [&](Leaf& leaf, Columns& columns) {
     for (int n = 0; n < int(Leaf::SIZE); ++n) {
@@ -172,7 +172,7 @@ bool hasInnerSurface(const openvdb::FloatGrid& grid, double h) {
 }
 
 // Pieces of triangles, no longer than two cells, that have no solid on both sides: where parts cross each
-// other, what of one lies within the other is no surface.
+// other, what of one lies inside the other is not a surface.
 class OuterPieces {
  public:
   OuterPieces(const InsideTest& inside, double h) : m_inside(inside), m_h(h) {}
@@ -210,7 +210,7 @@ class OuterPieces {
     const auto isSurface = [&](const Vec3d& x) {
       return m_inside.winding(x + normal) <= 0 || m_inside.winding(x - normal) <= 0;
     };
-    // A little within the corners, which may be shared with what crosses it.
+    // Slightly inside the corners, which may lie on what crosses the triangle.
     if (isSurface(middle) || isSurface(0.9 * a + 0.1 * middle) || isSurface(0.9 * b + 0.1 * middle) ||
         isSurface(0.9 * c + 0.1 * middle))
       kept.insert(kept.end(), {a, b, c});

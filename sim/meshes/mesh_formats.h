@@ -1,6 +1,6 @@
-// What the text or bytes of mesh files say. All three formats are read here: no library at hand keeps the
-// vertices of an OBJ as they are (texture is written back onto them), reads all that programs write, and
-// stays within bounds on damaged files (docs/architecture.md).
+// Readers of mesh file formats. All three are read here: no library at hand keeps the vertices of an OBJ as
+// they are (texture is written back onto them), reads all that programs write, and stays within bounds on
+// damaged files (docs/architecture.md).
 #pragma once
 
 #include "sim/meshes/read_mesh.h"
@@ -9,9 +9,12 @@
 
 namespace fluidtex::sim {
 
-// Each takes all of a file, and no more memory than a multiple of its size. Throws std::runtime_error, whose
-// words go on a sentence that begins with the file's name: "line 7: a vertex needs three numbers". Corners
-// may name vertices that do not exist, coordinates may be infinite.
+// Each takes all of a file, and no more memory than a multiple of its size. Corners may name vertices that do
+// not exist, and coordinates may be infinite.
+// Throws std::runtime_error; the message continues a sentence that begins with the file's name: "line 7: a
+// vertex needs three numbers".
+//
+// Faces (f) and vertices (v) of Wavefront OBJ; lines, points, normals, groups and materials are skipped.
 
 // Faces (f) and vertices (v) of Wavefront OBJ; lines, points, normals, groups and materials are passed over.
 MeshSoup soupOfObj(std::string_view text);

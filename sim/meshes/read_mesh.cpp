@@ -1,5 +1,5 @@
-// Files of meshes, and what makes a solid of one: double points joined (of STL, of split normals), walls
-// within taken out, polygons cut into triangles, all turned outward.
+// Reading of mesh files, and their repair into a solid: duplicate points joined (of STL, of split normals),
+// walls within removed, polygons split into triangles, all turned outward.
 #include "sim/meshes/read_mesh.h"
 
 #include "sim/meshes/closed_surface.h"

@@ -1,4 +1,4 @@
-// What a mesh file holds, and what is wrong with one.
+// Reading and checking of mesh files.
 #pragma once
 
 #include "sim/meshes/triangle_mesh.h"
@@ -8,31 +8,31 @@
 
 namespace fluidtex::sim {
 
-// Thrown by readMesh(), and by all that reads a mesh through it; names the file and what is wrong with it.
+// Thrown by readMesh() and by its callers; names the file and what is wrong with it.
 struct MeshError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The points and polygons of an OBJ, PLY or STL file, in its order and with nothing repaired, but that all
-// points are finite, all corners exist and all polygons have three or more. An STL has three points of its
-// own for each facet. Throws MeshError; memory stays within a multiple of the file's size, whatever it holds.
+// The points and polygons of an OBJ, PLY or STL file, in its order and without repair. All points are finite,
+// all corners exist and all polygons have three or more. An STL has three points of its own for each facet.
+// Memory stays within a multiple of the file's size, whatever it holds. Throws MeshError.
 struct MeshSoup {
   std::vector<Vec3d> points;                       // #P, as in the file
   std::vector<std::vector<std::size_t>> polygons;  // corners of each
 };
 MeshSoup readSoup(const std::filesystem::path& file);
 
-// scale * x + translate of a file's points, metres. Throws MeshError where that is beyond single precision.
+// scale * x + translate of a file's points, metres. Throws MeshError where that exceeds single precision.
 std::vector<openvdb::Vec3f> placedPoints(const std::filesystem::path& file, const MeshSoup& soup,
                                          double scale, const Vec3d& translate);
 
-// Throws MeshError where the file's polygons are no closed surface.
+// Throws MeshError where the file's polygons do not form a closed surface.
 void checkClosed(const std::filesystem::path& file, const std::vector<std::vector<std::size_t>>& polygons);
 
-// turnedOutward(); throws MeshError where the file's surface has one side only.
+// turnedOutward(); throws MeshError where the file's surface is one-sided.
 std::vector<openvdb::Vec3I> outwardTriangles(const std::filesystem::path& file, const TriangleMesh& mesh);
 
-// Reads OBJ, PLY or STL: polygons split into triangles, all turned outward whichever way they are in the
+// Reads OBJ, PLY or STL: polygons split into triangles, all turned outward whatever their orientation in the
 // file. A closed surface within another one is the wall of a cavity; parts that cross or touch are one solid.
 // Throws MeshError, which names the file and what is wrong (missing, unreadable, no faces, not closed).
 TriangleMesh readMesh(const MeshShape& shape);

@@ -11,7 +11,7 @@ namespace {
   throw std::runtime_error("line " + std::to_string(line) + ": " + what);
 }
 
-// Whether a line goes on in the next one; takes the sign of that off.
+// Whether a line continues in the next one; removes the mark of that.
 bool goesOn(std::string_view& line) {
   const std::size_t last = line.find_last_not_of(" \t");
   if (last == std::string_view::npos || line[last] != '\\') return false;

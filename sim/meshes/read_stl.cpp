@@ -49,7 +49,7 @@ MeshSoup binarySoup(std::string_view bytes) {
   return soup;
 }
 
-// By words and not by lines: some files have several of them on one.
+// By words and not by lines: some files have several keywords on a line.
 MeshSoup textSoup(std::string_view text) {
   const std::string_view whole = text;
   const auto fail = [&](const std::string& what) {

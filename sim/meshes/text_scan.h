@@ -46,7 +46,7 @@ inline std::string inLowerCase(std::string_view text) {
   return lower;
 }
 
-// As it can be shown in a sentence, whatever it holds.
+// The word in quotes and shortened, for messages; characters that cannot be printed become '?'.
 inline std::string inQuotes(std::string_view word) {
   constexpr std::size_t kLongest = 40;
   std::string text = "'";
@@ -54,7 +54,7 @@ inline std::string inQuotes(std::string_view word) {
   return text + (word.size() > kLongest ? "...'" : "'");
 }
 
-// A number in a word of its own. False where the word is none; too large a number is infinite.
+// Parses a word as a number. False where it is none; too large a number becomes infinite.
 inline bool parseNumber(std::string_view word, double& number) {
   if (word.starts_with('+')) word.remove_prefix(1);
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
@@ -65,7 +65,7 @@ inline bool parseNumber(std::string_view word, double& number) {
 
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-// Without a byte-order mark. Throws where the text is of two bytes a letter.
+// Removes a byte-order mark. Throws std::runtime_error for UTF-16.
 inline std::string_view withoutMark(std::string_view text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     throw std::runtime_error("is text of two bytes a letter (UTF-16); save it as UTF-8 or ASCII");

@@ -1,4 +1,4 @@
-// Triangles in a tree of boxes: which of them is nearest to a place, and which lie beyond it.
+// A bounding-volume tree of triangles: which of them is nearest to a place, and which lie beyond it.
 #pragma once
 
 #include "sim/meshes/triangle_mesh.h"
@@ -20,12 +20,12 @@ class TriangleTree {
     int triangle;   // -1: there is none
     Vec3d weight;   // of its corners: the closest point is their sum
   };
-  // The closest point of all triangles; where several have it, of the first. `guess`: how far away it is at
-  // most, as far as is known (metres); a good one saves time, a wrong one costs some.
+  // The closest point of all triangles; of several equally near, that of the first triangle. guess: estimated
+  // upper bound of the distance, metres; a good one saves time, a wrong one costs some.
   Closest closest(const Vec3d& x, double guess) const;
 
-  // Calls body(triangle) for all triangles that the line from x up an axis passes, and some that it does not;
-  // those that it passes by less than `margin` are among them.
+  // Calls body(triangle) for all triangles that the line from x up an axis crosses, and for some others;
+  // those that it misses by less than `margin` are included.
   template <class Body>
   void forBeyond(const Vec3d& x, int axis, double margin, const Body& body) const {
     std::array<int, kMostWaiting> waiting;
@@ -46,8 +46,8 @@ class TriangleTree {
 
  private:
   static constexpr int kWays = 4, kNothing = -1;
-  // Four boxes around some triangles each: either those of the node `first`, where `count` is 0, or `count`
-  // of m_triangles, from `first` on; kNothing where there are fewer than four.
+  // Four boxes of triangles. Where `count` is 0 the box is that of the node `first`; else it holds `count` of
+  // m_triangles, from `first` on; kNothing where there are fewer than four.
   struct alignas(16) Node {
     float low[3][kWays], high[3][kWays];
     int first[kWays], count[kWays];
@@ -57,12 +57,12 @@ class TriangleTree {
     int number;
   };
   class Sought;
-  // Of each level of the tree three nodes wait, and levels are as many as the logarithm of the number of
-  // triangles.
+  // The depth-first search keeps three nodes of each level, and the levels are as many as the logarithm of
+  // the number of triangles.
   static constexpr int kMostWaiting = 64;
 
   void build(const std::vector<openvdb::Vec3f>& middles, int node, int below, int first, int count);
-  // Puts the lower half of so many triangles, along the longest axis of their box, before the others.
+  // Partitions `count` triangles at the median along the longest axis of their box, the lower half first.
   int halved(const std::vector<openvdb::Vec3f>& middles, int first, int count);
   void setBox(Node& node, int way, int first, int count) const;
   void search(const Vec3d& x, Closest& closest) const;

@@ -18,7 +18,7 @@
 namespace fluidtex::sim {
 namespace {
 
-// Blocks beyond the domain in which phi and the velocity go on.
+// Margin beyond the domain in which phi and the velocity continue, cells.
 constexpr int kMargin = kLeafDim;
 
 bool carriesSurface(MotionKind flow) {
@@ -30,7 +30,7 @@ KnownFlow flowOf(const Options& options, const MotionOptions& motion) {
   switch (motion.flow) {
     case MotionKind::rotation:
       return rotation(middle, motion.rate);
-    // At its middle the vortex of the unit square turns by 2 pi a second.
+    // At its centre the vortex of the unit square turns by 2 pi a second.
     case MotionKind::vortex:
       return drawnOut(singleVortex(motion.period), options.size, motion.rate / (2.0 * std::numbers::pi));
     case MotionKind::deformation:
@@ -46,7 +46,7 @@ KnownFlow flowOf(const Options& options, const MotionOptions& motion) {
   return still();
 }
 
-// x turned back about the upright axis through the middle.
+// x turned back about the vertical axis through the middle.
 Vec3d turnedBack(const Vec3d& x, const Vec3d& middle, double angle) {
   const Vec3d from = x - middle;
   const double c = std::cos(angle), s = std::sin(angle);

@@ -1,5 +1,5 @@
-// Motion by a flow known in closed form in place of the solver: the same frames, for tests of what comes
-// after them.
+// Motion by an analytic flow in place of the solver: the same frames, to test the stages after the
+// simulation.
 #pragma once
 
 #include "sim/motion/known_flow.h"
@@ -8,15 +8,13 @@
 
 namespace fluidtex::sim {
 
-// Frames whose velocity is that of `motion`, up to its trilinear reading. Of the surface:
-//  - rest, stretch, source and sink: it stays, and what it is made of runs along it. Right where the velocity
-//    is tangent to it: for sheets that lie level. What a stretched sheet loses leaves through the domain's
-//    sides.
-//  - rotation: it turns; its distance is the first one's at the place turned back.
-//  - vortex, deformation: it is carried by the solver's own kernel (sim/flows/move_surface.h), in substeps of
-//  at most
-//    Options::cfl cells, each with the velocity of its middle.
-// Steady flows have one substep a frame. Only liquid of Options::liquid is known, all from the start.
+// Frames whose velocity is that of `motion`, except for its trilinear interpolation. The surface:
+// - rest, stretch, source and sink: it stays, and its material moves along it. Right where the velocity is
+// tangent to it: for level sheets. What a stretched sheet loses leaves through the domain's sides.
+// - rotation: it turns; its distance is the initial one at the place turned back.
+// - vortex, deformation: it is advected by the solver's own kernel (sim/flows/move_surface.h), in substeps of
+// at most Options::cfl cells, each with the velocity of its middle.
+// Steady flows have one substep a frame. Only bodies in Options::liquid are used, all from the start.
 class AnalyticFlow {
  public:
   AnalyticFlow(const Options& options, const MotionOptions& motion);
@@ -38,7 +36,7 @@ class AnalyticFlow {
   Options m_options;
   MotionOptions m_motion;
   KnownFlow m_flow;
-  std::shared_ptr<const SolidField> m_solid;  // the domain's walls
+  std::shared_ptr<const SolidField> m_solid;  // the walls of the domain
   Velocity m_velocity;                        // at strength 1, in the domain and a block around it
   double m_speed = 0.0;                       // m/s, of m_velocity
   State m_state;

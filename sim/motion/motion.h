@@ -1,4 +1,4 @@
-// Where frames come from: the solver, or a flow known in closed form.
+// Source of frames: the solver, or an analytic flow.
 #pragma once
 
 #include "sim/motion/analytic_flow.h"
@@ -11,7 +11,7 @@ namespace fluidtex::sim {
 
 using Motion = std::variant<Solver, AnalyticFlow>;
 
-// What `motion` asks for, from the start or on from a state. Throws SolverError when the state was
+// The source that `motion` selects, from the start or from a state. Throws SolverError when the state was
 // made at another resolution.
 Motion makeMotion(const Options& options, const MotionOptions& motion, std::optional<State> state = {});
 
@@ -19,7 +19,7 @@ Motion makeMotion(const Options& options, const MotionOptions& motion, std::opti
 Frame nextFrame(Motion& motion, const std::function<void(double)>& progress = {});
 const State& stateOf(const Motion& motion);
 std::vector<std::string> warningsOf(const Motion& motion);
-// The same before there is one: nothing is put on a grid but the solids' meshes and ground.
+// The same without making the source: only the solids' meshes and ground are sampled on a grid.
 std::vector<std::string> warningsOf(const Options& options, const MotionOptions& motion);
 
 }  // namespace fluidtex::sim

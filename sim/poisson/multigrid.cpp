@@ -21,11 +21,11 @@ using Range = tbb::blocked_range<int>;
 
 constexpr int kGrain = 4096;
 constexpr int kGroup = 1024;
-// A level this small is swept until it is as good as solved.
+// A level this small is swept until it is practically solved.
 constexpr int kCoarsestCells = 100;
 constexpr int kCoarsestSweeps = 12;
-// Across a face open by less than this the values on both sides have little to do with each other: it counts
-// as a wall in the interpolation. Without it, a ball in the way doubles the iterations.
+// A face with a smaller open area fraction counts as a wall in the interpolation: the values on its two sides
+// are hardly related. Without it, a ball in the flow doubles the iterations.
 constexpr float kWeakLink = 0.5f;
 
 template <typename Body>

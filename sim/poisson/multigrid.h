@@ -15,8 +15,8 @@ class Multigrid {
   // Builds the coarse levels. The system must outlive the object. even: of its rows.
   Multigrid(const PoissonSystem& system, const EvenRows& even);
 
-  // x = M b with M symmetric and about the inverse of the system's matrix. Single precision; b of magnitude
-  // about 1. Both hold size() + 1 values, the last one 0.
+  // x = M b with M symmetric and an approximate inverse of the system's matrix. Single precision; b of
+  // magnitude about 1. Both hold size() + 1 values, the last one 0.
   void apply(const std::vector<float>& b, std::vector<float>& x);
 
  private:

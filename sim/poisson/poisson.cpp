@@ -1,4 +1,4 @@
-// Preconditioned conjugate gradients, in the flexible form that forgives a preconditioner rounded to single
+// Preconditioned conjugate gradients, in the flexible form that tolerates a preconditioner rounded to single
 // precision: Notay, "Flexible conjugate gradients", 2000. Singular parts: Bochev and Lehoucq, "On the finite
 // element solution of the pure Neumann problem", 2005.
 #include "sim/poisson/poisson.h"
@@ -254,10 +254,10 @@ PoissonReport PoissonSolver::solve(std::vector<double> b, std::vector<double>& x
 
   if (m_preconditioner == nullptr) m_preconditioner = std::make_unique<Multigrid>(system, even);
   double rz = 0.0, alpha = 0.0;
-  bool asked = probe.goOn == nullptr;
+  bool asked = probe.continues == nullptr;
   while (!report.converged && !report.ended && report.iterations < maxIterations &&
          std::isfinite(report.residual)) {
-    // The preconditioner works on values of about 1, whatever is left of the residual.
+    // Scaled, since the preconditioner works on values of about 1.
     const double unit = normR / std::sqrt(static_cast<double>(n));
     tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
       for (int i = range.begin(); i < range.end(); ++i) scaled[i] = static_cast<float>(r[i] / unit);
@@ -281,7 +281,7 @@ PoissonReport PoissonSolver::solve(std::vector<double> b, std::vector<double>& x
       q[i] = product;
       return p[i] * product;
     });
-    if (!(pq > 0.0) || !(rz > 0.0)) break;  // rounding is all that is left
+    if (!(pq > 0.0) || !(rz > 0.0)) break;  // only rounding is left
     alpha = rz / pq;
     normR = std::sqrt(sum(n, [&](int i, Sums& s) {
                         x[i] += alpha * p[i];
@@ -293,7 +293,7 @@ PoissonReport PoissonSolver::solve(std::vector<double> b, std::vector<double>& x
     report.converged = report.residual <= tolerance;
     if (!asked && !report.converged && report.residual <= probe.tolerance) {
       asked = true;
-      report.ended = !probe.goOn(x);
+      report.ended = !probe.continues(x);
     }
   }
   removeMeans(m_singular, x);

@@ -43,7 +43,7 @@ class CellNumbering {
   }
   const std::vector<Coord>& origins() const { return m_lists->origins; }  // of the blocks, as they were given
 
-  // The numbers of a block's 512 cells (-1: not one of them), or null where the block has none.
+  // Indices of a block's 512 cells (-1: not in the list), or null where the block has none.
   const int* block(const Coord& anyCellInside) const {
     const int table = tableOf(anyCellInside);
     if (table < 0) return nullptr;
@@ -51,7 +51,7 @@ class CellNumbering {
     return start < 0 ? nullptr : m_lists->numbers.data() + start;
   }
 
-  // -1 for cells that are not in the list.
+  // Index of a cell; -1 where it is not in the list.
   int at(const Coord& cell) const {
     const int* numbers = block(cell);
     return numbers == nullptr ? -1 : numbers[((cell[0] & 7) << 6) | ((cell[1] & 7) << 3) | (cell[2] & 7)];
@@ -91,7 +91,7 @@ class CellNumbering {
   std::shared_ptr<Lists> m_lists = std::make_shared<Lists>();
 };
 
-// The numbers in a block and in those beside it.
+// Indices in a block and in those beside it.
 class BlockNumbers {
  public:
   BlockNumbers(const CellNumbering& numbering, const Coord& origin);
@@ -123,9 +123,9 @@ struct PoissonRows {
   }
 };
 
-// Rows in the liquid's middle are all alike: those of 32 successive cells whose links are all of one value,
-// and which have no anchor. Sums over their neighbours need not read the links, which is half of all there is
-// to read.
+// Rows in the liquid's interior are equal. Even rows are groups of 32 successive cells whose links have one
+// value and which have no anchor. Sums over their neighbours need not read the links, which halves the memory
+// traffic.
 class EvenRows {
  public:
   EvenRows() = default;
@@ -150,8 +150,8 @@ class EvenRows {
   std::vector<float> m_link;  // of 32 cells; 0 where they are not alike
 };
 
-// Symmetric, positive (semi)definite. Anchors tie cells to the value 0; a connected part without one is
-// singular, and is solved for the right-hand side and the unknowns less their means over that part.
+// Symmetric, positive (semi)definite. Anchors tie cells to the value 0. A connected part without one is
+// singular; it is solved with the means over that part subtracted from right-hand side and unknowns.
 struct PoissonSystem {
   CellNumbering numbering;
   PoissonRows rows;
@@ -169,14 +169,15 @@ struct PoissonReport {
 // Connected parts without an anchor, each a list of its cells.
 std::vector<std::vector<int>> singularParts(const PoissonSystem& system);
 
-// Asked once, when the residual has fallen to `tolerance`: whether the solve is to go on from there.
+// Called once, when the residual has fallen to `tolerance`: whether the solve continues from there (early
+// termination).
 struct PoissonProbe {
   double tolerance = 0.0;
-  std::function<bool(const std::vector<double>& x)> goOn;
+  std::function<bool(const std::vector<double>& x)> continues;
 };
 
-// One system for several right-hand sides; the preconditioner is made once. The system and its singular parts
-// must outlive the object.
+// Solver of one system for several right-hand sides; the preconditioner is built once. The system and its
+// singular parts must outlive the object.
 class PoissonSolver {
  public:
   PoissonSolver(const PoissonSystem& system, const std::vector<std::vector<int>>& singular);
@@ -184,7 +185,8 @@ class PoissonSolver {
   PoissonSolver(const PoissonSolver&) = delete;
   PoissonSolver& operator=(const PoissonSolver&) = delete;
 
-  // From the given x; the 2-norm of the residual falls to `tolerance` times that of b, or the probe ends it.
+  // Starts from the given x. Ends when the 2-norm of the residual falls to `tolerance` times that of b, or by
+  // the probe.
   [[nodiscard]] PoissonReport solve(std::vector<double> b, std::vector<double>& x, double tolerance,
                                     int maxIterations, const PoissonProbe& probe = {});
 

@@ -15,8 +15,8 @@ namespace {
 
 using Range = tbb::blocked_range<int>;
 
-// A cell counts as at least this deep in the liquid, in cells: bounds the matrix' entries. The depth and not
-// the distance along each axis is bounded, so that the pressure's slope keeps its direction there.
+// Least depth of a cell in the liquid, in cells: bounds the matrix entries. The depth is bounded, and not the
+// distance along each axis, so that the pressure gradient keeps its direction there.
 constexpr float kLeastDepth = 1e-5f;
 
 using Patch = LeafPatch;
@@ -26,13 +26,13 @@ Coord localOf(int offset) {
   return Coord(offset >> 6, (offset >> 3) & 7, offset & 7);
 }
 
-// Open shares of the three kinds of faces around one block.
+// Open area fractions of the faces normal to x, y and z around one block.
 std::array<Patch, 3> openPatches(const SolidField& solid, const Coord& origin) {
   return {patchOf(solid.open[0].constTree(), origin), patchOf(solid.open[1].constTree(), origin),
           patchOf(solid.open[2].constTree(), origin)};
 }
 
-// A field that is 0 where there is none, or of which there may be no tree.
+// A field's values around one block; `without` where there is no grid.
 Patch patchOr(const FloatGrid::Ptr& grid, const Coord& origin, float without) {
   if (grid != nullptr) return patchOf(grid->constTree(), origin);
   Patch patch;
@@ -40,7 +40,7 @@ Patch patchOr(const FloatGrid::Ptr& grid, const Coord& origin, float without) {
   return patch;
 }
 
-// Velocities that are given around one block, kNotGiven elsewhere.
+// Given velocities around one block, kNotGiven elsewhere.
 std::array<Patch, 3> givenPatches(const SolidField& solid, const Coord& origin) {
   return {patchOr(solid.given.component[0], origin, kNotGiven),
           patchOr(solid.given.component[1], origin, kNotGiven),
@@ -78,7 +78,7 @@ std::vector<CellBlock> liquidBlocks(const FloatGrid& phi, const SolidField& soli
   return blocks;
 }
 
-// One list of all blocks' sides, which cells' numbers have counted block by block.
+// Merges the blocks' sides into one list. The cells' indices counted from 0 in each block.
 void gatherSides(std::vector<std::vector<LiquidSides>>& sidesIn, LiquidCells& liquid) {
   std::vector<int> first(sidesIn.size() + 1, 0);
   for (std::size_t b = 0; b < sidesIn.size(); ++b)

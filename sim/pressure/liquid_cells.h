@@ -1,5 +1,5 @@
-// The liquid as the pressure sees it: its cells, numbered, with what lies on each of their six sides.
-// The surface: pressure 0 where phi is, between two centres; Gibou, Fedkiw, Cheng, Kang, "A
+// Liquid cells of the pressure solve: their numbering, and what lies on each of their six sides.
+// Free surface: pressure 0 where phi is 0, between two centres; Gibou, Fedkiw, Cheng, Kang, "A
 // second-order-accurate symmetric discretization of the Poisson equation on irregular domains", 2002. Solids:
 // fluxes through the open part of each face; Ng, Min, Gibou, "An efficient fluid-solid coupling algorithm for
 // single-phase flows", 2009.
@@ -14,27 +14,27 @@
 
 namespace fluidtex::sim {
 
-// From a cell's centre to the surface on the domain's open side, in cells.
+// Distance from a cell's centre to the surface on an open side of the domain, in cells.
 inline constexpr float kEdgeTheta = 0.5f;
 
 // What lies on the six sides of a liquid cell. Pressure is kept as q = p dt / (density h), a velocity.
 struct LiquidSides {
-  std::array<float, kSides> open{};   // area share
-  std::array<float, kSides> theta{};  // to the surface, in cells; 0 where the neighbour is not air
-  float closed = 0.0f;                // sum of closed area, of solids that liquid can let go of
+  std::array<float, kSides> open{};   // area fraction
+  std::array<float, kSides> theta{};  // distance to the surface, in cells; 0 where the neighbour is not air
+  float closed = 0.0f;                // sum of closed area, of separating solids
   float leaving = 0.0f;               // before projection: sum of closed area times velocity away from it
 
   bool operator==(const LiquidSides&) const = default;
 };
 
-// In the liquid's middle all sides are open and lead to liquid.
+// In the liquid's interior all sides are open and lead to liquid.
 inline constexpr LiquidSides kAllLiquid{{1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f}, {}};
 
-// A face through which a liquid cell meets an open side of the domain: there the surface is.
+// A face of a liquid cell on an open side of the domain: there the surface is.
 struct Edge {
   int cell, side;
   double outward;  // velocity before projection
-  bool shut;       // it would draw in what is not there
+  bool shut;       // closed, since there would be inflow
 };
 
 struct LiquidCells {
@@ -42,7 +42,7 @@ struct LiquidCells {
   CellNumbering numbering;
   // Before projection: sum of open area times outward velocity, and of closed area times the solid's.
   std::vector<double> outflow;
-  // A cell's own place in `sides`, or -1: kAllLiquid, as most cells are, but none with an edge.
+  // Index of a cell into `sides`, or -1 for kAllLiquid, as for most cells, but none with an edge.
   std::vector<int> special;
   std::vector<LiquidSides> sides;
   std::vector<Edge> edges;
@@ -56,7 +56,7 @@ inline Coord neighborOf(Coord cell, int side) {
   return cell;
 }
 
-// Whether the domain ends on this side of a cell, and the side is of that kind.
+// Whether the domain ends on this side of a cell, and that side is of the given kind.
 bool endsAt(Side kind, const SolidField& solid, const Coord& cell, int side);
 
 // The cells of the domain with phi < 0 that have an open face whose velocity is not given. velocity: u, v, w

@@ -1,5 +1,5 @@
 // Pressure projection on the liquid's cells.
-// Walls that let go: 0 <= p, complementary to 0 <= outflow, in cells at solids; Batty, Bertails, Bridson, "A
+// Separating walls: 0 <= p, complementary to 0 <= outflow, in cells at solids; Batty, Bertails, Bridson, "A
 // fast variational framework for accurate solid-fluid coupling", 2007, section 5. Solved by the primal-dual
 // active set method: Hintermueller, Ito, Kunisch, 2002.
 #include "sim/pressure/pressure.h"
@@ -26,26 +26,26 @@ namespace {
 
 using Range = tbb::blocked_range<int>;
 
-// Below this share of the largest pressure, suction is the solver's rounding.
+// Suction below this share of the largest pressure is rounding error of the solver.
 constexpr double kSuctionNoise = 1e-5;
 
-// What is owed changes from step to step by more than what is left of it at this tolerance.
+// Tolerance of the expansion. The deficit changes from step to step by more than this error.
 constexpr double kGrowthTolerance = 1e-2;
 
-// Where liquid lets go of solids is asked at this tolerance first: mostly it shows by then.
+// Tolerance at which separation is tested first: mostly it shows by then.
 constexpr double kSeparationTolerance = 1e-3;
 
 // A face whose solid lies within about 25 degrees of square to it takes the solid's normal velocity.
 constexpr float kSquare = 0.9f;
 
-// Nothing comes in over an edge: where the pressure would draw it in, the face is shut. True if any was.
+// Closes edges where the pressure would cause inflow. True if any was closed.
 bool shutEdges(LiquidCells& liquid, const std::vector<double>& q) {
   bool any = false;
   for (Edge& edge : liquid.edges) {
     assert(liquid.special[edge.cell] >= 0);
     LiquidSides& cell = liquid.sides[liquid.special[edge.cell]];
     if (edge.shut || edge.outward + q[edge.cell] / kEdgeTheta >= 0.0) continue;
-    // A cell's only way out stays one.
+    // A cell's only open face stays open.
     if (std::count_if(cell.open.begin(), cell.open.end(), [](float open) { return open > 0.0f; }) < 2)
       continue;
     edge.shut = any = true;
@@ -55,7 +55,7 @@ bool shutEdges(LiquidCells& liquid, const std::vector<double>& q) {
   return any;
 }
 
-// 1 more than how firmly a cell's pressure is held by its surface, which grows as that comes near its centre.
+// 1 plus the surface's part of a cell's diagonal entry, which grows as the surface comes near the centre.
 double anchoredBy(const LiquidSides& cell) {
   double anchored = 1.0;
   for (int s = 0; s < kSides; ++s) {
@@ -64,8 +64,8 @@ double anchoredBy(const LiquidSides& cell) {
   return anchored;
 }
 
-// The pressure of cells that let go of a solid: that of the air, but where their own surface is near, what
-// surface tension makes of it there. Else it would act on them over next to no way.
+// Pressure of detached cells: that of the air, but near their own surface that of surface tension. Otherwise
+// the pressure difference would act over almost no distance.
 std::vector<double> pressureOfDetached(const LiquidCells& liquid, const std::vector<double>& guess) {
   std::vector<double> pressure(liquid.numbering.size());
   for (std::size_t i = 0; i < guess.size(); ++i)
@@ -73,9 +73,9 @@ std::vector<double> pressureOfDetached(const LiquidCells& liquid, const std::vec
   return pressure;
 }
 
-// Takes a guess at the pressure out of the unknowns x and the right-hand side b; not in parts that are
-// enclosed. Differences are formed before they are weighted: beside a surface close to a cell's centre
-// weights are large. loose: the pressure of cells that are detached.
+// Subtracts the guess of the pressure from the unknowns x and the right-hand side b, but not in enclosed
+// parts. Differences are formed before they are weighted: weights are large where the surface is close to a
+// cell's centre. loose: pressure of detached cells.
 void takeOut(const LiquidCells& liquid, const SurfacePressure& surface, const std::vector<double>& guess,
              const std::vector<double>& loose, const std::vector<char>& enclosed, const PoissonSystem& system,
              const std::vector<int>& liquidOf, std::vector<double>& b, std::vector<double>& x) {
@@ -101,7 +101,7 @@ void takeOut(const LiquidCells& liquid, const SurfacePressure& surface, const st
   });
 }
 
-// What flows out of a cell's open faces once the pressure has acted.
+// Outflow through a cell's open faces after the pressure has acted.
 double projectedOutflow(const LiquidCells& liquid, const SurfacePressure& surface,
                         const std::vector<double>& q, int number) {
   const LiquidSides& cell = liquid.sidesOf(number);
@@ -117,13 +117,13 @@ double projectedOutflow(const LiquidCells& liquid, const SurfacePressure& surfac
   return outflow;
 }
 
-// What is to flow out of each unknown's cell so that it grows, m/s through one open face.
-void setOutflow(const FloatGrid& growth, const LiquidCells& liquid, const PoissonSystem& system, double h,
+// Outflow of each unknown's cell that gives the expansion, m/s through one open face.
+void setOutflow(const FloatGrid& divergence, const LiquidCells& liquid, const PoissonSystem& system, double h,
                 std::vector<double>& outflow) {
   outflow.assign(system.numbering.size(), 0.0);
   tbb::parallel_for(Range(0, static_cast<int>(liquid.blocks.size())), [&](const Range& range) {
     for (int b = range.begin(); b < range.end(); ++b) {
-      const FloatLeaf* leaf = growth.constTree().probeConstLeaf(liquid.blocks[b].origin);
+      const FloatLeaf* leaf = divergence.constTree().probeConstLeaf(liquid.blocks[b].origin);
       const int* numbers = system.numbering.block(liquid.blocks[b].origin);
       if (leaf == nullptr || numbers == nullptr) continue;
       for (int c = 0; c < kLeafSize; ++c) {
@@ -133,10 +133,10 @@ void setOutflow(const FloatGrid& growth, const LiquidCells& liquid, const Poisso
   });
 }
 
-// One step of the active set method: cells at solids that let go of them, or are pressed back. True if any
-// changed. What a cell can suck, below the pressure that it has when it is detached, is held back by its own
-// surface: of a drop of one cell only a share of `suction`, which is that of a cell with a column of liquid
-// below it; less than `rounding` is none.
+// One step of the active set method: cells at solids separate, or attach again. True if any changed. The
+// suction of a cell, below its pressure when detached, is limited by its own surface: a drop of one cell
+// bears only a share of `suction`, which is for a cell with a column of liquid below it. Suction below
+// `rounding` counts as 0.
 bool updateDetached(const LiquidCells& liquid, const SurfacePressure& surface, const std::vector<double>& q,
                     const std::vector<double>& loose, const std::vector<char>& enclosed, double suction,
                     double rounding, std::vector<char>& detached) {
@@ -159,8 +159,8 @@ bool updateDetached(const LiquidCells& liquid, const SurfacePressure& surface, c
   return any;
 }
 
-// Leaves of `grid` that hold a face of a liquid cell; made where they were missing. They are the same for
-// every axis, so that the components keep one topology.
+// Leaves of `grid` that hold a face of a liquid cell; missing ones are made. They are the same for every
+// axis, so that the components keep one topology.
 std::vector<FloatLeaf*> faceLeaves(const LiquidCells& liquid, FloatGrid& grid) {
   std::vector<FloatLeaf*> leaves;
   for (const CellBlock& block : liquid.blocks) {
@@ -177,8 +177,8 @@ std::vector<FloatLeaf*> faceLeaves(const LiquidCells& liquid, FloatGrid& grid) {
   return leaves;
 }
 
-// Subtracts the pressure's gradient on the faces normal to `axis`, gives closed ones the solid's speed, and
-// writes what is given there.
+// Subtracts the pressure gradient on the faces normal to `axis`, sets closed ones to the solid's speed, and
+// writes given velocities. Returns the valid faces.
 MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surface, const SolidField& solid,
                           const std::vector<double>& q, const std::vector<char>& detached, int axis,
                           FloatGrid& grid) {
@@ -206,8 +206,9 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
         const Coord wetCell = liquid.numbering.cell(upper >= 0 ? upper : lower);
         const bool edge = endsAt(Side::open, solid, wetCell, side);
         if (cell.open[side] > 0.0f) {
-          // A nozzle: all that enters a cell whose surface is there would leave by it, as fast as it has to.
-          // The liquid beside it knows better how fast it flows; over an edge, only the pressure does.
+          // A nozzle: all that enters the cell would leave through this sliver, as fast as it must.
+          // Extrapolation from the liquid beside it is better; at an edge only the pressure gives the
+          // velocity.
           if (cell.theta[side] > 0.0f && cell.open[side] < kLeastOpen && !edge) continue;
           const double step = (upper < 0 ? surface.at(lower, side) : q[upper]) -
                               (lower < 0 ? surface.at(upper, side) : q[lower]);
@@ -218,7 +219,7 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
         }
         const Coord place = leaf.offsetToGlobalCoord(c);
         if (edge && isOpen(place)) {
-          // It is shut, and no wall that liquid could come off.
+          // A closed edge is no wall that liquid could separate from.
           leaf.setValueOn(c, 0.0f);
           masks[n]->setValueOn(c);
           continue;
@@ -231,8 +232,9 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
         double away = 0.0;
         const int wall = 2 * axis + (solidBelow ? 0 : 1);
         if (detached[wet] && !endsAt(Side::symmetry, solid, liquid.numbering.cell(wet), wall)) {
-          // What the cell loses through its open faces comes off its walls, so that there is no divergence
-          // there either; from each in proportion to the speed at which the liquid was about to leave it.
+          // The cell's outflow through open faces is balanced by inflow at its walls, so that it is
+          // divergence-free; each wall takes a share in proportion to the speed at which liquid was about to
+          // leave it.
           const auto& [open, theta, closed, leaving] = liquid.sidesOf(wet);
           const double relative = leaf.getValue(c) - push;
           const double ready = std::max(0.0, solidBelow ? relative : -relative);
@@ -253,8 +255,8 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
   return valid;
 }
 
-// Cells of liquid that let go. Of a cell deep in a solid next to nothing is open: the liquid beside it lets
-// go with it.
+// Liquid cells that separate. A cell deep in a solid has almost no open area: the liquid beside it separates
+// with it.
 MaskGrid::Ptr separatingCells(const LiquidCells& liquid, const SolidField& solid,
                               const std::vector<char>& detached) {
   const MaskGrid::Ptr separating = MaskGrid::create();
@@ -309,12 +311,12 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
       b[i] = -liquid.outflow[liquidOf[i]];
       x[i] = q[liquidOf[i]];
     }
-    q = std::vector<double>();  // and not {}, which keeps its room
+    q = std::vector<double>();  // frees the memory, unlike {}
     if (!surface.none()) {
-      // Solved for what is left beside the guess.
+      // Solve for the difference from the guess.
       takeOut(liquid, surface, guess, loose, enclosed, system, liquidOf, b, x);
     }
-    // Whether liquid lets go of solids, or comes back to them, at this pressure.
+    // Whether liquid separates from solids, or attaches again, at this pressure.
     bool again = false, last = pass == options.maxSeparationPasses;
     const auto separates = [&](const std::vector<double>& pressure) {
       q = loose;
@@ -336,9 +338,9 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
     const PoissonReport solved =
         poisson.solve(std::move(b), x, options.tolerance, options.maxIterations,
                       {kSeparationTolerance, [&](const std::vector<double>& rough) {
-                         const bool goOn = !separates(rough);
-                         if (goOn) q = std::vector<double>();  // memory is shortest while the solve runs
-                         return goOn;
+                         const bool continues = !separates(rough);
+                         if (continues) q = std::vector<double>();  // memory is shortest while the solve runs
+                         return continues;
                        }});
     last = last || !(solved.converged || solved.ended);
     report.iterations += solved.iterations;
@@ -346,10 +348,10 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
     report.converged = solved.converged;
     report.separationPasses = pass;
     if (again || separates(x)) continue;
-    if (options.growth != nullptr && solved.converged) {
-      setOutflow(*options.growth, liquid, system, solid.voxelSize, b);
+    if (options.divergence != nullptr && solved.converged) {
+      setOutflow(*options.divergence, liquid, system, solid.voxelSize, b);
       std::fill(x.begin(), x.end(), 0.0);
-      // Where that fails nothing is given back in this step.
+      // If this fails, no deficit is given back in this step.
       if (poisson.solve(std::move(b), x, kGrowthTolerance, options.maxIterations).converged) {
         growing.assign(n, 0.0);
         for (std::size_t i = 0; i < liquidOf.size(); ++i) growing[liquidOf[i]] = x[i];

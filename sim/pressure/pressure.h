@@ -1,4 +1,4 @@
-// Pressure that makes the liquid's velocity free of divergence, and the velocity after it.
+// Pressure projection: makes the liquid's velocity divergence-free.
 #pragma once
 
 #include "sim/grid/mac_grid.h"
@@ -13,14 +13,14 @@ namespace fluidtex::sim {
 struct PressureOptions {
   double tolerance = 1e-6;  // of the residual's 2-norm, relative to the right-hand side's
   int maxIterations = 200;  // of each solve
-  // Liquid at a solid whose pressure falls below -suction (Pa) lets go of it. A tenth of a cell's weight per
-  // area, 0.1 density |g| h, keeps still water calm.
+  // Suction threshold in Pa: liquid at a solid separates where its pressure falls below -suction. A tenth of
+  // a cell's weight per area, 0.1 density |g| h, keeps liquid at rest calm.
   double suction = 0.0;
-  int maxSeparationPasses = 4;  // solves after the first; 0: liquid never lets go
-  // What Projection::swelling is to carry out of the liquid's cells more than into them, h^3 per second at
-  // their centres; null for nothing. Where liquid is enclosed on all sides it is evened out.
-  FloatGrid::Ptr growth = nullptr;
-  // N/m: the pressure at the surface is that times its curvature, and not 0 (Young and Laplace).
+  int maxSeparationPasses = 4;  // solves after the first; 0: liquid never separates
+  // Divergence of Projection::expansion in liquid cells, h^3 per second at their centres; null for none.
+  // Where liquid is enclosed on all sides only its deviation from the mean counts.
+  FloatGrid::Ptr divergence = nullptr;
+  // N/m. The pressure at the surface is this times the curvature (Young and Laplace).
   double surfaceTension = 0.0;
   bool keepPressure = false;  // fill Projection::pressure
   bool keepBefore = false;    // fill Projection::before
@@ -41,35 +41,39 @@ struct Face {
 
 struct Projection {
   PressureReport report;
-  // Faces whose velocity is now right: open ones that touch liquid, but not those between it and the air of
-  // which a solid leaves less than kLeastOpen, and closed ones that touch liquid and lie square to the solid
-  // (0 there, or the speed at which liquid leaves it). All others are for the caller to extrapolate.
+  // Faces that have their final velocity: open ones that touch liquid, but not those towards the air with
+  // less than kLeastOpen of their area open; and closed ones that touch liquid and are square to the solid (0
+  // there, or the speed at which liquid separates). The caller extrapolates to all others.
   FaceMasks valid;
-  // Faces in open sides of the domain that are shut, 0 and valid: they would draw in what is not there.
+  // Closed faces on open sides of the domain, with velocity 0 and valid: there would be inflow.
   std::vector<Face> shut;
-  // Cells of liquid that leave a solid; where such a cell is deep in it, those beside it too.
+  // Liquid cells that separate from a solid; where such a cell is deep in the solid, its neighbours too.
   MaskGrid::Ptr separating;
-  // What makes the liquid grow (PressureOptions::growth), on the valid faces: a potential flow beside the
-  // velocity, 0 at solids and at faces with a given velocity. It moves the surface, and is no part of the
-  // liquid's momentum. Null grids without growth.
+  // Velocity whose divergence restores the volume deficit (PressureOptions::divergence), on the valid faces:
+  // a separate potential flow, 0 at solids and at faces with a given velocity. It moves the surface, but is
+  // not part of the liquid's momentum. No grids without one.
   Velocity expansion;
   openvdb::DoubleGrid::Ptr
       pressure;  // Pa at the centres of liquid cells, active there; null unless asked for
-  // The velocity before; null grids unless asked for. Copied after the solve, which takes the most memory.
+  // Velocity before the projection; null grids unless asked for. Copied after the solve, which takes the most
+  // memory.
   Velocity before;
 };
 
-// Projects u, v, w (m/s) onto fields free of divergence in the liquid (cells with phi < 0 that have an open
-// face), but for what goes through faces that Projection::valid leaves out. phi in metres, at cell centres,
-// of the index space of solid.phi; it must be valid one cell around the liquid, inside solids too. Pressure
-// is 0 at the surface (see PressureOptions::surfaceTension), whose place between two cell centres is taken
-// from phi (second order); solids are walls without friction, known by their open face areas and their speed,
-// and liquid may leave them (see PressureOptions). On an open side of the domain pressure is 0, and nothing
-// comes in. Faces with a given velocity get it, whatever the pressure. dt in s, density in kg/m3. Faces are
-// written, and made active, where Projection::valid says; the rest stays as it was. The same bytes on any
-// number of threads. Does not throw when it fails to converge: the report says so; throws
-// std::invalid_argument where dt or density is not positive. Sources: Gibou, Fedkiw, Cheng, Kang 2002
-// (surface); Ng, Min, Gibou 2009 (solids); Batty, Bertails, Bridson 2007, section 5 (separation).
+// Projects u, v, w (m/s) onto divergence-free fields in the liquid: cells with phi < 0 that have an open
+// face. Flow through faces that Projection::valid leaves out is not counted.
+// phi: metres, at cell centres, in the index space of solid.phi. It must be valid one cell around the liquid,
+// inside solids too. dt: s. density: kg/m3.
+// Surface: pressure 0 (see PressureOptions::surfaceTension), at its place between two cell centres by phi,
+// second-order. Solids: free-slip walls, given by open face areas and speed; liquid may separate from them
+// (see PressureOptions). Open sides of the domain: pressure 0 and no inflow. Faces with a given velocity get
+// it, whatever the pressure.
+// Faces are written and made active where Projection::valid says; the rest keeps its values. Bit-identical on
+// any number of threads.
+// Where it fails to converge the report says so. Throws std::invalid_argument where dt or density is not
+// positive.
+// Sources: Gibou, Fedkiw, Cheng, Kang 2002 (surface); Ng, Min, Gibou 2009 (solids); Batty, Bertails, Bridson
+// 2007, section 5 (separation).
 [[nodiscard]] Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
                                  const SolidField& solid, double dt, double density,
                                  const PressureOptions& options = {});

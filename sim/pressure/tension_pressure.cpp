@@ -11,14 +11,14 @@ namespace {
 
 using Range = tbb::blocked_range<int>;
 
-// Whether the cell's side is the liquid's own surface, and no open side of the domain.
+// Whether the liquid's own surface is on this side of the cell, and not an open side of the domain.
 bool meetsAir(const SolidField& solid, const LiquidSides& cell, const Coord& place, int side) {
   return cell.theta[side] > 0.0f && solid.domain.isInside(neighborOf(place, side));
 }
 
-// Of the surface nearest to a cell: where phi does not bend smoothly there, the mean of those beside it in
-// the air where it does. It is one value for all sides: of a cell that the surface all but touches, the
-// pressures at its sides act over next to no way, and any difference between them would throw the liquid out.
+// Curvature of the surface nearest to a cell; where phi is not smooth there, the mean over its air neighbours
+// where it is. One value for all sides: where the surface almost touches a cell's centre, the pressures at
+// its sides act over almost no distance, and a difference between them would eject the liquid.
 float ownCurvature(const openvdb::tree::ValueAccessor<const FloatTree>& curvature, const SolidField& solid,
                    const LiquidSides& cell, const Coord& place) {
   float own = 0.0f, sum = 0.0f;

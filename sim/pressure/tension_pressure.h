@@ -1,4 +1,4 @@
-// The pressure that surface tension gives to the liquid's surface.
+// Pressure of surface tension at the liquid's surface.
 #pragma once
 
 #include "sim/pressure/liquid_cells.h"
@@ -7,12 +7,12 @@
 
 namespace fluidtex::sim {
 
-// Where each liquid cell meets the surface on its six sides: surface tension times curvature, in units of
-// LiquidSides' q. 0 on other sides, and everywhere where there is no surface tension.
+// Surface tension times curvature where a liquid cell meets the surface, on each of its six sides, in units
+// of LiquidSides' q. 0 on other sides, and everywhere without surface tension.
 class SurfacePressure {
  public:
   SurfacePressure() = default;
-  // scale: of 1/m of curvature, in units of q.
+  // scale: q per curvature of 1/m.
   SurfacePressure(const LiquidCells& liquid, const FloatGrid& phi, const SolidField& solid, double scale);
 
   bool none() const { return m_row.empty(); }
@@ -25,9 +25,9 @@ class SurfacePressure {
   std::vector<std::array<double, kSides>> m_value;
 };
 
-// A guess at the pressure: at cells beside the surface that of the surface, by how near it is on each side;
-// elsewhere the mean of those. What is left to solve for is small then even where the surface is close to a
-// cell's centre, which would else outweigh all other cells in the residual.
+// Initial guess of the pressure. At cells beside the surface the surface's pressure, weighted by how near it
+// is on each side; elsewhere the mean of those. What remains to be solved for is then small even where the
+// surface is close to a cell's centre; such a cell would otherwise dominate the residual.
 std::vector<double> guessedPressure(const LiquidCells& liquid, const SurfacePressure& surface);
 
 }  // namespace fluidtex::sim

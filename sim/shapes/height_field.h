@@ -1,4 +1,4 @@
-// Ground from an image as triangles.
+// Ground from an image, as triangles.
 #pragma once
 
 #include "sim/meshes/triangle_mesh.h"
@@ -6,11 +6,12 @@
 
 namespace fluidtex::sim {
 
-// The ground as a closed mesh, sampled every `spacing` metres or a little less. It ends `beyond` metres
-// outside the domain where the picture reaches the domain's side, `beyond` outside the picture where the
-// domain is infinite, else at the picture's rim, and below at `base` metres or, where that lies higher,
-// `beyond` below its lowest point. Heights more than `beyond` above or below the domain are cut off there.
-// Empty where the picture lies beside the domain. Throws HeightError.
+// The ground as a closed mesh, metres, sampled every `spacing` metres or a little less. Empty where the
+// picture lies beside the domain. Throws HeightError.
+// It ends `beyond` metres outside the domain where the picture reaches the domain's side, `beyond` outside
+// the picture where the domain is infinite, else at the picture's rim. Below it ends at `base` metres or,
+// where that lies higher, `beyond` below its lowest point. Heights more than `beyond` above or below the
+// domain are clamped.
 TriangleMesh groundMesh(const HeightField& ground, const openvdb::BBoxd& domain, double spacing,
                         double beyond, double base);
 

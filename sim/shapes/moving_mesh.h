@@ -8,20 +8,20 @@
 
 namespace fluidtex::sim {
 
-// Files of a sequence, read: one closed triangle mesh whose vertices move. Polygons are cut into triangles,
-// and vertices that lie together in all files joined, the same way in each of them. Takes 12 bytes a vertex
+// The files of a sequence as one closed triangle mesh whose vertices move. Polygons are split into triangles,
+// and vertices that coincide in all files are joined, the same way in each of them. Takes 12 bytes a vertex
 // and file.
 class MovingMesh {
  public:
   // Reads all files, or those from `begin` to `end`, counted from 0. Throws MeshError, as readMesh does, and
-  // where two files have other vertices or faces.
+  // where two files differ in their vertices or faces.
   explicit MovingMesh(const MeshSequence& sequence);
   MovingMesh(const MeshSequence& sequence, int begin, int end);
 
-  // As far as `part` (0 to 1) on the way from a file to the next.
+  // The mesh at the fraction `part` (0 to 1) from a file to the next.
   TriangleMesh at(int file, double part) const;
 
-  // From the file to the next, of each vertex; #V, metres.
+  // Displacement of each vertex from the file to the next; #V, metres.
   std::vector<openvdb::Vec3f> change(int file) const;
 
  private:

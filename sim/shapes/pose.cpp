@@ -70,7 +70,7 @@ Pose poseAt(const Solid& solid, double t) {
 
 openvdb::math::BBox<Vec3d> reachOf(const Solid& solid, const openvdb::math::BBox<Vec3d>& box) {
   if (solid.keyframes.empty()) return box;
-  // Between keyframes it moves in straight lines, so they are the farthest it gets.
+  // Between keyframes it moves in straight lines, so the keyframes are the extremes.
   Vec3d least(kForever), most(-kForever);
   bool turns = false;
   for (const Keyframe& key : solid.keyframes) {

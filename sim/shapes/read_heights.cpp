@@ -11,7 +11,7 @@ namespace fluidtex::sim {
 
 namespace {
 
-// No height, in shares of white or in metres, but what programs write where there is none.
+// Larger values, in fractions of white or in metres, are no heights but marks of missing data.
 constexpr float kNoHeight = 1e30f;
 
 // Where the pixel at (x, y) of the upright picture is stored, for the eight orientations of TIFF and EXIF.
@@ -61,7 +61,7 @@ std::vector<char> missing(const HeightImage& image, double noData, double white)
   return missing;
 }
 
-// Gives pixels without a height that of the nearest one that has, in steps from pixel to pixel.
+// Gives pixels without a height that of the nearest one with a height, in steps from pixel to pixel.
 void fill(HeightImage& image, std::vector<char> missing) {
   const auto width = std::size_t(image.width);
   std::vector<std::size_t> front;

@@ -17,9 +17,9 @@ namespace fluidtex::sim {
 
 namespace {
 
-// Voxels of a mesh's level set on each side; distances beyond are cut off there. More than from a block's
-// middle to its corners and the band of a solid's distance beyond, so that blocks far from the mesh are seen
-// to be.
+// Half width of a mesh's level set in voxels; distances beyond are clamped. Larger than the distance from a
+// block's middle to its corners plus the narrow band of a solid's distance, so that blocks far from the mesh
+// are recognised.
 constexpr float kMeshBand = 10.0f;
 
 double boxDistance(const Box& box, const Vec3d& x) {
@@ -55,7 +55,7 @@ struct ShapeDistance::Node {
   struct Plane {
     Vec3d point, normal;
   };
-  // Made within limits; it goes on beyond them as it is at them.
+  // Made within limits, and extended beyond them as it is there.
   struct Ground {
     openvdb::FloatGrid::ConstPtr grid;
     Vec3d low, high;

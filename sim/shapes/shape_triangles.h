@@ -8,11 +8,11 @@
 
 namespace fluidtex::sim {
 
-// The shape clipped to a box, as triangles for drawing. Height fields go on where they reach its high sides,
-// or 0. A mesh sequence is as in its first file.
+// The shape clipped to a box, as triangles for drawing. Height fields extend beyond their rim where they
+// reach the box's high sides, or 0. A mesh sequence is as in its first file.
 TriangleMesh triangulate(const Shape& shape, const openvdb::BBoxd& within, double voxelSize);
-// The solid where it is at time t and in the shape that it has then, clipped to the box there. Planes,
-// height fields, unions and differences that move are clipped before.
+// The solid in its pose and shape at time t, clipped to the box there. Moving planes, height fields, unions
+// and differences are clipped before the motion.
 TriangleMesh triangulate(const Solid& solid, double t, const openvdb::BBoxd& within, double voxelSize);
 
 }  // namespace fluidtex::sim

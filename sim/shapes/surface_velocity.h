@@ -1,4 +1,4 @@
-// The velocity of a surface that changes its shape, and of what is beside it.
+// Velocity of a surface that changes its shape, and beside it.
 #pragma once
 
 #include "sim/meshes/triangle_mesh.h"
@@ -15,8 +15,8 @@ class SurfaceVelocity {
   // velocity: #V, m/s.
   SurfaceVelocity(TriangleMesh mesh, std::vector<openvdb::Vec3f> velocity);
 
-  // m/s. `reach`: how far away the surface is at most, as far as is known (metres); a good guess saves time,
-  // a wrong one costs some.
+  // Velocity at x, m/s. reach: estimated upper bound of the distance to the surface, metres; a good one saves
+  // time, a wrong one costs some.
   Vec3d at(const Vec3d& x, double reach) const;
 
  private:

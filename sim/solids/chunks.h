@@ -1,5 +1,5 @@
-// Chunks: cubes of 32 x 32 x 32 cells, by which what surrounds the liquid follows it. Each is known by its
-// lowest cell, whose coordinates are multiples of 32.
+// Chunks: cubes of 32 x 32 x 32 cells in which data around the liquid is made as the liquid moves. A chunk is
+// named by its lowest cell, whose coordinates are multiples of 32.
 #pragma once
 
 #include "sim/grid/grids.h"
@@ -13,17 +13,17 @@ using openvdb::CoordBBox;
 
 inline constexpr int kChunkDim = 32;
 
-// In order, each once.
+// Sorted, without duplicates.
 using Chunks = std::vector<Coord>;
 
-// Those that touch the box.
+// Chunks that touch the box.
 Chunks chunksIn(const CoordBBox& box);
 
-// Those that touch the box and lie no more than `reach` chunks from one that holds liquid of one of the phis,
-// or its band.
+// Chunks that touch the box and lie at most `reach` chunks from one that holds liquid of one of the phis, or
+// its narrow band.
 Chunks chunksAround(const std::vector<const FloatGrid*>& phis, int reach, const CoordBBox& box);
 
-// Those of both lists.
+// Union of both lists.
 Chunks united(Chunks a, const Chunks& b);
 
 // Whether all of `some` are among `all`.

@@ -1,6 +1,6 @@
-// Velocity that does not run into solids, where the pressure has had no say: Houston, Bond, Wiebe, "A unified
-// approach for modeling complex occlusions in fluid simulations", 2003; Batty, Bertails, Bridson, 2007,
-// section 4.4.
+// Velocity that does not enter solids, where the pressure has not determined it: Houston, Bond, Wiebe, "A
+// unified approach for modeling complex occlusions in fluid simulations", 2003; Batty, Bertails, Bridson,
+// 2007, section 4.4.
 #include "sim/solids/constrain.h"
 
 #include "sim/grid/leaf_block.h"
@@ -47,7 +47,7 @@ bool beyondOpening(const SolidField& solid, const Coord& face, int axis) {
   return false;
 }
 
-// A leaf's active faces that are closed, or all but closed, and not known.
+// A leaf's active faces that are closed, or almost closed, and not known.
 FloatLeaf::NodeMaskType closedFaces(const FloatLeaf& leaf, const FloatTree& open, const MaskTree& known) {
   float scratch[kLeafSize];
   const float* openness = leafValues(open, leaf.origin(), scratch);
@@ -74,7 +74,7 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
   const bool moving = bool(solid.speed), anyLeaving = !separating.empty();
   const auto& solidSpeed = solid.speed.component;
 
-  // All new values are found from the old ones before any is written.
+  // All new values are computed from the old ones before any is written.
   struct Change {
     float* value;
     float to;
@@ -98,7 +98,7 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
       }
       if (!any) continue;
       distance.load(solid.phi->constTree(), origin);
-      // Deep inside a solid the distance is cut off.
+      // Deep inside a solid the distance is clamped and has no gradient.
       const auto [least, most] = std::minmax_element(distance.begin(), distance.end());
       if (*most - *least < 1e-3f * static_cast<float>(solid.voxelSize)) continue;
       liquid.load(phi.constTree(), origin);
@@ -122,7 +122,7 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
             if (moving) velocity[a] -= a == axis ? push[a][at] : across(push[a].data() + at, axis, a);
           }
           // In the middle of a thin wall both sides read the velocity. Deep inside a solid there is no
-          // normal, and nothing does.
+          // normal, and nothing reads it.
           const bool within = *here < 0.0f && *below < 0.0f && here[kStride[axis]] > *here;
           if (within && wall.getValue(shifted(c, axis, -2)) > *below) {
             changes[n].push_back({own[axis]->buffer().data() + offset, speed[axis][at] - velocity[axis]});

@@ -14,14 +14,15 @@ namespace fluidtex::sim {
 
 namespace {
 
-// Open shares below this count as closed: they would let next to nothing through and spoil the matrix.
+// Open area fractions below this count as closed: they would pass almost nothing and make the matrix
+// ill-conditioned.
 constexpr double kClosed = 1e-3;
 
-// Walls of half a cell are seen: samples between cell centres are no farther apart than this share of one.
+// Largest spacing of samples between cell centres, in cells, so that walls of half a cell are found.
 constexpr double kThinnestWall = 0.25;
 
-// So many cells from a surface, a cell's centre has none at the cell's corners: its half diagonal, and what
-// distances that are interpolated between places of a lattice may be off.
+// At this distance from a surface, in cells, the corners of a cell are on the centre's side: half its
+// diagonal, and the error of distances that are interpolated on a lattice.
 constexpr double kClear = 1.2;
 
 // Area of the part of the unit square where the distance is positive; corners in order, no saddle.
@@ -49,7 +50,7 @@ double polygonArea(const std::array<double, 4>& d) {
   return 0.5 * twice;
 }
 
-// Corner triangle of a saddle: corner a alone has its sign.
+// Area of a saddle's corner triangle: the corner alone has its sign.
 double cornerArea(double corner, double next, double previous) {
   return 0.5 * corner / (corner - next) * corner / (corner - previous);
 }
@@ -60,8 +61,8 @@ double snapped(double fraction) {
   return fraction > 1.0 - kRounding ? 1.0 : fraction;
 }
 
-// Whether a solid crosses the way between two places outside it, so many metres apart, where the distance is
-// low and high. Distances never change by more than one gets on; samples are no farther apart than `least`.
+// Whether a solid crosses the line between two places outside it, `length` metres apart, with distances low
+// and high. A distance changes by at most the way covered; samples are at most `least` apart.
 bool isCrossed(const SolidDistance& distance, const Vec3d& from, const Vec3d& to, double low, double high,
                double length, double least) {
   if (low + high > length || length <= least) return false;
@@ -71,8 +72,7 @@ bool isCrossed(const SolidDistance& distance, const Vec3d& from, const Vec3d& to
          isCrossed(distance, middle, to, there, high, half, least);
 }
 
-// Distances at the corners and centres of a block's cells and of those below it, found when they are asked
-// for.
+// Distances at the corners and centres of a block's cells and of those below it, computed on demand.
 class CellPlaces {
  public:
   CellPlaces(const SolidDistance& distance, const Coord& origin, double h)
@@ -120,9 +120,9 @@ Coord cornerOf(const Coord& cell, int n) {
   return cell.offsetBy(n & 1, n >> 1 & 1, n >> 2);
 }
 
-// Of a cell that a thin wall parts, the open corners on one side, a bit each: that of its centre, or where
-// that lies in the wall, the roomier one. Corners are together where the edge between them is open. All
-// corners where nothing parts them. A cell must not join both sides of a wall.
+// For a cell that a thin wall divides, the open corners on one side, a bit each: the side of its centre or,
+// where that lies in the wall, the larger one. Corners are on one side where the edge between them is open.
+// All corners where no wall divides them. A cell must not connect both sides of a wall.
 unsigned cornersOfOneSide(CellPlaces& places, const SolidDistance& distance, const Coord& cell, double h) {
   const double diagonal = 0.5 * std::sqrt(3.0) * h, middle = places.centre(cell);
   if (std::abs(middle) >= diagonal) return kAllCorners;
@@ -186,7 +186,7 @@ FaceShares openFaceShares(const SolidDistance& distance, const FloatTree& cellDi
   side.fill(0);
   const auto sideOf = [&](const Coord& cell) {
     unsigned& known = side[CellPlaces::index(cell)];
-    // A cell without an open corner has all of them on its side.
+    // 0 stands for not computed: a cell without an open corner gets all of them.
     if (known == 0) known = cornersOfOneSide(places, distance, cell, h);
     return known;
   };
@@ -198,7 +198,7 @@ FaceShares openFaceShares(const SolidDistance& distance, const FloatTree& cellDi
       below[axis] -= 1;
       faces[axis][c] = 0.0f;
       if (!domain.isInside(origin + local) && !domain.isInside(origin + below)) continue;
-      // What lies below may not be known.
+      // The cell below may not be known.
       const double far = local[axis] > 0 ? std::min(cellDistances.getValue(origin + local),
                                                     cellDistances.getValue(origin + below))
                                          : cellDistances.getValue(origin + local) - h;
@@ -217,7 +217,7 @@ FaceShares openFaceShares(const SolidDistance& distance, const FloatTree& cellDi
       std::array<double, 4> d;
       for (int n = 0; n < 4; ++n) d[n] = places.corner(cornerOf(local, corners[n]));
       const auto [least, most] = std::minmax({d[0], d[1], d[2], d[3]});
-      // All corners on walls: in the plane of one the face is shut, between two it is open.
+      // All corners on walls: in the plane of one wall the face is closed, between two it is open.
       const bool between = least == 0.0 && most == 0.0 && low > 0.0 && high > 0.0;
       if (most <= 0.0 && !between) continue;
       if (low > 0.0 && high > 0.0 &&
@@ -240,7 +240,7 @@ double openAreaFraction(double d00, double d10, double d11, double d01) {
   if (std::min({d00, d10, d11, d01}) >= 0.0) return 1.0;
   const bool saddle = positive == 2 && (d00 > 0.0) == (d11 > 0.0);
   if (!saddle) return snapped(polygonArea(d));
-  // The middle decides whether the two equal corners are joined.
+  // The mean decides whether the two equal corners are connected.
   const bool joined = d00 + d10 + d11 + d01 > 0.0;
   double corners = 0.0;
   for (int a = 0; a < 4; ++a) {

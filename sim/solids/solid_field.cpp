@@ -14,8 +14,8 @@ namespace fluidtex::sim {
 
 namespace {
 
-// Calls body(origin, size) for the parts of a chunk that touch the box: for the chunk as a whole where
-// that says it is settled, and else for each of its blocks.
+// Calls body(origin, size) for the parts of a chunk that touch the box: for the whole chunk where that
+// settles it, else for each of its blocks.
 template <class Body>
 void forPieces(const Coord& chunk, const CoordBBox& box, const Body& body) {
   const CoordBBox all = CoordBBox::createCube(chunk, kChunkDim);
@@ -26,7 +26,7 @@ void forPieces(const Coord& chunk, const CoordBBox& box, const Body& body) {
   }
 }
 
-// At these shares of a cell along the axes.
+// The place at these fractions of a cell along the axes.
 Vec3d placeOf(const Coord& cell, const Vec3d& share, double h) {
   return (cell.asVec3d() + share) * h;
 }
@@ -35,20 +35,18 @@ Vec3d middleOf(const Coord& origin, int size, double h) {
   return (origin.asVec3d() + Vec3d(0.5 * size)) * h;
 }
 
-// Which level of a tree has tiles of this many cells.
+// The tree level whose tiles have this many cells a side.
 int levelOf(int size) {
   return size == kChunkDim ? 2 : 1;
 }
 
-// The distance at a cell's centre. Solids that touch know only their own surfaces, and what is nearest may be
-// a joint between them. A place in the open has a ball of its own distance around it that holds no solid: the
-// way to the nearest of these balls is the depth. Where none is near and all around is solid, it is half a
-// cell.
+// The distance at a cell's centre. Inside solids that touch, the nearest surface may be a joint between two
+// of them. A place outside has a ball of its own distance around it that holds no solid: the distance to the
+// nearest of these balls is the depth. Where none is near and all around is solid, it is half a cell.
 double centreDistance(const SolidDistance& distance, const Coord& cell, double h) {
-  // The balls may miss the surface's nearest point by this share of a cell.
+  // Share of a cell by which the balls may miss the surface's nearest point.
   constexpr double kAside = 0.15;
-  // What is left between two solids may be a gap that is closed: balls below this radius, in cells, say
-  // nothing.
+  // Between two solids a closed gap may be left: balls below this radius, in cells, do not count.
   constexpr double kSmallest = 0.1;
   const double d = distance(placeOf(cell, Vec3d(0.5), h));
   if (d > 0.0 || d <= -0.5 * h) return d;
@@ -61,7 +59,7 @@ double centreDistance(const SolidDistance& distance, const Coord& cell, double h
     return there;
   };
   const auto isTrue = [&] { return depth <= -d + kAside * h; };
-  // Most often the surface lies straight ahead.
+  // Most often the surface lies in the direction of the gradient.
   Vec3d ahead;
   for (int a = 0; a < 3; ++a) {
     Vec3d way(0.0);
@@ -85,13 +83,13 @@ FloatGrid::Ptr cellDistances(const SolidDistance& distance, const CoordBBox& dom
   struct Piece {
     Coord origin;
     int size;
-    std::unique_ptr<FloatLeaf> leaf;  // null: solid throughout
+    std::unique_ptr<FloatLeaf> leaf;  // null: all solid
   };
   const CoordBBox box = grown(domain, kSolidMargin);
   std::vector<std::vector<Piece>> pieces(chunks.size());
   tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t n) {
     forPieces(chunks[n], box, [&](const Coord& origin, int size) {
-      // Farther than this from its middle, none of its cells is in the band.
+      // If the surface is farther than this from the centre, no cell is in the narrow band.
       const double radius = (0.5 * std::sqrt(3.0) * (size - 1) + kSolidBand) * h;
       const double middle = distance(middleOf(origin, size, h));
       if (std::abs(middle) > radius) {
@@ -121,13 +119,13 @@ FloatGrid::Ptr cellDistances(const SolidDistance& distance, const CoordBBox& dom
   return grid;
 }
 
-// The three grids of open shares.
+// The three grids of open area fractions.
 FaceGrids openFaces(const SolidDistance& distance, const CoordBBox& domain, const Chunks& chunks,
                     const FloatTree& phi, double h) {
   struct Piece {
     Coord origin;
     int size;
-    std::unique_ptr<FaceShares> faces;  // null: open throughout
+    std::unique_ptr<FaceShares> faces;  // null: all open
   };
   const CoordBBox box(domain.min(), domain.max().offsetBy(1));  // the last cells' upper faces as well
   std::vector<std::vector<Piece>> pieces(chunks.size());
@@ -171,9 +169,9 @@ FaceGrids openFaces(const SolidDistance& distance, const CoordBBox& domain, cons
   return open;
 }
 
-// Gaps between solids that are narrower than a cell, so that no corner of the grid lies in them, are closed:
-// nothing gets into a cell without an open face, or out of it. It is made part of the solids: liquid that was
-// poured into it would be there for ever, and make surface beside it anew in each step.
+// Closes gaps between solids that are narrower than a cell, in which no grid corner lies: nothing passes into
+// a cell without an open face, or out of it. The gap becomes part of the solids. Otherwise liquid poured into
+// it would stay for ever, and make surface beside it in each step.
 void closeNarrowGaps(FloatGrid& phi, const FaceGrids& open, const CoordBBox& domain, double h) {
   const auto leaves = leavesOf(phi.tree());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {

@@ -1,14 +1,14 @@
-// How deep in solids cells hold values.
+// Depths in solids to which cells hold values.
 #pragma once
 
 namespace fluidtex::sim {
 
-// Cells deeper in a solid than this many voxels hold what goes on from the liquid beside the solid; no face
-// of such a cell is open, but for a sliver.
+// Cells deeper in a solid than this many voxels hold values that are extrapolated from the liquid beside the
+// solid. No face of such a cell is open, except for slivers.
 inline constexpr float kDeepInSolid = 0.49f;
 
-// Layers of cells behind a solid's surface that hold values of phi and velocity, in voxels of depth. The
-// solid's distance is known that far.
+// Depth behind a solid's surface, in voxels, to which cells hold values of phi and velocity. The solid's
+// distance is known that far.
 inline constexpr float kSolidLayers = 2.99f;
 
 }  // namespace fluidtex::sim

@@ -16,9 +16,9 @@ namespace fluidtex::sim {
 
 namespace {
 
-// What is done to liquid, and to what is owed, in a step stays within a chunk of it: it moves by kMaxTrace
-// cells at most, its band is little wider, and stencils reach a leaf further. Some more is made at once, so
-// that it lasts for many steps.
+// In chunks. A step changes liquid and deficit within one chunk: liquid moves by at most kMaxTrace cells, its
+// narrow band is little wider, and stencils reach a leaf farther. One chunk more is made at once, to last for
+// many steps.
 constexpr int kNeeded = 1, kMade = 2;
 
 bool everySide(Side) {
@@ -29,7 +29,7 @@ bool isNoMirror(Side side) {
   return side != Side::symmetry;
 }
 
-// Of a mesh sequence as it is on the way from a file to the next.
+// The shape of a mesh sequence between two files. part: from `file` to the next, 0 to 1.
 ShapeDistance shapeAt(const MovingMesh& mesh, int file, double part, const Solid& solid,
                       const Options& options) {
   try {
@@ -136,9 +136,10 @@ Vec3d Solids::mirrored(Vec3d x) const {
   return x;
 }
 
-// Of a high side, along its axis.
+// The place of a high side along its axis, metres.
 double Solids::sideAt(int side) const {
-  // One that is no wall lies in the plane of faces. A wall lies nowhere beyond it, by rounding either.
+  // A side that is not a wall lies in the plane of faces. A wall lies nowhere beyond that plane, by rounding
+  // either.
   const double last = lastFace(side / 2);
   return m_options.sides[side] == Side::wall ? std::min(m_options.size[side / 2], last) : last;
 }
@@ -152,14 +153,14 @@ double Solids::sideDistance(const Vec3d& x, SideSet counts) const {
     distance = std::min(distance, d);
     if (d < 0.0) outside += d * d;
   }
-  // Outside, the distance to the domain's box; it is solid there.
+  // Outside, which is solid, the distance to the domain's box.
   return outside > 0.0 ? -std::sqrt(outside) : distance;
 }
 
 double Solids::distanceTo(const std::vector<Placed>& solids, const Vec3d& x, SideSet counts) const {
   const double toSide = sideDistance(x, counts);
-  // Behind a side a solid goes on as it is at the side: how far a scene lets it reach out there says nothing
-  // about how deep the place is.
+  // Behind a side a solid continues as it is at the side: how far it reaches out there in the scene does not
+  // tell how deep the place is.
   Vec3d place = x;
   for (int side = 0; side < 6 && toSide < 0.0; ++side) {
     if (m_options.sides[side] == Side::unbounded || !counts(m_options.sides[side])) continue;
@@ -198,18 +199,20 @@ std::function<double(const Vec3d&)> Solids::distanceAt(double t) const {
   return [this, solids = placed(t, active(t))](const Vec3d& x) { return distanceTo(solids, x, everySide); };
 }
 
-// At a place so far from the solid. change: how its shape changes, null where it does not.
+// The solid's velocity at a place. distance: from the solid to it. change: velocity of its shape, null where
+// that is rigid.
 Vec3d Solids::velocityOf(const Placed& solid, const SurfaceVelocity* change, const Vec3d& x,
                          double distance) const {
   const Vec3d velocity = solid.pose.velocityAt(x);
-  // Deeper in the solid nobody asks, and the closest point, of many as far away, would take long to find.
+  // Deeper values are never used, and the closest point, one of many equally near, would take long to find.
   const double h = m_options.voxelSize(), deepest = (kSolidBand + 2) * h;
   if (change == nullptr || std::abs(distance) > deepest) return velocity;
   const double reach = std::abs(distance) + h;
   return velocity + solid.pose.directionToWorld(change->at(solid.pose.toBody(x), reach));
 }
 
-// At the faces of every leaf near a solid that moves: its velocity where it is the nearest one, else 0.
+// Sets the faces of every leaf near a moving solid to the velocity of the nearest solid; 0 where a side of
+// the domain is nearer.
 void Solids::addSpeeds(SolidField& field, const std::vector<Placed>& solids) const {
   const double h = field.voxelSize;
   const double radius = (0.5 * std::sqrt(3.0) * kLeafDim + kSolidBand + 1.0) * h;
@@ -291,7 +294,7 @@ std::shared_ptr<const SolidField> Solids::at(double t) {
   return m_cached;
 }
 
-// Around all that moves: how fast it does limits a step, wherever the liquid is.
+// Chunks around moving solids: their speed limits the step, wherever the liquid is.
 Chunks Solids::movingChunks(const std::vector<Placed>& solids, const CoordBBox& box) const {
   Chunks chunks;
   for (const Placed& solid : solids) {

@@ -1,4 +1,4 @@
-// How thin solids are, and what is said of those that cells cannot hold.
+// Thickness of solids, and warnings about walls too thin for the cells.
 #include "sim/grid/normal.h"
 #include "sim/solids/solids.h"
 
@@ -12,18 +12,19 @@
 namespace fluidtex::sim {
 namespace {
 
-// A wall thinner than this many cells may be missed (see solid_field.cpp).
+// A wall thinner than this many cells may be missed (see open_faces.cpp).
 constexpr double kHolds = 0.6;
-// How finely a wall's other side is looked for, how well its thickness is known, how far beside a place it
-// has to be as thin, and how far it may be from where the surface is said to be, in cells.
+// In cells: step of the search for a wall's other side, accuracy of its thickness, distance beside a place at
+// which it must be thin too, and largest error of the surface's place.
 constexpr double kStep = 0.05, kKnown = 1e-3, kBeside = 1.5, kNear = 0.1;
 
-// Of a sequence of meshes so many are looked at, and the first.
+// Files of a mesh sequence that are checked besides the first.
 constexpr int kSomeFiles = 8;
 
 using Distance = std::function<double(const Vec3d&)>;
 
-// The corners of the domain's cells that a solid within these cells can hold; of one without an end, some.
+// The corners of the domain's cells that a solid within these cells can hold; for an unbounded solid, some of
+// them.
 CoordBBox cornersOf(const Coord& cells, const CoordBBox& domain, const CoordBBox& within) {
   constexpr int kSome = 16;
   if (within.empty()) return {};
@@ -39,20 +40,20 @@ CoordBBox cornersOf(const Coord& cells, const CoordBBox& domain, const CoordBBox
   return corners;
 }
 
-// From the surface near x straight into the solid to its other side, in metres; kForever where that is
-// farther than walls that hold are thick, or where no surface is near.
+// The thickness of the wall at the surface near x, along its normal, in metres; kForever for walls thick
+// enough to hold liquid, or where no surface is near.
 struct ThinPlace {
   double thickness = kForever;
   Vec3d place{0.0}, normal{0.0};
 };
 ThinPlace wallAt(const Distance& distance, const Vec3d& x, double h) {
   const double d = distance(x);
-  // Around a place that deep there is no thin wall.
+  // A place deeper than this is in no thin wall.
   if (std::abs(d) > h || d < -0.5 * kHolds * h) return {};
   const Vec3d normal = normalAt(distance, x, 0.02 * h), near = x - d * normal;
   const double off = distance(near);
   if (normal.length() == 0.0 || std::abs(off) > kNear * h) return {};
-  // Beside an edge, what a difference of shapes says leads past the solid.
+  // Beside an edge, the distance of a difference of shapes may lead past the solid.
   const Vec3d place = near - off * normal;
   const auto under = [&](double way) { return distance(place - way * normal); };
   if (under(kKnown * h) >= 0.0 || under(0.5 * kHolds * h) <= -(0.5 * kHolds - kKnown) * h) return {};
@@ -73,8 +74,8 @@ ThinPlace wallAt(const Distance& distance, const Vec3d& x, double h) {
   return {};
 }
 
-// Whether the wall goes on beside the place on at least three of four sides: else it is an edge that runs
-// out, or a rod, and nothing would pass through it that does not go around it.
+// Whether the wall continues beside the place on at least three of four sides. Otherwise it is an edge that
+// tapers, or a rod, and liquid passes around it anyway.
 bool goesOn(const Distance& distance, const ThinPlace& wall, double h) {
   Vec3d along(0.0);
   along[std::abs(wall.normal[0]) < 0.6 ? 0 : 1] = 1.0;
@@ -85,8 +86,8 @@ bool goesOn(const Distance& distance, const ThinPlace& wall, double h) {
   return count >= 3;
 }
 
-// Calls body(low) for the cubes of `least` corners a side, the upper ones left out, that a surface may be
-// within a cell of, of a cube of `size`. there: set where a corner is in the solid, or within a cell of it.
+// Calls body(low) for cubes of `least` corners a side, without the upper ones, within a cell of the surface,
+// in a cube of `size`. there: set where a corner is in the solid, or within a cell of it.
 template <class Body>
 void forCubesAtSurface(const Distance& distance, const CoordBBox& corners, double h, const Coord& low,
                        int size, int least, bool& there, const Body& body) {
@@ -144,7 +145,7 @@ std::vector<std::string> Solids::warnings() const {
   const double h = m_options.voxelSize();
   for (std::size_t i = 0; i < m_options.solids.size(); ++i) {
     const Solid& solid = m_options.solids[i];
-    // One that moves may come in later, and one that changes its shape become thin.
+    // A solid that moves may enter the domain later, and one that changes its shape may become thin.
     std::vector<double> times{solid.from};
     for (const Keyframe& key : solid.keyframes) times.push_back(key.time);
     if (const auto* sequence = std::get_if<MeshSequence>(&solid.shape.kind)) {

@@ -11,7 +11,7 @@ namespace {
 
 using openvdb::Vec3f;
 
-// A field at a place, in cells from the corner of the cell `origin`.
+// Value of a field at a place, in cells from the corner of the cell `origin`.
 float valueAt(const FloatGrid::ConstUnsafeAccessor& field, const Coord& origin, const Vec3f& x) {
   Coord low = origin;
   float t[3];
@@ -54,7 +54,7 @@ void TraceEnd::setLeaf(const Coord& origin, int reach) {
 }
 
 TraceEnd::End TraceEnd::walk(const Vec3f& start, const Vec3f& aim) const {
-  // Cells that follow each other lie side by side, so that each tells of the next.
+  // Successive cells are neighbours, so that visibility from each covers the next.
   constexpr float kStep = 0.5f;
   const float deep = -kDeepInSolid * m_h;
   const Vec3f way = aim - start;
@@ -85,7 +85,7 @@ Vec3f TraceEnd::onOwnSide(int offset, const Vec3f& start, const Vec3f& aim, int 
   Vec3f middle;
   for (int a = 0; a < 3; ++a) middle[a] = static_cast<float>(cell[a] - m_origin[a]) + 0.5f;
   if (axis >= 0) place[axis] = std::clamp(place[axis], middle[axis] - 0.5f, middle[axis] + 0.5f);
-  // The cells beside are those on the place's side of the middle, along one axis or several.
+  // The neighbours on the place's side of the cell's centre, along one axis or several.
   for (int n = 1; n < 8;) {
     Coord beside(0);
     int farthest = -1;

@@ -1,5 +1,5 @@
-// Where traced paths end beside solids. What lies behind a wall is other liquid, or none: a path that leads
-// into a wall, or through one in a step longer than the wall is thick, ends there.
+// End points of traces beside solids. Behind a wall is other liquid, or none: a trace that leads into a wall,
+// or through one in a step longer than the wall is thick, ends there.
 #pragma once
 
 #include "sim/grid/mac_grid.h"
@@ -10,44 +10,45 @@
 
 namespace fluidtex::sim {
 
-// For the traces that start in one leaf. Each thread has its own. Places are in cells from the leaf's lower
-// corner.
+// For the traces that start in one leaf. Not shared between threads. Places are in cells from the leaf's
+// lower corner.
 class TraceEnd {
  public:
-  // solidPhi: the solids' signed distance in metres. visibility: as in SolidField, null where all see all.
+  // solidPhi: the solids' signed distance in metres. visibility: as in SolidField, null where all is visible.
   // Both must outlive this.
   TraceEnd(const FloatGrid& solidPhi, const Visibility* visibility);
 
-  // Of a leaf of cells whose traces lead at most `reach` cells out of it, no more than kLeafDim.
+  // Selects the leaf. Traces lead at most `reach` cells out of it, no more than kLeafDim.
   void setLeaf(const Coord& origin, int reach);
 
-  // Whether some cell within reach does not see all around it.
+  // Whether cells around some cell within reach are hidden by a wall.
   bool nearThinWalls() const { return m_nearThinWalls; }
-  // The solids' distance in the leaf's cell.
+  // The solids' distance at the leaf's cell, metres.
   float solidAt(int offset) const { return m_solid[offset]; }
 
   struct End {
     openvdb::Vec3f place;
-    Coord cell;  // that its values are seen from: the one that it lies in, or the last one before a wall
+    Coord cell;  // from which values are visible: that of `place`, or the last one before a wall
   };
 
   // The end of a trace from `start`, in or at a face of the leaf's cell `offset`, to `aim`. It ends where it
-  // is half a cell deep in a solid. Where it enters a cell that the last one does not see, it goes on for a
-  // cell at most.
+  // is half a cell deep in a solid. Where it enters a cell that is not visible from the last one, it
+  // continues for a cell at most.
   End operator()(int offset, const openvdb::Vec3f& start, const openvdb::Vec3f& aim) const {
     if (isClear(offset, start, aim)) return {aim, cellAt(aim)};
     return walk(start, aim);
   }
 
-  // The same for fields that are interpolated as they are: of the eight cells around the place that it gives,
-  // the last one before the wall sees all. axis: of the samples at faces normal to it, which lie on the
-  // cell's own faces; -1 for samples at cell centres.
+  // The same for fields that are interpolated without regard to walls: all eight cells around the returned
+  // place are visible from the last cell before the wall.
+  // axis: of the samples at faces normal to it, which lie on the cell's own faces; -1 for samples at cell
+  // centres.
   openvdb::Vec3f onOwnSide(int offset, const openvdb::Vec3f& start, const openvdb::Vec3f& aim,
                            int axis = -1) const;
 
  private:
-  // Whether no solid is as near to the start as the end is. The start lies within a cell of the centre, whose
-  // distance is known.
+  // Whether no solid is as near to the start as the end is. The start lies within a cell of the centre, at
+  // which the distance is known.
   bool isClear(int offset, const openvdb::Vec3f& start, const openvdb::Vec3f& aim) const {
     return !m_nearSolids || m_solid[offset] > ((aim - start).length() + 1.0f) * m_h;
   }

@@ -10,15 +10,15 @@
 namespace fluidtex::sim {
 namespace {
 
-// Walls thicker than this many cells are none: stencils end within them.
+// Walls thicker than this many cells do not count as thin: stencils end within them.
 constexpr int kThickest = 5;
-// What is known around a block: the cells that are asked about, the way from one in the solid to the open,
-// and from there on.
+// Cells around a block that are needed: those asked about, the path from one in the solid to the outside, and
+// on from there.
 constexpr int kHalo = 8, kSide = kLeafDim + 2 * kHalo;
 constexpr int kStride[3] = {kSide * kSide, kSide, 1}, kLastCell = kSide * kSide * kSide - 1;
-// Farther from solids than this, in cells, a distance may be one that nobody has asked for.
+// Farther from solids than this, in cells, a distance may be one that was never set.
 constexpr float kSurelyKnown = 2.9f;
-// From the open cell that looks.
+// Half width and width of the box around the cell outside solids that is looked from, in cells.
 constexpr int kFar = 5, kBox = 2 * kFar + 1;
 constexpr int kBoxStride[3] = {kBox * kBox, kBox, 1};
 constexpr int kBoxMiddle = kFar * (kBoxStride[0] + kBoxStride[1] + kBoxStride[2]);
@@ -38,11 +38,11 @@ struct Surroundings {
     }
   }
 
-  // Nearer than a cell's half diagonal to every cell centre beside its surface.
+  // A surface is nearer than half a cell's diagonal to some cell centre.
   bool anySolid() const {
     return std::any_of(distance.begin(), distance.end(), [](float d) { return d < 0.87f; });
   }
-  // In the open. Beyond what is known of the solids distances are those of the open, but no face is.
+  // Outside solids. Beyond the known distances cells count as outside, but their faces as closed.
   bool isOpen(int cell) const {
     if (distance[cell] < -kDeepInSolid) return false;
     if (distance[cell] < kSurelyKnown) return true;
@@ -50,14 +50,14 @@ struct Surroundings {
       if (openness[a][cell] > 0.0f || openness[a][std::min(cell + kStride[a], kLastCell)] > 0.0f) return true;
     return false;
   }
-  // Whether a way leads from a cell to the next one along an axis.
+  // Whether a path leads from a cell to the next one along an axis.
   bool leadsUp(int cell, int axis) const {
     const int next = cell + kStride[axis];
     return isOpen(cell) && isOpen(next) && openness[axis][next] > 0.0f;
   }
 
-  // Marks the cells from which a row of cells leaves the open to where it comes back, where these are no
-  // more than kThickest apart. True if any.
+  // Marks the cells at which a row of cells enters a solid and leaves it, at most kThickest apart. True if
+  // any.
   bool markThinWalls(int first, int axis, std::vector<char>& marks) const {
     int last = -kSide;  // the last open cell
     bool left = false, any = false;
@@ -77,7 +77,7 @@ struct Surroundings {
     }
     return any;
   }
-  // The cells beside thin walls, and those in them; none where there are none.
+  // Marks the cells beside thin walls and in them; empty where there are none.
   std::vector<char> besideThinWalls() const {
     std::vector<char> marks(distance.size(), 0);
     bool any = false;
@@ -87,7 +87,7 @@ struct Surroundings {
         for (int j = 0; j < kSide; ++j) any = markThinWalls(i * p + j * q, axis, marks) || any;
     }
     if (!any) return {};
-    // As far as stencils reach, one axis after the other.
+    // Grown by the reach of stencils, one axis after the other.
     for (const int stride : kStride) {
       const std::vector<char> before = marks;
       for (std::size_t at = 0; at < marks.size(); ++at) {
@@ -101,8 +101,9 @@ struct Surroundings {
     return marks;
   }
 
-  // The cell in the open from which a cell gets its values: downhill in depth, through faces that are open
-  // where there are any. Itself in the open; -1 for none within the layers that hold values.
+  // The cell outside solids from which a cell is extrapolated: along decreasing depth, through open faces
+  // where there are any. The cell itself outside solids; -1 where there is none within the layers that hold
+  // values.
   int sourceOf(int cell) const {
     for (int step = 0; !isOpen(cell); ++step) {
       if (step > static_cast<int>(kSolidLayers) + 1) return -1;
@@ -125,10 +126,11 @@ struct Surroundings {
 
 using Reached = std::array<bool, kBox * kBox * kBox>;
 
-// Which cells up to `far` from an open one a way leads to that turns back along no axis.
+// Marks the cells, up to `far` from one outside solids, to which a path leads that turns back along no axis.
 void walk(const Surroundings& around, int from, int far, Reached& reached) {
   reached[kBoxMiddle] = true;
-  // From the cells one step nearer along each axis; of one octant, the upper one where a sign is 1.
+  // A cell is reached from those one step nearer along each axis; one octant at a time, the upper one where a
+  // sign is 1.
   const auto fill = [&](int si, int sj, int sk) {
     const int out[3] = {si * kStride[0], sj * kStride[1], sk * kStride[2]};
     const int boxOut[3] = {si * kBoxStride[0], sj * kBoxStride[1], sk * kBoxStride[2]};
@@ -172,8 +174,8 @@ std::unique_ptr<Visibility::Leaf> look(const Surroundings& around) {
     const int from = sourceOf(cell);
     if (from < 0) continue;
     const Coord fromAt(from / kStride[0], from / kSide % kSide, from % kSide);
-    // Where the cells around get their values from, seen from there; too far away to be seen where beyond
-    // kFar.
+    // The cells from which those around are extrapolated, relative to `from`; beyond kFar they count as
+    // hidden.
     std::array<Coord, VisibleCells::kCount> way;
     std::array<bool, VisibleCells::kCount> owned;
     int far = 0, at = 0;
@@ -207,12 +209,12 @@ std::unique_ptr<Visibility::Leaf> look(const Surroundings& around) {
 
 }  // namespace
 
-void goOnBehind(Stencil& values, const VisibleCells& visible, float gap) {
+void extrapolateBehind(Stencil& values, const VisibleCells& visible, float gap) {
   if (visible.seesAll()) return;
   constexpr int kReach = VisibleCells::kReach;
   std::array<bool, VisibleCells::kCount> known;
   for (int at = 0; at < VisibleCells::kCount; ++at) known[at] = visible.sees(at);
-  // Outwards from the middle, so that what goes on is what lies there.
+  // Outwards from the middle, so that values beside it are extrapolated.
   for (int ring = 1; ring <= 3 * kReach; ++ring) {
     for (int i = -kReach; i <= kReach; ++i) {
       for (int j = -kReach; j <= kReach; ++j) {
@@ -230,7 +232,7 @@ void goOnBehind(Stencil& values, const VisibleCells& visible, float gap) {
             if (offset[a] == 0) continue;
             const int inwards = offset[a] > 0 ? -VisibleCells::kStride[a] : VisibleCells::kStride[a];
             const float near = values[at + inwards];
-            // Two steps inwards may lead past the middle, but never out of the stencil.
+            // Two steps inwards may pass the middle, but never leave the stencil.
             const float further = known[at + 2 * inwards] ? 2.0f * near - values[at + 2 * inwards] : near;
             const bool sameSide = (further < 0.0f) == (near < 0.0f);
             sum += sameSide || further - near > gap ? further : near;
@@ -250,7 +252,7 @@ void riseBehind(Stencil& values, const VisibleCells& visible, float step) {
   const float middle = before[VisibleCells::kMiddle];
   for (int at = 0; at < VisibleCells::kCount; ++at) {
     if (visible.sees(at)) continue;
-    // Back to before the wall, along the axes that it bars.
+    // The place before the wall, back along the axes that the wall blocks.
     int rest = at, foot = at, steps = 0;
     for (int a = 0; a < 3; ++a) {
       const int stride = VisibleCells::kStride[a], away = rest / stride - kReach;
@@ -282,7 +284,7 @@ bool Visibility::touches(const openvdb::CoordBBox& box) const {
 }
 
 std::shared_ptr<const Visibility> visibilityOf(const FloatGrid& solidPhi, const FaceGrids& open) {
-  // Blocks that hold a solid's surface, and those around them.
+  // Blocks that hold a solid's surface, and their neighbours.
   std::set<Coord> origins;
   for (auto leaf = solidPhi.constTree().cbeginLeaf(); leaf; ++leaf) {
     for (int n = 0; n < 27; ++n) {

@@ -91,8 +91,8 @@ void stickToWalls(Velocity& velocity, const SolidField& solid, const FaceMasks& 
         float wall = 0.0f;
         if (solid.speed) wall += solid.speed[axis].constTree().getValue(face);
         if (solid.slide) wall += solid.slide[axis].constTree().getValue(face);
-        // The value here is the one of the liquid's last face, which lies a whole number of cells away. Of a
-        // profile that is steep beside that face no more than its mirror image is taken.
+        // The value is extrapolated from the liquid's last face, which lies a whole number of cells away.
+        // Where the profile is steep beside that face, it is limited to the mirror image.
         const float beyond = std::ceil(depth + 1e-3f) - depth;
         const float factor = std::clamp((slipHere - depth) / (slipHere + beyond), -1.0f, 1.0f);
         it.setValue(wall + factor * (*it - wall));

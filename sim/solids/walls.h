@@ -1,4 +1,5 @@
-// What liquid meets at the surfaces of solids and at the domain's faces: whether it sticks, and to what.
+// Tangential boundary conditions at solids and at the domain's sides: free slip, no slip, Navier slip, and
+// the walls' own velocity.
 #pragma once
 
 #include "sim/grid/mac_grid.h"
@@ -8,22 +9,21 @@
 
 namespace fluidtex::sim {
 
-// Whether walls do anything to liquid that moves along them.
+// Whether the wall acts on liquid that moves along it: anything but free slip.
 bool grips(const Wall& wall);
 
-// Slip length in metres: how far behind the surface the velocity along it would be the wall's if it went on
-// changing as it does in the liquid beside it (Navier). 0 where liquid sticks, infinite where it slips
-// freely.
+// Navier's slip length in metres: the depth behind the surface at which the tangential velocity, extrapolated
+// linearly from the liquid, equals the wall's. 0 for no slip, infinite for free slip.
 double slipLength(const Wall& wall);
 
-// Fills SolidField::slipLength and slide. wallAt: the wall nearest to a world position; distance: as that of
-// the field's phi, there the surface's velocity is made parallel to it.
+// Fills SolidField::slipLength and slide. wallAt: the wall nearest to a world position. distance: that of the
+// field's phi, whose surface the wall's velocity is made parallel to.
 void setWalls(SolidField& field, const std::function<const Wall&(const Vec3d&)>& wallAt,
               const std::function<double(const Vec3d&)>& distance);
 
-// After constrainToSolids: gives closed faces in solids, those not in `valid`, the velocity that goes on from
-// the liquid's through the wall's at the surface, so that what is traced along a wall where liquid sticks
-// comes to rest there. Nothing where SolidField::slipLength is null.
+// After constrainToSolids: extrapolates the liquid's velocity, through the wall's at the surface, to closed
+// faces in solids (those not in `valid`), so that what is traced along a no-slip wall comes to rest there. No
+// effect where SolidField::slipLength is null.
 void stickToWalls(Velocity& velocity, const SolidField& solid, const FaceMasks& valid);
 
 }  // namespace fluidtex::sim

@@ -5,7 +5,7 @@
 namespace fluidtex::sim {
 namespace {
 
-// Half width of the textured surface's band, voxels.
+// Half width of the textured surface's narrow band, voxels.
 constexpr int kSurfaceBand = 5;
 
 }  // namespace

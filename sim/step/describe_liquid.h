@@ -1,4 +1,4 @@
-// What a frame says of its liquid, whatever moved it.
+// The liquid's part of a frame, whatever moved it.
 #pragma once
 
 #include "sim/frame/frame.h"
@@ -6,7 +6,7 @@
 
 namespace fluidtex::sim {
 
-// Fills in surfacePhi, solidPhi, and of the statistics cells and volume.
+// Fills in surfacePhi, solidPhi, and the cells and volume of the statistics.
 void describeLiquid(Frame& frame, const FloatGrid& phi, const SolidField& solid);
 
 }  // namespace fluidtex::sim

@@ -7,8 +7,8 @@
 namespace fluidtex::sim {
 namespace {
 
-// Whether a solid's surface lies within 3 cells of one of this leaf's: what follows it along a step and its
-// interpolation reach no farther, solids moving by at most one.
+// Whether a solid's surface lies within 3 cells of one of this leaf's. A point that follows the surface for a
+// step, with its interpolation, reaches no farther, as solids move by at most one cell.
 bool nearSolid(const FloatGrid& solid, const Coord& origin) {
   const FloatLeaf* leaf = solid.constTree().probeConstLeaf(origin);
   return leaf != nullptr && !leaf->isEmpty();

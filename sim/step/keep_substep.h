@@ -1,4 +1,4 @@
-// What a frame keeps of a step: the velocity where the surface can have been.
+// The velocity that a frame keeps of a substep: that near surfaces.
 #pragma once
 
 #include "sim/frame/frame.h"
@@ -8,14 +8,14 @@
 
 namespace fluidtex::sim {
 
-// A velocity in the leaves of phi's band and of the surfaces of solids only: whoever follows the surface for
-// a step, which runs along solids too, never leaves them. phi: before the step; its band is wider than a step
-// is long. solids: distances (metres) before and after the step. The velocity's own grids where nothing is
-// left out.
+// The velocity in the leaves of phi's narrow band and of the solids' surfaces only. A point that follows the
+// surface for a step, along solids too, does not leave them.
+// phi: before the step; its narrow band is wider than the step is long. solids: signed distances (metres)
+// before and after the step. Returns the velocity's own grids where no leaf is left out.
 Velocity nearSurface(const Velocity& velocity, const FloatGrid& phi,
                      const std::vector<const FloatGrid*>& solids);
 
-// The substep of a velocity, which leaves out the liquid's inside as nearSurface() does.
+// The substep of dt seconds with the velocity that nearSurface() leaves.
 Substep keepSubstep(double dt, const Velocity& velocity, const FloatGrid& phi,
                     const std::vector<const FloatGrid*>& solids);
 

@@ -1,4 +1,4 @@
-// The liquid, and all that the next step needs of it.
+// State of the liquid: all that the next step needs.
 #pragma once
 
 #include "sim/grid/mac_grid.h"
@@ -9,38 +9,39 @@
 
 namespace fluidtex::sim {
 
-// phi, the velocity that belongs to it (projected, extrapolated, at rest relative to solids) and the markers
-// that keep phi right.
+// phi, the velocity at its time (projected, extrapolated, constrained at solids), and the markers that
+// correct phi.
 struct Liquid {
   FloatGrid::Ptr phi;           // narrow band, metres, negative inside
   Velocity velocity;            // m/s
   Markers markers;              // on both sides of the surface
-  std::int64_t steps = 0;       // taken so far: the seed of the markers to come
-  double leapfrogOffset = 0.0;  // s: leapfrog offset; the velocity is that of so much later than phi
-  // m/s2 at the velocity's faces, extrapolated: what pressure and friction did in the last step; none where
-  // there was none.
+  std::int64_t steps = 0;       // taken so far; seeds the new markers
+  double leapfrogOffset = 0.0;  // s: leapfrog offset, by which the velocity is later than phi
+  // m/s2 at the velocity's faces, extrapolated: acceleration by pressure and viscosity in the last step; no
+  // grids where there was none.
   FaceGrids acceleration;
-  // K at cell centres of the velocity's leaves, extended into air and solids; null where heat is not
+  // K at cell centres of the velocity's leaves, extrapolated into air and solids; null where heat is not
   // simulated.
   FloatGrid::Ptr temperature = nullptr;
   // The volume deficit, see sim/volume/volume_deficit.h; null for none.
   FloatGrid::Ptr deficit = nullptr;
-  // m/s at the velocity's faces near the surface, by which the liquid grows to give back the deficit; none
-  // where there is none. It moves the surface, and no momentum.
+  // m/s at the velocity's faces near the surface: the flow that gives the deficit back; no grids where there
+  // is none. It moves the surface, but carries no momentum.
   Velocity expansion = {};
 };
 
-// A liquid at the end of a frame; writing and reading it back continues bit for bit (sim/step/state_io.h).
+// The liquid at the end of a frame. A state that is written and read back continues bit for bit
+// (sim/step/state_io.h).
 struct State : Liquid {
   int frame = 0;             // last finished frame, 0 before the first
   double time = 0.0;         // s
-  std::vector<bool> poured;  // bodies of Options::liquid that have been put in already, by index
+  std::vector<bool> poured;  // bodies of Options::liquid poured so far, by index
 };
 
 inline constexpr int kAtCentres = -1;
 
-// visit(name, grid, axis) for each grid of a liquid, null where there is none; axis: of the faces that it
-// sits at, or kAtCentres. What sets up, keeps and compares liquids walks this list: a further grid is a
+// Calls visit(name, grid, axis) for each grid of a liquid, null where there is none. axis: of the faces at
+// which it sits, or kAtCentres. Set-up, storage and comparison of liquids use this list: a further grid is a
 // member of Liquid and a line here.
 template <class AnyLiquid, class Visit>
 void forEachGrid(AnyLiquid& liquid, const Visit& visit) {
@@ -55,14 +56,14 @@ void forEachGrid(AnyLiquid& liquid, const Visit& visit) {
   faces({"su", "sv", "sw"}, liquid.expansion);
 }
 
-// With which the surface moves: velocity and swelling, m/s.
+// Velocity that moves the surface: velocity plus expansion, m/s.
 Velocity movingVelocity(const Liquid& liquid);
 
-// Whether there is none.
+// Whether there is no liquid.
 bool isEmpty(const Liquid& liquid);
 
-// Gives all grids the transforms of cells of width h anew: copying a grid, or writing and reading it, can
-// change the last bits of its transform, and with them all that is sampled.
+// Resets the transforms of all grids to those of cells of width h. Copying a grid, or writing and reading it,
+// can change the last bits of its transform, and with them all sampled values.
 void setTransforms(Liquid& liquid, double h);
 
 }  // namespace fluidtex::sim

@@ -11,11 +11,13 @@
 #include "sim/step/check_options.h"
 #include "sim/step/describe_liquid.h"
 #include "sim/step/keep_substep.h"
+#include "sim/step/pour.h"
 #include "sim/step/step.h"
 #include "sim/step/step_failures.h"
 #include "sim/surface/level_set.h"
 #include "sim/surface/poured_surface.h"
 #include "sim/velocity/advect_velocity.h"
+#include "sim/volume/deficit_grid.h"
 #include "sim/volume/poured_volume.h"
 #include "sim/volume/volume_deficit.h"
 
@@ -26,16 +28,16 @@
 namespace fluidtex::sim {
 namespace {
 
-// More of the liquid than this share should never be owed; less than so many cells goes unmentioned.
+// A deficit above kMostDeficit of the liquid is reported, but not one below kFewCells cells.
 constexpr double kMostDeficit = 0.02, kFewCells = 8.0;
-// Solids that come over no more than this share of the liquid go unmentioned.
+// Solids that cover no more than this share of the liquid are not reported.
 constexpr double kMentioned = 1e-3;
 // How often a step that fails is halved.
 constexpr int kMaxHalvings = 6;
-// Times closer than this share of a frame are one.
+// Times closer than this share of a frame count as the same.
 constexpr double kSameTime = 1e-6;
 
-// A copy of all but the markers, which are too much to keep twice; with a phi of its own.
+// A copy with its own phi, but without the markers, which are too large to copy.
 Liquid withoutMarkers(State& state) {
   Markers markers = std::move(state.markers);
   Liquid liquid = state;
@@ -54,9 +56,9 @@ double frameTime(const Options& options, int frame) {
   return (frame - 1) / options.frameRate;
 }
 
-// The longest step the CFL number allows; `solids` is their speed, and they move by at most one cell. The
-// second term stands for what gravity adds within one cell, so that liquid at rest does not take a step of
-// any length [Bridson, Fluid Simulation for Computer Graphics, sec. 3.3]. Ripples must not grow either.
+// The longest step that the CFL number allows. solids: their speed; they move by at most one cell. The second
+// term is what gravity adds within one cell, so that liquid at rest does not take a step of any length
+// [Bridson, Fluid Simulation for Computer Graphics, sec. 3.3]. The capillary limit holds too.
 double longestStep(const Options& options, double fastest, double solids) {
   const double h = options.voxelSize();
   const double speed = fastest + std::sqrt(options.gravity.length() * h);
@@ -66,7 +68,7 @@ double longestStep(const Options& options, double fastest, double solids) {
   return std::min({longest, solids > 0.0 ? h / solids : longest, capillaryStep(options)});
 }
 
-// The longest even part of `time` that is no longer than `longest`.
+// The longest fraction 1/n of `time` that does not exceed `longest`.
 double evenPart(double time, double longest) {
   return time / std::ceil(time / longest * (1.0 - kSameTime));
 }
@@ -75,7 +77,7 @@ double speedOf(const SolidField& solid) {
   return solid.speed ? maxAbs(solid.speed) : 0.0;
 }
 
-// No part of the surface moves faster, in m/s along an axis.
+// Bound of the surface's speed along an axis, m/s.
 double fastest(const Liquid& liquid) {
   return maxAbs(liquid.velocity) + (liquid.expansion ? maxAbs(liquid.expansion) : 0.0);
 }
@@ -129,7 +131,7 @@ std::shared_ptr<const SolidField> Solver::solidsAround(double time, const FloatG
   return m_solids->around(phis, time, m_active);
 }
 
-// Pours what is due and takes over solids that come or go at the present time.
+// Pours the liquid that is due and applies changes of solids at the present time.
 void Solver::applyEvents() {
   const double now = m_state.time;
   const double h = m_options.voxelSize();
@@ -155,21 +157,20 @@ void Solver::applyEvents() {
     changeSolids(liquid, *before, *m_solid);
     changed = true;
   }
-  // What a source puts in while it runs is taken care of by the steps; where there is nothing yet, none are
-  // made.
+  // Steps add what a source puts in while it runs. Without liquid there are no steps.
   const RunningFlows flows = m_flows->at(now);
   changed = changed || (isEmpty(liquid) && !flows.sources.empty());
   for (const auto& [body, shape] : due) {
-    // As far ahead of the present as the velocity of what is there.
+    // With the same leapfrog offset as the velocity of the liquid that is there.
     pour(liquid, shape, pouredSurface(shape, m_solids->distanceAt(now), h),
          body->velocity + m_options.gravity * liquid.leapfrogOffset, body->temperature, *m_solid);
     changed = true;
   }
   if (!changed) return;
-  // Making distances anew costs thin liquid, much of it in the middle of a splash.
+  // Redistancing loses thin liquid, much of it in the middle of a splash.
   const bool start = m_state.frame == 0;
   const FloatGrid::Ptr whole = liquid.phi->deepCopy();
-  // Up to the middle of the first step.
+  // Gravity acts up to the middle of the first step.
   const double first = longestStep(m_options, fastest(liquid), speedOf(*m_solid));
   double kick = liquid.leapfrogOffset > 0.0 ? 0.0 : 0.5 * evenPart(1.0 / m_options.frameRate, first);
   StepReport report;
@@ -215,7 +216,7 @@ void Solver::tellOfDeficit() {
   if (std::abs(deficit) <= std::max(kMostDeficit * m_whole, kFewCells * std::pow(m_options.voxelSize(), 3)))
     return;
   m_toldOfDeficit = true;
-  const Vec3d place = placeOfMost(*m_state.deficit);
+  const Vec3d place = placeOfLargest(*m_state.deficit);
   std::ostringstream text;
   text << "at time " << m_state.time << " s the surface holds " << std::abs(deficit) << " m3 "
        << (deficit > 0.0 ? "less" : "more") << " than it should, of " << m_whole << " m3, most of it near ("
@@ -228,7 +229,7 @@ void Solver::tellOfDeficit() {
   m_warnings.push_back(text.str());
 }
 
-// By no more than rounding.
+// Sets the time, which changes by no more than rounding.
 void Solver::moveTime(double time) {
   if (time == m_state.time) return;
   m_state.time = time;
@@ -244,13 +245,13 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       return;
     }
     m_solid = solidsAround(m_state.time, *m_state.phi);
-    Liquid& liquid = m_state;  // whose markers and acceleration a step uses up
+    Liquid& liquid = m_state;  // a step takes its markers and acceleration
     const double remaining = time - m_state.time;
     const double speed = fastest(liquid), solids = speedOf(*m_solid);
     const double longest = longestStep(m_options, speed, solids);
-    if (capillaryStep(m_options) < kShortest / m_options.frameRate) failRippling(m_state.time);
+    if (capillaryStep(m_options) < kShortest / m_options.frameRate) failCapillary(m_state.time);
     if (longest < kShortest / m_options.frameRate) failFast(m_state.time, speed, solids);
-    // The velocity is that of the middle of a step of this length.
+    // The leapfrog offset of the velocity fits a step of this length.
     const double planned = 2.0 * liquid.leapfrogOffset;
     const bool asPlanned =
         planned > 0.0 && planned <= longest * (1.0 + kSameTime) && planned <= remaining * (1.0 + kSameTime);
@@ -274,7 +275,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       if (next) break;
       liquid.markers = seedMarkers(*liquid.phi, *m_solid->phi, markerSeed(m_options.seed, liquid.steps),
                                    m_solid->visibility.get());
-      // Forces act for half of the next step, too. Where that is by far the longer one it comes first.
+      // Forces also act for half of the next step. Where that is much the longer one it is shortened first.
       if (nextDt <= 1.5 * dt) {
         if (halving++ == kMaxHalvings) fail(m_state.time, dt, solves);
         dt *= 0.5;

@@ -17,39 +17,40 @@ class Flows;
 class Solids;
 struct SolidField;
 
-// Thrown when a step cannot be made right (the pressure solve does not converge even after halving the step,
-// a velocity is not finite); the message says what happened, at which time, and what may help.
+// Thrown when a step fails: the pressure solve does not converge even after halving the step, or a velocity
+// is not finite. The message says what happened, at which time, and what may help.
 struct SolverError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 class Solver {
  public:
-  // Throws std::invalid_argument where the options (see sim/step/check_options.h) or the state's grids are
-  // none that it could work with.
+  // Starts without liquid. Throws std::invalid_argument where the options are invalid (see
+  // sim/step/check_options.h).
   explicit Solver(const Options& options);
-  // Continues from a restored state. Throws SolverError when it was made at another resolution, or without
-  // the heat that the options ask for.
+  // Continues from a restored state. Throws std::invalid_argument as above, and where the state's grids are
+  // invalid. Throws SolverError when the state was made at another resolution, or lacks the heat that the
+  // options ask for.
   Solver(const Options& options, State state);
 
-  // The first call gives the initial state (frame 1, no substeps); each further call advances by one frame
-  // time. `progress`, where given, is called with the share of the frame done, 0..1.
+  // The first call returns the initial state (frame 1, no substeps); each further call advances by one frame
+  // time. `progress`, where given, is called with the finished fraction of the frame, 0..1.
   Frame next(const std::function<void(double)>& progress = {});
 
   const State& state() const { return m_state; }
 
-  // What will not be, or has not been, as the scene may mean it, one sentence each; next() may add to them.
+  // Where the scene is or was not simulated as it may mean, one sentence each; next() may add to them.
   const std::vector<std::string>& warnings() const { return m_warnings; }
 
  private:
   void prepare();
-  // The solids at a time, wherever the liquid, what runs into it and `more` can get to in a step.
+  // The solids at a time, wherever the liquid, inflow and `more` can get to in a step.
   std::shared_ptr<const SolidField> solidsAround(double time, const FloatGrid& phi,
                                                  const FloatGrid* more = nullptr);
   void applyEvents();
   void moveTime(double time);
   void advanceTo(double time, Frame& frame, const std::function<void(double)>& report);
-  // Says once when more is owed than a run should owe.
+  // Warns once when the deficit is larger than it should be.
   void tellOfDeficit();
 
   Options m_options;
@@ -59,11 +60,11 @@ class Solver {
   std::vector<std::size_t> m_active;          // solids in m_solid
   std::shared_ptr<const Flows> m_flows;
   std::vector<std::string> m_warnings;
-  double m_whole = 0.0;  // m3 of liquid after the last frame, with what was owed
+  double m_whole = 0.0;  // m3 of liquid after the last frame, with the deficit
   bool m_toldOfDeficit = false;
 };
 
-// Throws SolverError when the state was made with cells of another size than the options ask for.
+// Throws SolverError when the state has another cell size than the options.
 void checkResolution(const State& state, const Options& options);
 
 }  // namespace fluidtex::sim

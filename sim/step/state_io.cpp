@@ -15,11 +15,11 @@
 namespace fluidtex::sim {
 namespace {
 
-// In every state; the others only where there are any.
+// Grids of every state; others are there only where the liquid has them.
 constexpr std::string_view kAlways[] = {"phi", "u", "v", "w"};
 
-// What openvdb::io::File writes, to a stream of ours: File looks at its own no more once it is open, and says
-// nothing where the disk refuses.
+// Writes what openvdb::io::File does, to a stream of ours: File does not check its own after opening it, and
+// does not report when the disk refuses.
 class Archive : public openvdb::io::Archive {
  public:
   void put(std::ostream& out, const openvdb::GridCPtrVec& grids, const openvdb::MetaMap& metadata) const {
@@ -27,8 +27,8 @@ class Archive : public openvdb::io::Archive {
   }
 };
 
-// Hands on to the disk what fills its buffer, however large the parts are that it gets; std::filebuf itself
-// passes each one of a kilobyte or more on by itself, a leaf at a time.
+// Writes to the disk in blocks of its buffer, however large the parts are that it gets. std::filebuf passes
+// each part of a kilobyte or more on by itself, a leaf at a time.
 class BlockBuffer : public std::filebuf {
  protected:
   std::streamsize xsputn(const char* data, std::streamsize size) override {
@@ -145,7 +145,7 @@ State readState(const std::filesystem::path& file) {
       to = fromOpenVdb(*grid);
     });
   } catch (const std::exception& error) {
-    // A file cut short fails in many ways (no memory, unknown types); for the caller it is one.
+    // A truncated file fails in many ways (no memory, unknown types); for the caller it is one error.
     throw openvdb::IoError(file.string() + " does not hold a state of the solver: " + error.what());
   }
   return state;

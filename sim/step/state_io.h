@@ -1,4 +1,4 @@
-// A state of the solver as a file.
+// Files of the solver's state.
 #pragma once
 
 #include "sim/step/liquid.h"
@@ -7,8 +7,8 @@
 
 namespace fluidtex::sim {
 
-// The state as one .vdb file, uncompressed so that every value returns bit for bit.
-// Throws openvdb::IoError when the file cannot be written or read.
+// Write and read a state as one .vdb file, uncompressed so that every value returns bit for bit.
+// Both throw openvdb::IoError when the file cannot be written or read.
 void writeState(const State& state, const std::filesystem::path& file);
 State readState(const std::filesystem::path& file);
 

@@ -7,7 +7,7 @@
 
 namespace fluidtex::sim {
 
-void failRippling(double time) {
+void failCapillary(double time) {
   std::ostringstream message;
   message << "the simulation cannot go on at time " << time << " s: surface tension would take over "
           << 1.0 / kShortest

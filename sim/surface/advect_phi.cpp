@@ -23,10 +23,10 @@
 namespace fluidtex::sim {
 namespace {
 
-// A surface that rises towards a wall by more than this, of a cell in a cell, lies along it, and liquid that
-// moves by more than this many cells in a step leaves it. What is at rest does not.
+// phi that rises towards a wall by more than kAlongWall cells per cell runs along it. Liquid there that moves
+// by more than kMoves cells in a step leaves the wall; liquid at rest does not.
 constexpr float kAlongWall = 0.55f, kMoves = 0.02f;
-// Farther from the surface than this, in cells, phi is interpolated linearly: it only has to be about right.
+// Farther from the surface than this, in cells, phi is interpolated linearly: accuracy does not matter there.
 constexpr float kFar = 4.0f;
 
 using LeafBuffer = std::array<float, kLeafSize>;
@@ -43,7 +43,8 @@ bool liesOnSolid(float phi, float solid, float h) {
   return phi < 0.0f && std::abs(phi + solid) < kSame * h;
 }
 
-// phi at a place seen from a cell that does not see all around it. solid: the solids' distance in that cell.
+// phi at a place as seen from a cell to which not all cells around it are visible. solid: the solids'
+// distance in that cell. leaves: the liquid moves, so that it may leave a wall.
 float oneSided(const Window& window, const Coord& cell, const Vec3f& x, const VisibleCells& visible,
                float solid, float h, bool leaves) {
   Stencil values;
@@ -52,7 +53,7 @@ float oneSided(const Window& window, const Coord& cell, const Vec3f& x, const Vi
   if (leaves && behind && liesOnSolid(values[VisibleCells::kMiddle], solid, h))
     riseBehind(values, visible, h);
   else
-    goOnBehind(values, visible, leaves ? kAlongWall * h : std::numeric_limits<float>::infinity());
+    extrapolateBehind(values, visible, leaves ? kAlongWall * h : std::numeric_limits<float>::infinity());
   constexpr const int* kStride = VisibleCells::kStride;
   const float* low = values.data() + VisibleCells::kMiddle;
   float t[3];
@@ -75,7 +76,7 @@ float oneSided(const Window& window, const Coord& cell, const Vec3f& x, const Vi
   return cubic > least && cubic < most ? cubic : linear;
 }
 
-// By at most kMaxTrace cells.
+// One sub-step, of at most kMaxTrace cells.
 void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPhi, double dt, int reach,
               const Visibility* visibility) {
   openvdb::tools::dilateActiveValues(phi.tree(), reach, openvdb::tools::NN_FACE,
@@ -113,7 +114,7 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
         }
         out = before.at(from);
         if (std::abs(out) > far) return;
-        // At edges, and where phi has been made to go on behind walls, the cubic overshoots.
+        // The cubic overshoots at edges and where phi is extrapolated behind walls.
         const auto [low, high] = before.range(from);
         const float cubic = before.cubic(from);
         if (cubic > low && cubic < high) out = cubic;

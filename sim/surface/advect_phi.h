@@ -1,4 +1,4 @@
-// The surface carried along: advection of the level set.
+// Advection of the level set.
 #pragma once
 
 #include "sim/grid/mac_grid.h"
@@ -6,11 +6,11 @@
 
 namespace fluidtex::sim {
 
-// Moves phi with the velocity for dt seconds:  d(phi)/dt + u . grad(phi) = 0. Each cell takes the value from
-// where it came (semi-Lagrangian, cubic interpolation where phi is smooth near the surface), in as many
-// sub-steps as moves of kMaxTrace cells ask for. Leaves are added where the surface can get to. Values
-// outside the velocity's leaves stay, and those deeper in solids than kSolidLayers. visibility: of the solids
-// (SolidField), null for none that are thin.
+// Advects phi for dt seconds:  d(phi)/dt + u . grad(phi) = 0. Semi-Lagrangian; cubic interpolation where phi
+// is smooth near the surface, linear elsewhere.
+// A move of more than kMaxTrace cells is split into equal sub-steps. Leaves are added where the surface can
+// get to. Unchanged: values outside the velocity's leaves, and values deeper in solids than kSolidLayers.
+// phi, solidPhi: metres, at cell centres. visibility: of the solids (SolidField), null where none is thin.
 void advectPhi(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPhi, double dt,
                const Visibility* visibility = nullptr);
 

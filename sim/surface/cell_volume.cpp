@@ -10,20 +10,20 @@
 namespace fluidtex::sim {
 namespace {
 
-// At half a cell's diagonal from its centre a solid leaves the cell alone.
+// Half a cell's diagonal: a solid this far from the centre, in cells, does not reach into the cell.
 constexpr float kClear = 0.87f;
 
-// The share of a cell on the inner side of two planes that leave shares a and b of it by themselves. cosine:
-// between the normals, outwards. Right where one lies behind the other, where they cross at a right angle and
-// where they face each other, as the two sides of a film do; linear between.
+// The share of a cell on the inner side of two planes, each of which alone leaves a share a or b of it.
+// cosine: of the angle between the outward normals. Exact where one plane lies behind the other, where they
+// cross at a right angle and where they face each other, as the two sides of a film do; interpolated linearly
+// between.
 float shareWithin(float a, float b, float cosine) {
   const float same = std::min(a, b), opposite = std::max(0.0f, a + b - 1.0f);
   return a * b + (cosine > 0.0f ? cosine * (same - a * b) : cosine * (a * b - opposite));
 }
 
-// cos of the angle between a surface and a solid at a cell: 1 where both end the liquid on the same side, and
-// where phi has no slope. Deep in solids phi only says how the liquid would go on: it does not count. h:
-// metres.
+// Cosine of the angle between the surface and a solid at a cell: 1 where both end the liquid on the same
+// side, and where phi has no slope. Values deep in solids are extrapolated and do not count. h: metres.
 float cosineBetween(const LeafPatch& phi, const LeafPatch& solid, int at, float h) {
   const float deep = -kDeepInSolid * h;
   float dot = 0.0f, ofPhi = 0.0f, ofSolid = 0.0f;

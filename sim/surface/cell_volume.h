@@ -1,4 +1,4 @@
-// How much room, and how much liquid, there is in each cell.
+// Open and liquid volume fractions of cells.
 #pragma once
 
 #include "sim/grid/mac_grid.h"
@@ -10,13 +10,14 @@ namespace fluidtex::sim {
 
 using LeafShares = std::array<float, kLeafSize>;
 
-// The share of each cell of a block that no solid takes, from the solid's distance at the centre; 0 for cells
-// without an open face, which nothing can get into.
+// Volume fraction of each cell of a block that is outside solids, from the solid's distance at the centre. 0
+// for cells without an open face, which no liquid can enter.
 void openShares(const SolidField& solid, const Coord& origin, LeafShares& open);
 
-// The share of each cell of a block that is liquid: what phi's surface encloses outside solids, from the
-// distances at the centre and the angle between the surface and the solid. A cell whose centre is not liquid
-// counts only beside one whose centre is: else there is no surface, and nobody sees it; or everywhere.
+// Volume fraction of each cell of a block that is liquid: inside phi's surface and outside solids. Computed
+// from the two distances at the centre and the angle between the surface and the solid.
+// seen: a cell whose centre is not liquid counts only beside one whose centre is, since elsewhere there is no
+// surface (a film thinner than a cell is unresolved). unseen: it counts everywhere.
 enum class Counts { seen, unseen };
 void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& origin, LeafShares& liquid,
                   Counts counts = Counts::seen);

@@ -17,18 +17,19 @@ using Block = LeafBlock<kHalo>;
 constexpr int kSide = Block::kSide;
 constexpr auto& kStride = Block::kStride;
 
-// Cells deeper in solids, in cells, are taken as this deep; their images lie within kWideHalo of a leaf.
+// Depth in solids, in cells, that deeper cells are taken to have; mirror images then lie within kWideHalo of
+// a leaf.
 constexpr float kDeepest = 1.5f;
 constexpr int kWideHalo = 4, kWideSide = kLeafDim + 2 * kWideHalo;
 constexpr int kSolidHalo = 2, kSolidSide = kLeafDim + 2 * kSolidHalo;
 
-// Second differences above this share of the slope are corners, or the middle of a film or a gap.
+// Second differences above this share of the slope mark corners, or the middle of a film or a gap.
 constexpr double kSharp = 0.7;
 
-// Of a drop of two cells' radius, in units of 1/h.
+// Largest curvature, in units of 1/h: that of a drop of two cells' radius.
 constexpr double kMost = 1.0;
 
-// Weights of a value and of those beside it.
+// Weights of a value and of its two neighbours.
 constexpr double kBeside[3] = {0.25, 0.5, 0.25};
 
 struct Bend {
@@ -36,8 +37,9 @@ struct Bend {
   bool smooth = false;
 };
 
-// Where phi / h is given around p. Differences are means over the 3 x 3 lines beside each other: without that
-// a ripple from cell to cell, oblique to the grid, bends most where it is least seen, and drops shiver.
+// phi / h is given around p. Differences are averaged over the 3 x 3 parallel lines. Without that, capillary
+// waves of the grid's wavelength that run oblique to it have the largest curvature where they are resolved
+// worst, and drops shiver.
 Bend bendAt(const float* p) {
   double slope[3] = {}, second[3] = {}, mixed[3] = {};  // mixed: yz, xz, xy
   for (int a = 0; a < 3; ++a) {
@@ -66,7 +68,7 @@ Bend bendAt(const float* p) {
   }
   const double sum = (square * (second[0] + second[1] + second[2]) - along) / (square * length);
   gauss /= square * square;
-  // From the level of phi here, a parallel surface, to 0.
+  // From the level set through this cell, a parallel surface, to phi = 0.
   const double depth = std::clamp<double>(p[0], -1.0, 1.0);
   const double shrink = 1.0 - depth * sum + depth * depth * gauss;
   const double atSurface = shrink > 0.25 ? (sum - 2.0 * depth * gauss) / shrink : sum;
@@ -79,8 +81,8 @@ bool besideSurface(const float* p) {
                      [&](int d) { return (p[d] < 0.0f) != inside || (p[-d] < 0.0f) != inside; });
 }
 
-// Gives cells in solids the values of phi across the surface, those of their mirror images. block: phi around
-// a leaf, kSide cells wide.
+// Sets cells in solids to the values of phi at their mirror images across the solid's surface. block: phi
+// around a leaf, kSide cells wide.
 void mirrorInSolids(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord& origin, float* block) {
   float solid[kSolidSide * kSolidSide * kSolidSide], wide[kWideSide * kWideSide * kWideSide];
   gather(solidPhi.constTree(), origin, kSolidHalo, solid);
@@ -95,7 +97,7 @@ void mirrorInSolids(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord
     float normal[3];
     for (int a = 0; a < 3; ++a) normal[a] = 0.5f * (s[kStep[a]] - s[-kStep[a]]);
     const float length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-    // Deep in solids the distance is cut off.
+    // Deep in solids the distance is clamped and has no gradient.
     if (length < 0.5f * h) continue;
     const float way = 2.0f * std::min(-*s / h, kDeepest);
     int low[3];
@@ -110,9 +112,9 @@ void mirrorInSolids(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord
   }
 }
 
-// The 27 values around `at` of a block, as a cell sees them: those behind a thin wall are mirrored at the
-// wall's plane, which lies `wall` cells away along `normal`, both measured from the cell. Into `seen`, at the
-// same place.
+// The 27 values around `at` of a block on the cell's own side: values behind a thin wall are mirrored at the
+// wall's plane, which lies `wall` cells away along `normal`, both measured from the cell. Written into
+// `seen`, at the same place.
 void mirrorUnseen(const float* block, int at, const VisibleCells& visible, double wall, const Vec3d& normal,
                   float* seen) {
   for (int n = 0; n < 27; ++n) {
@@ -132,7 +134,7 @@ void mirrorUnseen(const float* block, int at, const VisibleCells& visible, doubl
       low[a] = image[a] < 0.0 ? -1 : 0;
       part[a] = std::clamp(image[a] - low[a], 0.0, 1.0);
     }
-    // Of the cube of cells around the image those that are seen count.
+    // Only the visible cells of the cube around the image count.
     double sum = 0.0, weights = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
       double weight = 1.0;
@@ -151,7 +153,7 @@ void mirrorUnseen(const float* block, int at, const VisibleCells& visible, doubl
   }
 }
 
-// The direction out of a solid, from its distance around a cell.
+// The outward normal of a solid, from its distance around a cell.
 Vec3d outOf(const FloatTree& solid, const Coord& cell) {
   Vec3d slope;
   for (int a = 0; a < 3; ++a) {

@@ -21,8 +21,8 @@ namespace {
 
 using Vec3 = openvdb::Vec3f;
 
-// A surface steeper to the wall than this share of its slope runs along the wall: what opens or closes there
-// is a gap or a film, and no surface that the wall cuts.
+// Where more than this share of phi's slope is normal to the wall, the surface runs along the wall: there is
+// a gap or a film, and not a surface that the wall cuts.
 constexpr float kAlongWall = 0.55f;
 
 struct Extension {
@@ -31,11 +31,11 @@ struct Extension {
   float deepest, h;                  // metres: cells deeper in solids than `deepest` get values
   std::vector<float> value;          // #voxels: phi
   std::vector<float> depth;          // #voxels: -solidPhi
-  VoxelMask known;                   // all that is not deep in solids, and what has been found there
-  std::unique_ptr<Vec3[]> gradient;  // #voxels: of phi in solids, as far as it may be used
-  std::vector<const Visibility::Leaf*> sight;  // #leaves; null where each cell sees all around it
+  VoxelMask known;                   // cells with a value: all not deep in solids, and those extrapolated
+  std::unique_ptr<Vec3[]> gradient;  // #voxels: of phi in solids, without the parts left out
+  std::vector<const Visibility::Leaf*> sight;  // #leaves; null where all is visible
 
-  // The cell beside on that side (0 to 5); -1 where there is none, or it is on the other side of a thin wall.
+  // The neighbour on a side (0 to 5); -1 where there is none, or it is on the other side of a thin wall.
   std::int64_t beside(std::int64_t cell, int side) const {
     if (const Visibility::Leaf* leaf = sight[cell / kLeafSize]) {
       const int stride = VisibleCells::kStride[side / 2];
@@ -45,7 +45,7 @@ struct Extension {
     return table.neighbor(cell, side);
   }
 
-  // Gradient of phi at a cell in the open, from those of its neighbours that are in the open too and known.
+  // Gradient of phi at a cell outside solids, from its known neighbours outside solids.
   Vec3 openGradient(std::int64_t cell) const {
     Vec3 slope(0.0f);
     for (int axis = 0; axis < 3; ++axis) {
@@ -63,11 +63,11 @@ struct Extension {
     return length > 1.0f ? slope / length : slope;
   }
 
-  // What one known neighbour says about a cell in the solid; `normal`: into the solid there.
+  // What one known neighbour gives for a cell in the solid. `normal`: into the solid there.
   struct Guess {
-    float value;    // phi at the neighbour, or here where `gradient` is no part of it
-    Vec3 gradient;  // leads from there to this cell
-    Vec3 carried;   // to be used by cells still deeper
+    float value;    // phi at the neighbour, or at this cell where `gradient` is 0
+    Vec3 gradient;  // from the neighbour to this cell
+    Vec3 carried;   // for cells still deeper
   };
 
   Guess ask(std::int64_t cell, std::int64_t from, const Vec3& normal) const {
@@ -76,39 +76,39 @@ struct Extension {
     const Vec3 slope = openGradient(from);
     const float inward = slope.dot(normal);
     const auto reachesLiquid = [&](float layers) { return value[from] + layers * h * inward < 0.0f; };
-    // A surface that the wall cuts may well leave air behind it, though the liquid holds to the wall.
+    // A surface that the wall cuts may leave air behind it even where the liquid stays at the wall.
     const auto away = [&] {
       return rules.opens ? rules.opens(table.coord(from))
                          : value[cell] >= 0.0f && (!liquid || inward > kAlongWall || reachesLiquid(1.0f));
     };
-    // Air behind the solid's surface, which has moved with the flow since the liquid let go.
+    // Air behind the solid's surface, which has moved with the flow since the liquid separated.
     if (liquid && away())
       return {rules.opens ? std::max(value[cell], depth[cell]) : value[cell], Vec3(0.0f), normal};
     const Vec3 along = slope - inward * normal;
     if (inward > kAlongWall) {
-      // Air between the solid and a surface that does not come nearer stays.
+      // A gap of air stays where the surface does not come nearer.
       const bool stays = (!liquid && away()) || (rules.closes && !rules.closes(table.coord(from)));
       return {value[from], stays ? slope : along, stays ? slope : along};
     }
     if (liquid || !reachesLiquid(kSolidLayers) || !away()) return {value[from], slope, slope};
-    // A film would begin.
+    // A film would form.
     return {value[from], reachesLiquid(1.0f) ? along : slope, along};
   }
 
-  // The cell's value from its known neighbours nearer to the open, each axis weighted by how much nearer;
-  // with no such neighbour, from all known ones. False where one nearer to the open is not known yet, unless
-  // that does not matter.
+  // The cell's value from its known neighbours that are less deep, each axis weighted by the difference in
+  // depth; without such a neighbour, from all known ones. False where a less deep one is not known yet,
+  // unless withoutNearest.
   bool extend(std::int64_t cell, bool withoutNearest) {
     std::array<std::int64_t, 3> nearest{-1, -1, -1};
-    Vec3 way(0.0f);  // into the solid, by how much nearer the neighbours are
+    Vec3 way(0.0f);  // into the solid, by the differences in depth
     std::array<std::int64_t, 6> all;
-    std::array<int, 6> side;  // on which each of them is
+    std::array<int, 6> side;  // on which side each of them is
     int count = 0;
     for (int axis = 0; axis < 3; ++axis) {
       for (int up = 0; up < 2; ++up) {
         const std::int64_t n = beside(cell, 2 * axis + up);
-        // What a solid has left asks the open only; and what is open in part, none that is not: what comes
-        // out of the depth of a wall may be liquid from its other side.
+        // A cell that a solid has left takes values from outside solids only, and a partly open cell none
+        // from a closed one: what is extrapolated from deep in a wall may be liquid of its other side.
         if (n < 0 || (depth[cell] <= deepest && depth[n] > deepest)) continue;
         if (depth[cell] <= kDeepInSolid * h && depth[n] > kDeepInSolid * h) continue;
         const float shallower = depth[cell] - depth[n];
@@ -123,7 +123,7 @@ struct Extension {
         nearest[axis] = n;
       }
     }
-    // Walled in on all sides: it stays as it is, but for what a solid has left.
+    // No neighbour counts: the cell keeps its value, but becomes air where a solid has left it.
     if (count == 0) {
       if (withoutNearest && depth[cell] <= deepest) value[cell] = std::max(value[cell], h);
       return withoutNearest;
@@ -132,7 +132,7 @@ struct Extension {
     const Vec3 normal = length > 0.0f ? way / length : Vec3(0.0f);
     float weights = 0.0f, sum = 0.0f;
     float air =
-        std::numeric_limits<float>::infinity();  // least of those asked, where all are air in the solid
+        std::numeric_limits<float>::infinity();  // least of those used, where all are air in the solid
     const auto note = [&](std::int64_t from) {
       air = depth[from] > deepest && value[from] >= 0.0f ? std::min(air, value[from]) : -1.0f;
     };
@@ -154,10 +154,10 @@ struct Extension {
       sum += guess.value - value[all[0]] + step * guess.gradient[side[n] / 2];
       carried += guess.carried;
     }
-    // The mean of equal values is exactly theirs: what differs from the background by rounding would make
-    // leaves that hold nothing else, and those further ones along the edges between walls.
+    // The mean of equal values must be exact: values that differ from the background by rounding would make
+    // leaves of nothing else, and those more leaves along the edges between walls.
     value[cell] = value[all[0]] + sum / weights;
-    // Into what is open in part no surface comes that air only slopes towards: it may be behind the solid.
+    // A slope of phi in air makes no surface in a partly open cell: the surface may be behind the solid.
     if (air >= 0.0f && value[cell] < 0.0f && depth[cell] <= kDeepInSolid * h) value[cell] = air;
     gradient[cell] = carried / weights;
     return true;
@@ -186,16 +186,16 @@ void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const GapRules&
     for (std::size_t n = 0; n < table.size(); ++n)
       for (std::size_t i = 0; i < was[n].size(); ++i) extension.known[n][i] &= was[n][i];
   }
-  std::vector<std::size_t> open;  // leaves that are not known wholly
+  std::vector<std::size_t> open;  // leaves with cells that are not known yet
   for (std::size_t n = 0; n < table.size(); ++n)
     if (!allSet(extension.known[n])) open.push_back(n);
   if (open.empty()) return;
   extension.gradient = std::make_unique<Vec3[]>(table.voxels());
 
-  // From the open inwards, all cells beside known ones at once.
+  // From outside inwards, all cells beside known ones at once.
   bool progress = true, withoutNearest = false;
   while (!open.empty() && (progress || !withoutNearest)) {
-    // Cells that wait for each other stop waiting.
+    // Cells that wait for each other are solved without their less deep neighbours.
     withoutNearest = !progress;
     std::vector<LeafBits> found(open.size());
     tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t n) {

@@ -19,8 +19,8 @@
 namespace fluidtex::sim {
 namespace {
 
-// A level set from blocks: fill(origin, values) writes the 512 values of a block; blocks beyond the band
-// become tiles.
+// Builds a level set from blocks: fill(origin, values) writes the 512 values of a block. Blocks beyond the
+// narrow band become tiles.
 template <class Fill>
 void build(FloatTree& tree, const std::vector<Coord>& origins, const Fill& fill) {
   const float background = tree.background();
@@ -114,7 +114,7 @@ void trimBand(FloatGrid& phi, const FloatGrid& solidPhi) {
 
 void unite(FloatGrid& phi, const std::function<double(const Vec3d&)>& distance, const CoordBBox& within) {
   const double h = phi.voxelSize()[0], background = phi.background();
-  // Farther than the band from a whole cube of cells: the sign at its centre is that of all.
+  // Where a whole cube of cells is beyond the narrow band, the sign at its centre is that of all its cells.
   const auto sideOf = [&](const Coord& origin, int size) {
     const double d = distance(phi.indexToWorld(origin.asVec3d() + Vec3d(0.5 * (size - 1))));
     const double farthest = background + 0.5 * std::sqrt(3.0) * (size - 1) * h;
@@ -188,7 +188,7 @@ FloatGrid::Ptr visibleSurface(const FloatGrid& phi, const SolidField& solid, int
           float scratch[kLeafSize];
           const float* p = leafValues(phi.constTree(), origin, scratch);
           const float* s = leafValues(solid.phi->constTree(), origin, values);
-          // The solid's distance is known to 3 h only: beyond, it says no more than its sign.
+          // The solid's distance is clamped at 3 h: beyond, only its sign is known.
           for (int i = 0; i < kLeafSize; ++i) {
             const float outside = s[i] >= static_cast<float>(2.999 * h) ? -background : -s[i];
             values[i] = std::max(p[i], outside);

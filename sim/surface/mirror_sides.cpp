@@ -14,7 +14,7 @@ void mirrorAt(FloatGrid& phi, const SolidField& solid, int side) {
     FloatLeaf& leaf = *leaves[n];
     const int begin = leaf.origin()[axis];
     if (low ? begin >= first : begin + kLeafDim <= first) return;
-    // Read on the one side, written on the other.
+    // Reads on one side of the plane and writes on the other only, so leaves may run in parallel.
     const openvdb::tree::ValueAccessor<const FloatTree> values(phi.constTree());
     for (int i = 0; i < kLeafSize; ++i) {
       Coord at = leaf.offsetToGlobalCoord(i);

@@ -1,5 +1,5 @@
-// Sides of symmetry for the level set: phi goes on beyond them as its own mirror image, so that a surface
-// that meets them is smooth there and its distance as good as elsewhere.
+// Symmetry sides of the level set. Beyond them phi is its own mirror image, so that a surface that meets them
+// is smooth there and its distance as accurate as elsewhere.
 #pragma once
 
 #include "sim/grid/mac_grid.h"
@@ -7,7 +7,7 @@
 
 namespace fluidtex::sim {
 
-// In the leaves that phi has.
+// Mirrors phi beyond the symmetry sides, in the leaves that it has.
 void mirrorAtSides(FloatGrid& phi, const SolidField& solid);
 
 }  // namespace fluidtex::sim

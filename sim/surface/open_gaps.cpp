@@ -8,7 +8,7 @@
 namespace fluidtex::sim {
 namespace {
 
-// Whether a cell of liquid, outside solids, touches this cell.
+// Whether one of the 27 cells around and at this one is liquid outside solids.
 bool touchesLiquid(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord& cell) {
   const float deep = -kDeepInSolid * static_cast<float>(solidPhi.voxelSize()[0]);
   for (int n = 0; n < 27; ++n) {
@@ -18,21 +18,21 @@ bool touchesLiquid(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord&
   return false;
 }
 
-// What leaves a solid or closes on it does so faster than at this share of what gravity adds in a step. And
-// what moves by less than this share of a cell in a step stands.
+// kLeaves: liquid separates from a solid, or closes on it, faster than this share of what gravity adds in a
+// step. kStands: what moves by less than this share of a cell in a step is at rest.
 constexpr double kLeaves = 0.05, kStands = 1e-3;
 
-// Whether a film thinner than half a cell, so that only the wall's own cell holds it, goes from the wall at
-// this cell. It has no pressure of its own: it goes where the velocity leads away from the solid, `kick`
-// being what gravity adds to it in a step, as it does under a ceiling; and where no liquid feeds it, but on
-// floors, since nothing would move it any more.
+// Whether a film thinner than half a cell, held only by the wall's own cell, separates from the wall at this
+// cell. It has no pressure of its own. It separates where the velocity points away from the solid, with
+// `kick`, what gravity adds in a step, as under a ceiling; and where no liquid feeds it, except on floors,
+// since nothing would move it any more.
 bool leavesSolid(const FloatGrid& phi, const Velocity& velocity, const SolidField& solid, const Coord& cell,
                  const Vec3d& kick) {
   const FloatGrid& solidPhi = *solid.phi;
   const auto& push = solid.speed.component;
   const float deep = -kDeepInSolid * static_cast<float>(solidPhi.voxelSize()[0]);
   bool onFloor = false;
-  // Liquid beside it moves the film with itself, and at rest holds it up.
+  // Liquid beside the film moves it along or, at rest, supports it.
   const bool touches = touchesLiquid(phi, solidPhi, cell);
   const Vec3d fall = touches ? Vec3d(0.0) : kick;
   const double slowest = kLeaves * kick.length();
@@ -44,7 +44,7 @@ bool leavesSolid(const FloatGrid& phi, const Velocity& velocity, const SolidFiel
     if (solidPhi.constTree().getValue(beyond) >= deep) continue;
     const bool outside = !solid.domain.isInside(beyond);
     if (outside && solid.sides[side] == Side::symmetry) continue;
-    if (outside && !isClosed(solid.sides[side])) return true;  // what is beyond is of no account
+    if (outside && !isClosed(solid.sides[side])) return true;  // nothing beyond counts
     double speed = velocity.component[axis]->constTree().getValue(face);
     if (push[axis] != nullptr) speed -= push[axis]->constTree().getValue(face);
     if (out * (speed + fall[axis]) > slowest) return true;
@@ -53,8 +53,8 @@ bool leavesSolid(const FloatGrid& phi, const Velocity& velocity, const SolidFiel
   return !onFloor && !touches;
 }
 
-// Whether a cell of liquid moves against a solid beside it, or is driven against it: kick is what gravity
-// adds to its velocity in a step. One that stands on a floor has the floor's velocity, whatever gap is left.
+// Whether a cell of liquid moves or is driven against a solid beside it. kick: what gravity adds to its
+// velocity in a step. Liquid at rest on a floor has the floor's velocity, whatever gap is left.
 bool closesOn(const Velocity& velocity, const SolidField& solid, const Coord& cell, const Vec3d& kick,
               double slowest) {
   const auto& push = solid.speed.component;
@@ -72,7 +72,7 @@ bool closesOn(const Velocity& velocity, const SolidField& solid, const Coord& ce
   return -speed.dot(normal) > slowest * normal.length();
 }
 
-// Cells beside each other whose distances to a wall differ by no more than this share of a cell lie along it.
+// Neighbours whose distances to a wall differ by no more than this share of a cell lie along it.
 constexpr float kAlong = 0.25f;
 
 }  // namespace
@@ -80,8 +80,8 @@ constexpr float kAlong = 0.25f;
 void openGaps(FloatGrid& phi, const Velocity& velocity, const SolidField& solid, const MaskGrid& separating,
               const Vec3d& kick, double dt) {
   if (!separating.empty()) {
-    // The cut reaches the cells beside those that let go, along the wall: farther from it another wall may be
-    // nearer, which the liquid stays at.
+    // The cut includes the neighbours of separating cells along the wall. Farther from it another wall may be
+    // nearer, at which the liquid stays.
     MaskGrid around(separating);
     const auto distance = solid.phi->getConstAccessor();
     const float along = kAlong * static_cast<float>(solid.voxelSize);

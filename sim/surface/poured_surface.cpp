@@ -9,20 +9,23 @@
 namespace fluidtex::sim {
 namespace {
 
-// In cells: no surface farther away lies between two cells; and a body this near a solid touches it.
+// kNear: a surface farther away lies between no two cells. kTouching: a body this near a solid touches it. In
+// cells.
 constexpr double kNear = 1.8, kTouching = 0.05;
-// Cells along an axis in which a surface is looked for, and into how many parts each is split.
+// Cells along an axis in which a surface is searched for, and the parts into which each is split.
 constexpr int kReach = 2, kParts = 4;
-// Cosine of the angle between two surfaces that are taken for parallel.
+// Cosine of the angle above which two surfaces count as parallel.
 constexpr double kParallel = 0.99;
-// Cells: where a body's surface, parallel to that of the solid it lies in, is looked for outside.
+// Distances, in cells, at which a body's surface that is parallel to that of the solid it lies in is searched
+// for outside.
 constexpr double kAround[] = {2.0, 5.0, 12.0};
-// Halvings of a way between cells.
+// Bisection steps between two cells.
 constexpr int kHalvings = 40;
 
 using Distance = std::function<double(const Vec3d&)>;
 
-// The place between two where a distance changes its sign. low: at `from`.
+// The place between `from` and `to` where a distance changes its sign, by bisection. low: the distance at
+// `from`.
 Vec3d crossing(const ShapeDistance& distance, Vec3d from, Vec3d to, double low) {
   for (int n = 0; n < kHalvings; ++n) {
     const Vec3d middle = 0.5 * (from + to);
@@ -31,7 +34,7 @@ Vec3d crossing(const ShapeDistance& distance, Vec3d from, Vec3d to, double low) 
   return 0.5 * (from + to);
 }
 
-// Whether the body's surface comes out of the solid near a place in it. normal: the surface's there.
+// Whether the body's surface leaves the solid near a place in it. normal: of the surface there.
 bool comesOut(const ShapeDistance& body, const Distance& solids, const Vec3d& place, const Vec3d& normal,
               double h) {
   int least = 0;
@@ -49,8 +52,8 @@ bool comesOut(const ShapeDistance& body, const Distance& solids, const Vec3d& pl
   return false;
 }
 
-// Whether a body ends at a solid, at a place on its surface: there the two surfaces are one, or the body has
-// been put some way into the solid. Where one cuts the other, the body's goes on into the solid.
+// Whether a body ends at a solid at a place on its surface: there the two surfaces coincide, or the body
+// reaches some way into the solid. Where one cuts the other, the body's surface continues into the solid.
 bool isAtSolid(const ShapeDistance& body, const Distance& solids, const Vec3d& place, double apart,
                double h) {
   const double away = solids(place);
@@ -60,7 +63,7 @@ bool isAtSolid(const ShapeDistance& body, const Distance& solids, const Vec3d& p
   return away >= -apart || !comesOut(body, solids, place, normal, h);
 }
 
-// Whether the way along an axis leads into a solid and out of it again.
+// Whether a path along an axis enters a solid and leaves it again.
 bool leadsThroughWall(const Distance& solids, const Vec3d& from, int axis, double length, double h) {
   bool wasOpen = solids(from) > 0.0, entered = false;
   const double part = std::copysign(h / kParts, length);
@@ -75,11 +78,11 @@ bool leadsThroughWall(const Distance& solids, const Vec3d& from, int axis, doubl
   return false;
 }
 
-// Of a plane from how far away it crosses the axes; 0 where it crosses none within kReach cells.
+// Distance to a plane from where it crosses the axes; 0 where it crosses none within kReach cells.
 double distanceAcross(const ShapeDistance& body, const Distance& solids, const Vec3d& x, double here,
                       double h) {
-  // Where the body ends at a solid itself, the solid is no way off; a surface beside one is as far from it as
-  // x.
+  // Where the body ends at a solid, its surface is at no distance from it; a surface beside a solid is as far
+  // from it as x.
   const double apart = std::min(kTouching * h, 0.5 * std::abs(solids(x)));
   double squares = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -101,7 +104,7 @@ double distanceAcross(const ShapeDistance& body, const Distance& solids, const V
         break;
       }
     }
-    // A surface through the centre itself is as far away as rounding.
+    // A surface through the centre itself has a distance of the size of rounding.
     nearest = std::max(nearest, 1e-6 * h);
     squares += 1.0 / (nearest * nearest);
   }
@@ -117,7 +120,7 @@ Distance pouredSurface(const ShapeDistance& body, Distance solids, double h) {
     if (std::abs(here) > kNear * h) return here;
     const double room = solids(x);
     if (room > std::abs(here) + touching) return here;
-    // Between a body and a solid that it all but touches there is no air.
+    // There is no air between a body and a solid that it almost touches.
     Vec3d place = x;
     if (room > 0.0 && room < touching) {
       const Vec3d beside = x + touching * normalAt(solids, x, 0.01 * h);
@@ -127,12 +130,12 @@ Distance pouredSurface(const ShapeDistance& body, Distance solids, double h) {
       }
     }
     const Vec3d closest = place - here * normalAt(body, place, 0.01 * h);
-    // As near to two surfaces, along the slope of the distance lies neither.
+    // Where two surfaces are equally near, neither lies along the gradient of the distance.
     const bool isOn = std::abs(body(closest)) < touching;
     if (place == x && isOn && !isAtSolid(body, solids, closest, touching, h)) return here;
     if (const double across = distanceAcross(body, solids, place, here, h); across > 0.0)
       return here < 0.0 ? -across : across;
-    // What the body ends at is the solid; its surface is farther away.
+    // The body ends at the solid here; its own surface is farther away.
     return here < 0.0 ? std::min(here, -kNear * h) : here;
   };
 }

@@ -1,4 +1,4 @@
-// Where a body of liquid that is poured has a surface of its own.
+// The surface of a poured body of liquid, without the parts of it that lie on solids.
 #pragma once
 
 #include "sim/shapes/shape_distance.h"
@@ -7,13 +7,14 @@
 
 namespace fluidtex::sim {
 
-// Distance at world positions to the surface of a body of liquid, as unite() takes it: metres, negative
-// inside. A body ends at solids, within a twentieth of a cell of them or anywhere in them, without a surface
-// there: near a corner between wall and surface its own distance would be that to the wall, and cells there
-// would say that the surface lies too low. There it is the distance to where the surface crosses the axes,
-// exact for a plane that crosses each within two cells; farther from the surface it is at least 1.8 cells. A
-// surface that a solid cuts goes on into the solid. solids: their distance, that of the domain's sides among
-// them. h: the cells' size.
+// Signed distance to the surface of a body of liquid, as unite() takes it: metres, negative inside, at world
+// positions.
+// A body has no surface where it ends at a solid: within a twentieth of a cell of it, or anywhere inside. In
+// the corner between wall and surface the body's own distance would be that to the wall, and cells there
+// would put the surface too low. There it is the distance to where the surface crosses the axes, exact for a
+// plane that crosses each within two cells; farther from the surface it is at least 1.8 cells. A surface that
+// a solid cuts continues into the solid.
+// solids: signed distance to them, metres, with the domain's sides. h: cell size, metres.
 std::function<double(const Vec3d&)> pouredSurface(const ShapeDistance& body,
                                                   std::function<double(const Vec3d&)> solids, double h);
 

@@ -1,7 +1,7 @@
-// Cells beside the surface get their distance from the closest point on it (sim/surface/surface_distance.h).
-// From them it is spread by the equation  d(phi)/dtau = sign(phi0) (1 - |grad phi|)  of Sussman, Smereka and
-// Osher 1994, and so it is beside corners, films and gaps, where there is no smooth surface to be close to,
-// with: Russo and Smereka, "A remark on computing distance functions", 2000 (the surface's place kept within
+// Cells near the surface get their distance from the closest point on it (sim/surface/surface_distance.h).
+// The equation  d(phi)/dtau = sign(phi0) (1 - |grad phi|)  of Sussman, Smereka and Osher 1994 spreads it from
+// there. It also serves beside corners, films and gaps, where no smooth surface has a closest point, with:
+// Russo and Smereka, "A remark on computing distance functions", 2000 (the surface's place kept within
 // cells); Min, "On reinitializing level set functions", 2010 (second-order differences, quadratic place,
 // local steps).
 #include "sim/surface/redistance.h"
@@ -29,16 +29,15 @@ constexpr int kBlock = Block::kCount;
 constexpr auto& kStride = Block::kStride;
 constexpr float kCourant = kRedistanceReach;
 
-// Cells beside the surface that are wrong by less than this share of a cell stay: a surface at rest does not
-// move at all, however often it is reinitialised.
+// Cells beside the surface whose error is less than this share of a cell keep their value: a surface at rest
+// does not move at all, however often it is reinitialised.
 constexpr float kRightEnough = 1e-3f;
 
-// Closer to the surface than this, in cells, the local step would be too short to get anywhere: such cells
-// stay, too.
+// Cells closer to the surface than this, in cells, keep their value too: their local step would be too short.
 constexpr float kClosest = 1e-3f;
 
-// Nearer to solids than this, in cells, the surface is not taken for smooth: phi has been made to go on
-// behind them.
+// Nearer to solids than this, in cells, the surface does not count as smooth: phi is extrapolated behind
+// them.
 constexpr float kAwayFromSolids = 2.9f;
 
 // By value and without branches, so that loops over them vectorise.
@@ -52,12 +51,12 @@ inline float minmod(float a, float b) {
   return most(0.0f, least(a, b)) + least(0.0f, most(a, b));
 }
 
-// A cell next to the surface, in units of h: how far the surface is towards -x, +x, -y, ... (1 where it is
-// farther).
+// A cell next to the surface, and the distances to the surface towards -x, +x, -y, ... in units of h (1 where
+// it is farther).
 struct NearCell {
   int offset;
   std::array<float, 6> reach;
-  const VisibleCells* visible = nullptr;  // where it does not see all around it
+  const VisibleCells* visible = nullptr;  // null where all is visible
 };
 
 // The values around a cell along each axis, as they are stored.
@@ -66,7 +65,7 @@ struct StoredValues {
   float operator()(int axis, int steps) const { return p[steps * kStride[axis]]; }
 };
 
-// The same on the cell's side of thin walls.
+// The same, with only the cell's side of thin walls.
 struct OneSidedValues {
   std::array<std::array<float, 5>, 3> value;
   float operator()(int axis, int steps) const { return value[axis][steps + 2]; }
@@ -78,7 +77,7 @@ struct OneSidedValues {
       };
       auto& v = value[axis];
       for (int steps = -2; steps <= 2; ++steps) v[steps + 2] = p[steps * kStride[axis]];
-      // Nothing comes from behind the wall: neither a surface nor a slope.
+      // Neither a surface nor a slope is taken from behind the wall.
       if (!sees(-1)) v[1] = v[2];
       if (!sees(1)) v[3] = v[2];
       if (!sees(-2)) v[0] = 2.0f * v[1] - v[2];
@@ -87,7 +86,7 @@ struct OneSidedValues {
   }
 };
 
-// Where between two cells (0: at the first) the cubic-free ENO parabola through phi vanishes [Min10 eq. 9].
+// Where the ENO parabola through phi vanishes between two cells (0: at the first) [Min10 eq. 9].
 float crossing(float before, float here, float there, float after) {
   const float curvature = minmod(before - 2.0f * here + there, here - 2.0f * there + after);
   const float linear = here / (here - there);
@@ -99,7 +98,7 @@ float crossing(float before, float here, float there, float after) {
   return 0.5f + (here - there - side * root) / curvature;
 }
 
-// Fills in how far the surface is; false where it is next to the cell on no side.
+// Fills in the distances to the surface; false where it is next to the cell on no side.
 template <class Values>
 bool findSurface(const Values& at, NearCell& cell) {
   bool near = false;
@@ -168,9 +167,9 @@ float slopeAt(const Values& at, const NearCell& cell) {
 
 struct LeafPlan {
   std::vector<NearCell> near;       // those whose distance comes from the iteration
-  std::vector<NearCell> oneSided;   // others that do not see all around them
-  std::vector<std::int16_t> held;   // offsets of cells that do not take part in it
-  std::vector<CellDistance> moved;  // of those, the ones that get a new value beforehand
+  std::vector<NearCell> oneSided;   // others that have cells around them hidden by walls
+  std::vector<std::int16_t> held;   // offsets of cells that the iteration leaves alone
+  std::vector<CellDistance> moved;  // those of them that get a new value beforehand
 
   bool rests() const { return held.size() == kLeafSize; }
 };
@@ -248,7 +247,7 @@ void eulerStep(const FloatTree& from, FloatLeaf& to, const LeafPlan& plan, float
         const float change = step[row + k] * (1.0f - std::sqrt(square[row + k]));
         float next = h * (now + (now < 0.0f ? -change : change));
         next = least(background, most(-background, next));
-        // The sign never changes: that would be a surface made from nothing.
+        // The sign never changes: that would create a surface from nothing.
         out[row + k] = (next < 0.0f) != (now < 0.0f) ? h * now : next;
       }
     }

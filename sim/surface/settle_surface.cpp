@@ -8,8 +8,8 @@
 namespace fluidtex::sim {
 namespace {
 
-// Of cells that the wall cuts, too, when their centres lie in it: else they would be air, and the body would
-// start by falling into their open part.
+// Depth in solids, in voxels, from which phi is extrapolated. Cells that a wall cuts are included where their
+// centre lies in it: otherwise they would be air, and the body would start by falling into their open part.
 constexpr float kInSolid = 0.0f;
 constexpr int kIterations = 4;
 
@@ -20,7 +20,7 @@ void settleSurface(FloatGrid& phi, const SolidField& solid) {
   for (auto leaf = solid.phi->constTree().cbeginLeaf(); leaf; ++leaf) phi.tree().touchLeaf(leaf->origin());
   const float h = static_cast<float>(phi.voxelSize()[0]);
   // A body that ends at a wall has no surface there (sim/surface/poured_surface.h), and one that ends before
-  // it keeps its surface: both go straight on.
+  // it keeps its surface. Both continue straight.
   const auto never = [](const Coord&) { return false; };
   const GapRules rules{never, never};
   const int rounds = static_cast<int>(phi.background() / (h * kRedistanceReach * kIterations)) + 2;

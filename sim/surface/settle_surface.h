@@ -1,11 +1,12 @@
-// The surface of liquid that has been put somewhere, and not flowed there.
+// The surface of liquid that has just been placed, before it has moved.
 #pragma once
 
 #include "sim/solids/solids.h"
 
 namespace fluidtex::sim {
 
-// Makes phi a distance after pouring or a change of solids; it goes on behind the solids that it ends at.
+// Turns phi into a distance after pouring or a change of solids, and extrapolates it behind the solids at
+// which the liquid ends.
 void settleSurface(FloatGrid& phi, const SolidField& solid);
 
 }  // namespace fluidtex::sim

@@ -12,13 +12,13 @@
 namespace fluidtex::sim {
 namespace {
 
-constexpr int kReach = 3;                       // cells: how far the surface may be along an axis
-constexpr int kHalo = kReach + 3;               // and two more for the interpolation's stencil there
+constexpr int kReach = 3;                       // cells: largest distance of the surface along an axis
+constexpr int kHalo = kReach + 3;               // and more for the interpolation's stencil there
 constexpr int kSide = LeafBlock<kHalo>::kSide;  // 20
 constexpr auto& kStride = LeafBlock<kHalo>::kStride;
 constexpr int kMaxIterations = 12;
 constexpr double kTolerance = 1e-3;  // cells: of the last step
-// Second differences above this share of the slope are corners, or the middle of a film or a gap.
+// Second differences above this share of the slope mark corners, or the middle of a film or a gap.
 constexpr double kSharp = 0.7;
 
 using Vec3 = openvdb::Vec3d;
@@ -175,7 +175,7 @@ struct Block : LeafBlock<kHalo> {
     return x;
   }
 
-  // Where the surface would be if phi were a distance already; `crossing` where that leads too far.
+  // Where the surface would be if phi were already a distance; `crossing` where that is too far.
   Vec3 guess(int offset, const Vec3& crossing) const {
     const float* p = cell(offset);
     const Vec3 slope(0.5 * (p[kStride[0]] - p[-kStride[0]]), 0.5 * (p[kStride[1]] - p[-kStride[1]]),
@@ -195,7 +195,7 @@ struct Search {
 };
 
 // One step of Newton's method, to the closest point of the tangent plane. True when the search has ended;
-// `distance` is then that to the surface, or infinite where it ends nowhere.
+// `distance` is then that to the surface, or infinite where the search failed.
 bool advance(Search& search, const Block& block, double& distance) {
   distance = std::numeric_limits<double>::infinity();
   if (!search.inBlock) return true;
@@ -209,7 +209,8 @@ bool advance(Search& search, const Block& block, double& distance) {
   const double length = step.lengthSqr();
   if (length < kTolerance * kTolerance) {
     const double slope = std::sqrt(square);
-    // To the tangent plane, which differs from the surface by half the curvature times the step squared.
+    // The distance to the tangent plane, which differs from that to the surface by half the curvature times
+    // the step squared.
     if (block.smooth(search.point, slope)) distance = std::abs(phi + height) / slope;
     return true;
   }
@@ -236,7 +237,7 @@ std::vector<CellDistance> surfaceDistances(const FloatTree& phi, const Coord& or
     const Vec3 cell(offset >> 6, (offset >> 3) & 7, offset & 7);
     searches.push_back({cell, block.guess(offset, block.crossing(offset)), {}, offset, true});
   }
-  // All cells take their steps together: the evaluations do not wait for each other then.
+  // All cells take their steps together, so that their evaluations overlap.
   for (int n = 0; n < kMaxIterations && !searches.empty(); ++n) {
     for (Search& search : searches) search.inBlock = block.evaluate(search.point, search.phi);
     std::erase_if(searches, [&](Search& search) {

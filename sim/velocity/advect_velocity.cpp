@@ -15,7 +15,7 @@
 namespace fluidtex::sim {
 namespace {
 
-// Of a cell's lower face, in cells from the leaf's lower corner.
+// Centre of a cell's lower face, in cells from the leaf's lower corner.
 Vec3f faceCentre(int offset, int axis) {
   const Vec3f corner(static_cast<float>(offset >> 6), static_cast<float>((offset >> 3) & 7),
                      static_cast<float>(offset & 7));
@@ -42,7 +42,7 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
       const float* const first = distance.values.get();
       const std::ptrdiff_t side = distance.side;
       if (std::all_of(first, first + side * side * side, [](float p) { return p >= 0.0f; })) continue;
-      // As far as paths reach, and two samples more for the cubic.
+      // The reach of traces, and two samples more for the cubic.
       const int halo = std::min(kLeafDim, static_cast<int>(std::ceil(reach.from(origin))) + 3);
       window.setHalo(halo);
       content.setHalo(halo);

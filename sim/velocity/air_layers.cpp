@@ -9,14 +9,16 @@ namespace fluidtex::sim {
 namespace {
 
 constexpr int kLayers = 2;
-// Cells of one layer share faces where the surface is slanted.
+// Sweeps over a layer: its cells share faces where the surface is oblique.
 constexpr int kSweeps = 2;
 constexpr float kMostGrowth = 1.5f;
-// What goes on linearly changes by no more than this share of itself: beside jets the slope is no flow's.
+// Linear extrapolation changes a value by no more than this share of itself: beside jets the slope is not
+// that of the flow.
 constexpr float kMostSlope = 0.2f;
-// Layers of faces that go on linearly: what advection's cubic reads.
+// Layers of faces that are extrapolated linearly: those that cubic interpolation of advection reads.
 constexpr int kLinearLayers = 2;
-// The faces away from the liquid have to lead that much farther from it, in cells, to take on the divergence.
+// The faces away from the liquid must lead at least this much farther from it, in cells, to take the
+// divergence.
 constexpr float kLeastWay = 0.5f;
 
 struct Layers {
@@ -30,8 +32,8 @@ struct Layers {
 
   float& speedAt(int axis, std::int64_t face) const { return speed[axis][face >> 9][face & 511]; }
 
-  // Whether the face of a cell towards direction 0..5 is free, and how much farther from the liquid the cell
-  // behind it is.
+  // How much farther from the liquid the cell behind a face (towards direction 0..5) is; 0 where the face is
+  // not free.
   float way(std::int64_t cell, int direction) const {
     const std::int64_t beyond = table.neighbor(cell, direction);
     if (beyond < 0) return 0.0f;
@@ -39,7 +41,8 @@ struct Layers {
     return isSet(free[direction >> 1], face) ? std::max(0.0f, phi[beyond] - phi[cell]) : 0.0f;
   }
 
-  // What a cell adds to the faces that lie farther from the liquid, in m/s for each metre of their way.
+  // The correction of a cell's faces that lie farther from the liquid, in m/s for each metre that they lead
+  // farther.
   float balance(std::int64_t cell) const {
     float divergence = 0.0f, ways = 0.0f;
     for (int axis = 0; axis < 3; ++axis) {
@@ -62,7 +65,7 @@ struct Layers {
   }
 };
 
-// The first layer touches liquid, each next one the layer before.
+// Finds the layers. The first one touches liquid, each next one the layer before.
 void number(Layers& layers, const VoxelMask& liquid, const VoxelMask& open) {
   VoxelMask taken = liquid;
   for (int n = 0; n < kLayers; ++n) {
@@ -79,7 +82,7 @@ void number(Layers& layers, const VoxelMask& liquid, const VoxelMask& open) {
   }
 }
 
-// Takes the divergence out of the cells of one layer, all at once.
+// Makes the cells of one layer divergence-free, all at once.
 void balance(Layers& layers, const VoxelMask& layer) {
   const LeafTable& table = layers.table;
   forLeaves(table, [&](std::size_t leaf) {
@@ -167,7 +170,7 @@ void extendLinearly(Velocity& values, const FloatGrid& phi) {
     VoxelMask known = std::move(touching);
     for (int layer = 0; layer < kLinearLayers; ++layer) {
       VoxelMask beyond(table.size());
-      // Read only where it is known, written only where it is not.
+      // Values are read where they are known and written elsewhere only.
       forLeaves(table, [&](std::size_t n) {
         beyond[n] = besideAny(table, known, n);
         for (std::size_t i = 0; i < beyond[n].size(); ++i) beyond[n][i] &= ~known[n][i];

@@ -25,8 +25,9 @@ struct Sweep {
   std::vector<std::uint8_t> known;                // #voxels: bit n says whether field n is known
   static constexpr std::uint8_t kAll = (1 << kFields) - 1;
 
-  // Each field that is not known: mean of the known neighbours nearer to the liquid, each axis weighted by
-  // how much nearer (upwind); with no such neighbour, of all known ones. False where no neighbour is known.
+  // Sets each field that is not known to the mean of the known neighbours nearer to the liquid, each axis
+  // weighted by the difference in distance (upwind); with no such neighbour, of all known ones. False where
+  // no neighbour is known.
   bool fill(std::int64_t voxel) {
     const std::vector<float>& distance = solidDepth[voxel] > 0.0f ? solidDepth : airDistance;
     double weights[kFields] = {}, sum[kFields] = {}, plainSum[kFields] = {};
@@ -70,7 +71,7 @@ std::vector<float> atFaces(const LeafTable& table, const std::vector<float>& cel
   tbb::parallel_for(std::size_t{0}, table.size(), [&](std::size_t n) {
     const float* here = cells.data() + n * kLeafSize;
     const int below = table.next[n][2 * axis];
-    // Without a leaf below, the cell itself stands for the one below it.
+    // Without a leaf below, the cell itself replaces the one below it.
     const float* before = below < 0 ? here : cells.data() + below * std::size_t{kLeafSize} + 7 * stride;
     float* out = faces.data() + n * kLeafSize;
     for (int i = 0; i < kLeafSize; ++i)
@@ -114,7 +115,8 @@ void extrapolateAxis(const std::vector<Extrapolated>& fields, int axis, const Le
   }
   sortByDistance(order);
 
-  // One pass does nearly all; local minima of the distance that hold no valid face wait for their neighbours.
+  // One pass fills nearly all faces; local minima of the distance that hold no valid face wait for their
+  // neighbours.
   std::vector<std::int64_t> waiting;
   for (const FarVoxel& e : order) {
     s.fill(e.voxel);

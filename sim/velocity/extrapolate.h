@@ -1,4 +1,4 @@
-// Velocity beyond the liquid: every active face gets the value of the liquid nearest to it.
+// Extrapolation of velocity beyond the liquid.
 #pragma once
 
 #include "sim/grid/mac_grid.h"
@@ -8,14 +8,13 @@
 
 namespace fluidtex::sim {
 
-// Fills every active face of u, v, w that is not in `valid`, constant along the normals: in the air along
-// those of phi's level sets, behind the surface of solids along those of the solid's distance. `phi` and
-// `solidPhi` in metres at cell centres, negative inside. A face that no valid face can reach gets 0. Other
-// faces stay as they are.
+// Fills every active face of u, v, w that is not in `valid` with the value of the nearest liquid, constant
+// along normals: in the air along those of phi's level sets, behind the surface of solids along those of the
+// solid's distance. A face that no valid face can reach gets 0. Other faces keep their values.
+// phi, solidPhi: metres, at cell centres, negative inside.
 void extrapolate(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi, const FloatGrid& solidPhi);
 
-// The same for one to three fields of one topology at once: what says from where to where they go on is found
-// once.
+// The same for one to three fields of one topology at once, which share the order of faces.
 struct Extrapolated {
   Velocity& field;
   const FaceMasks& valid;

@@ -28,7 +28,7 @@ double sum(std::int32_t n, const Term& term) {
 }
 
 // The gradient of the viscous energy: stress gets the weighted strains of x, and out the sum at each face.
-// whole: with the offsets, that is not only what is linear in x.
+// whole: with the offsets, else only the part that is linear in x.
 void viscousForce(const ViscousSystem& system, const std::vector<double>& x, bool whole,
                   std::vector<double>& stress, std::vector<double>& out) {
   const auto samples = static_cast<std::int32_t>(system.samples.size());
@@ -83,7 +83,7 @@ ViscosityReport solveViscous(const ViscousSystem& system, std::vector<double>& x
   report.faces = n;
   std::vector<double> p(x.size(), 0.0), q(n), r(n), stress(system.samples.size());
 
-  // The right-hand side: the momentum before, and the pull of solids that move.
+  // The right-hand side: the momentum before, and the forces of moving solids.
   std::copy(x.begin() + n, x.end(), p.begin() + n);
   viscousForce(system, p, true, stress, q);
   const double normB = std::sqrt(sum(n, [&](std::int32_t i) {
@@ -105,7 +105,7 @@ ViscosityReport solveViscous(const ViscousSystem& system, std::vector<double>& x
   std::vector<float> scaled(n), z(n);
   double rz = 0.0, alpha = 0.0;
   while (!report.converged && report.iterations < options.maxIterations && std::isfinite(report.residual)) {
-    // The preconditioner works on values of about 1, whatever is left of the residual.
+    // Scaled, since the preconditioner works on values of about 1.
     const double unit = normR / std::sqrt(static_cast<double>(n));
     tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
       for (std::int32_t i = range.begin(); i < range.end(); ++i) scaled[i] = static_cast<float>(r[i] / unit);
@@ -124,7 +124,7 @@ ViscosityReport solveViscous(const ViscousSystem& system, std::vector<double>& x
       q[i] += system.mass[i] * p[i];
       return p[i] * q[i];
     });
-    if (!(pq > 0.0) || !(rz > 0.0)) break;  // rounding is all that is left
+    if (!(pq > 0.0) || !(rz > 0.0)) break;  // only rounding is left
     alpha = rz / pq;
     normR = std::sqrt(sum(n, [&](std::int32_t i) {
       x[i] += alpha * p[i];

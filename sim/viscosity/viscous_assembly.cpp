@@ -1,11 +1,11 @@
 // The viscous energy of a liquid from its grids: Batty and Bridson, "Accurate viscous free surfaces for
 // buckling, coiling, and rotating liquids", 2008. Departures:
 // - Only faces beside a liquid cell are unknown. A strain that would need another face is left out: that face
-//   would have no mass and give way until the strain is gone. What mass there is around such a face goes to
-//   its unknown neighbours, so that a film's weight is whole.
+// would have no mass and move until the strain is 0. The mass around such a face goes to its unknown
+// neighbours, so that a film has its whole weight.
 // - Walls lie where the solid's distance has its zero, not at faces: a difference that reaches into a solid
-// is
-//   taken over the distance to the wall, and volumes end there. For walls along an axis this is second order.
+// is taken over the distance to the wall, and volumes end there. For walls along an axis this is second
+// order.
 #include "sim/viscosity/viscous_system.h"
 
 #include "sim/grid/leaf_block.h"
@@ -57,22 +57,22 @@ struct Patch : LeafBlock<2> {
   }
 };
 
-// Faces in solids farther from liquid than this many cells belong to no strain of the liquid.
+// Faces in solids farther from liquid than this, in cells, belong to no strain of the liquid.
 constexpr float kNearLiquid = 2.0f;
-// A solid whose normal is this close to a face's axis gives the face its own normal velocity, whatever its
-// wall is like.
+// A solid whose normal is this close to a face's axis gives the face its own normal velocity, whatever the
+// wall's boundary condition.
 constexpr float kSquare = 0.9f;
 // Distances to walls count as at least this share of a cell.
 constexpr float kMinReach = 0.05f;
 // Faces this close to a wall, in cells, lie on it.
 constexpr float kOnWall = 1e-4f;
-// Faces and strains with less volume than this share of a cell: the former count as this much, so that each
-// unknown is held by something; the latter are left out.
+// Faces with less volume than kMinMass of a cell count as that much, so that the matrix is regular. Strains
+// with less than kMinVolume are left out.
 constexpr double kMinMass = 0.01, kMinVolume = 1e-4;
 
 enum : std::uint8_t { kNone = 0, kUnknown = 1, kGiven = 2 };
 
-// What the walls do to a face at a wall: the slip length there in cells.
+// Boundary conditions at faces beside walls; slip lengths in cells.
 struct Walls {
   const SolidField& solid;
   float h;
@@ -86,14 +86,14 @@ struct Walls {
     return solid.slipLength->constTree().getValue(deeper) / h;
   }
 
-  // Whether a face in the open has a velocity of its own (a source, a stream's end).
+  // Whether a face outside solids has a given velocity (a source, a stream side).
   bool given(const Coord& face, int axis) const {
     return solid.given && solid.given[axis].constTree().isValueOn(face);
   }
 
   bool open(const Coord& face, int axis) const { return solid.open[axis].constTree().getValue(face) > 0.5f; }
 
-  // Of the solid as a whole, also beside it.
+  // Velocity of the solid itself, also beside it.
   double motion(const Coord& face, int axis) const {
     return solid.speed ? solid.speed[axis].constTree().getValue(face) : 0.0f;
   }
@@ -134,7 +134,7 @@ FaceFields classify(const LeafTable& table, const FloatGrid& phi, const SolidFie
           continue;
         }
         const bool square = std::abs(wall.cell(at) - wall.cell(below)) >= kSquare * h;
-        // A face in the plane of a wall that lets liquid through is the end of the domain.
+        // An open face in the plane of a wall is the end of the domain.
         if (wall.face(at, c) <= onWall && !(square && walls.open(face, c))) {
           if (square || std::isfinite(walls.slip(face, c))) fields.state[c][v] = kGiven;
           continue;
@@ -149,7 +149,7 @@ FaceFields classify(const LeafTable& table, const FloatGrid& phi, const SolidFie
   return fields;
 }
 
-// The liquid around faces that are not unknown, shared out among their unknown neighbours.
+// Distributes the liquid around faces that are not unknown among their unknown neighbours.
 void gatherMass(const FaceFields& fields, ViscousSystem& system) {
   const LeafTable& table = system.table;
   system.mass.assign(system.unknowns, 0.0f);
@@ -177,9 +177,8 @@ void gatherMass(const FaceFields& fields, ViscousSystem& system) {
   }
 }
 
-// The factor of a difference between an unknown and a given face, depths in cells: what it takes for the
-// wall's drag to be that of a linear profile which is 0 a slip length behind the wall, on a sample of that
-// volume.
+// The factor of a difference between an unknown and a given face, distances in cells. With it the wall's drag
+// is that of a linear profile that is 0 a slip length behind the wall, on a sample of this volume.
 float reachFactor(float unknownDistance, float givenDistance, float slip) {
   const float reach = std::clamp(unknownDistance / (unknownDistance - givenDistance), kMinReach, 1.0f);
   return 1.0f / std::sqrt(reach * (reach + slip));
@@ -249,15 +248,16 @@ class Sampler {
     if (firstGiven == secondGiven) return 1.0f;
     const int givenAt = firstGiven ? firstAt : secondAt, unknownAt = firstGiven ? secondAt : firstAt;
     const float h = static_cast<float>(m_solid.voxelSize);
-    if (wall.face(givenAt, axis) > kOnWall * h) return 1.0f;  // given in the open
+    if (wall.face(givenAt, axis) > kOnWall * h) return 1.0f;  // given outside solids
     float slip = 0.0f;
     if (std::abs(wall.cell(givenAt) - wall.cell(givenAt - kStride[axis])) < kSquare * h)
       slip = Walls{m_solid, h}.slip(m_system.coord[firstGiven ? first : second], axis);
     return reachFactor(wall.face(unknownAt, axis), std::min(0.0f, wall.face(givenAt, axis)), slip);
   }
 
-  // Of the difference second - first, which is multiplied by `factor`: a solid that turns has another speed
-  // at its surface than at the given face, and a motion that liquid and solid share has no strain.
+  // Offset of the difference second - first, which is multiplied by `factor`: a rotating solid has another
+  // velocity at its surface than at the given face, and a motion that liquid and solid share must have no
+  // strain.
   float offset(std::int32_t first, std::int32_t second, float factor, int axis) const {
     if (factor == 1.0f || !m_solid.speed) return 0.0f;
     const Walls walls{m_solid, static_cast<float>(m_solid.voxelSize)};

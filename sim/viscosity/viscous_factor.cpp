@@ -55,7 +55,7 @@ std::vector<std::int32_t> facesOfThinParts(const ViscousSystem& system) {
       for (std::size_t v = n * kLeafSize; v < (n + 1) * kLeafSize; ++v) body(static_cast<std::int64_t>(v));
     });
   };
-  // Cells with the value `which` spread by one in all 26 directions, one axis after the other.
+  // Dilates the cells with the value `which` by one in all 26 directions, one axis after the other.
   const auto spread = [&](Cells& cells, std::uint8_t which) {
     for (int axis = 0; axis < 3; ++axis) {
       Cells next = cells;

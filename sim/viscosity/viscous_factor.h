@@ -1,4 +1,4 @@
-// Parts of a viscous system that are solved directly.
+// Direct solves for parts of a viscous system.
 #pragma once
 
 #include "sim/viscosity/viscous_system.h"
@@ -8,17 +8,17 @@
 
 namespace fluidtex::sim {
 
-// The rows and columns of a viscous system that belong to some faces, as a sparse Cholesky factorization.
+// Sparse Cholesky factorization of the rows and columns of a viscous system that belong to some faces.
 class ViscousFactor {
  public:
-  // faces: growing numbers of unknowns.
+  // faces: increasing indices of unknowns.
   ViscousFactor(const ViscousSystem& system, std::vector<std::int32_t> faces);
   ~ViscousFactor();
 
   const std::vector<std::int32_t>& faces() const { return m_faces; }
-  bool good() const;  // false where the matrix is singular but for rounding
+  bool good() const;  // false where the matrix is singular to rounding
 
-  // Replaces b, one value a face, by the values that solve the system while all other faces are 0.
+  // Replaces b, one value a face, by the solution with all other faces at 0.
   void solve(std::vector<double>& b) const;
 
  private:
@@ -28,7 +28,7 @@ class ViscousFactor {
 };
 
 // The unknowns of parts in which no 3 x 3 x 3 cells of liquid fit, and of two cells around them: sheets,
-// threads and drops that coarser grids do not see.
+// threads and drops that coarser grids do not resolve.
 std::vector<std::int32_t> facesOfThinParts(const ViscousSystem& system);
 
 }  // namespace fluidtex::sim

@@ -1,8 +1,8 @@
-// Gauss-Seidel sweeps that carry the strains along: a face sees its residual through its six samples, and
-// changes them at once. Faces of one component and one parity of i + j + k share no sample, so each such
+// Gauss-Seidel sweeps that keep the strains up to date: a face computes its residual from its six samples,
+// and updates them at once. Faces of one component and one parity of i + j + k share no sample, so each such
 // group is swept in parallel. Coarse levels have the same form with cells twice as large: masses and weights
-// are summed up, not Galerkin's products. The coarsest is factored. So are, on the finest, thin parts: a
-// sheet of one or two cells bends almost without strain, in ways that no coarser grid can follow.
+// are summed, not Galerkin's products. The coarsest level is factored. So are thin parts on the finest: a
+// sheet of one or two cells bends almost without strain, in modes that no coarser grid represents.
 #include "sim/viscosity/viscous_multigrid.h"
 
 #include "sim/viscosity/viscous_factor.h"
@@ -20,22 +20,22 @@ using Range = tbb::blocked_range<std::int32_t>;
 constexpr std::int32_t kGrain = 4096;
 // A level of at most this many faces is factored instead of coarsened.
 constexpr std::int32_t kSmall = 1500;
-// A level that would keep more than this share of its faces is not worth having: scattered drops.
+// Coarsening stops where a level would keep more than this share of the faces, as with scattered drops.
 constexpr double kMinShrink = 0.7;
 // Up to this many faces the coarsest level is factored; beyond, it is swept this often.
 constexpr std::int32_t kLargestFactored = 40000;
 constexpr int kCoarsestSweeps = 8;
-// Below this weight, that of a full cell's mass being 1, sweeps do for thin parts too.
+// Below this weight, relative to a full cell's mass, sweeps suffice for thin parts too.
 constexpr float kStiff = 5.0f;
 // Thin parts of more faces than this are left to the sweeps.
 constexpr std::size_t kLargestThin = 200000;
 
-// A face's place among the coarse ones: along its own axis on one of them or between two, along the others a
-// quarter of a coarse cell off.
+// A face's place among coarse ones: along its own axis on one of them or between two, along the others a
+// quarter of a coarse cell away.
 struct Parents {
   Coord coord[8];
   float weight[8];
-  bool needed[8];  // whether it is there for this face; others are used where they exist
+  bool needed[8];  // whether it exists for this face; others are used where they exist
   int count = 0;
 };
 
@@ -82,7 +82,7 @@ class VoxelFinder {
   std::int32_t m_leaf = kUnset;
 };
 
-// How a level's faces hang on the next coarser one's.
+// Interpolation weights between a level's faces and the next coarser one's.
 struct Transfer {
   std::vector<std::array<std::int32_t, 8>> parent;  // the coarse level's nowhere() for none
   std::vector<std::array<float, 8>> weight;
@@ -92,7 +92,7 @@ int componentOf(const ViscousSystem& system, std::int32_t face) {
   return face < system.start[0].back() ? 0 : (face < system.start[1].back() ? 1 : 2);
 }
 
-// Masses with the drag of walls: what holds a face to values that are 0 in a correction.
+// Masses plus the drag of walls: what ties a face to values that are 0 in a correction.
 std::vector<float> anchors(const ViscousSystem& system) {
   std::vector<float> anchor = system.mass;
   for (const StrainSample& sample : system.samples) {
@@ -355,7 +355,7 @@ void ViscousMultigrid::cycle(std::size_t number) {
     tbb::parallel_for(0, 3, [&](int c) {
       for (std::int32_t i = level.system.start[c].front(); i < level.system.start[c].back(); ++i) {
         const float rest = level.residual(i, c);
-        // Not at nowhere(), where the three components would meet.
+        // Not at nowhere(), which the three components share.
         for (int n = 0; n < 8; ++n) {
           const std::int32_t parent = level.transfer.parent[i][n];
           if (parent < coarse.system.unknowns) coarse.b[parent] += level.transfer.weight[i][n] * rest;

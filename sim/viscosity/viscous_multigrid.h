@@ -14,8 +14,8 @@ class ViscousMultigrid {
   explicit ViscousMultigrid(const ViscousSystem& system);
   ~ViscousMultigrid();
 
-  // x = M b with M symmetric, positive and about the inverse of the system's matrix; #unknowns values each, b
-  // of magnitude about 1. Single precision.
+  // x = M b with M symmetric, positive definite and an approximate inverse of the system's matrix. #unknowns
+  // values each; b of magnitude about 1. Single precision.
   void apply(const std::vector<float>& b, std::vector<float>& x);
 
  private:

@@ -19,7 +19,7 @@ ViscousStepReport applyViscousStep(Velocity& velocity, const FloatGrid& phi, con
   report.pressure = projection.report;
   if (!report.pressure.converged) return report;
   uniteTopology(balanced);
-  // Friction also sees faces that the projection leaves as they were, with all that forces gave them.
+  // Viscosity also reads faces that the projection leaves unchanged, with all that forces gave them.
   extrapolate(balanced, projection.valid, phi, *solid.phi);
   const Velocity before = copyOf(balanced);
   report.viscosity = applyViscosity(balanced, phi, solid, dt, density, viscosity);

@@ -18,7 +18,7 @@
 namespace fluidtex::sim {
 
 struct StrainSample {
-  std::array<std::int32_t, 4> face;  // numbers of faces; on the diagonal the last two are nowhere()
+  std::array<std::int32_t, 4> face;  // indices of faces; on the diagonal the last two are nowhere()
   float weight = 0.0f;
   float a = 1.0f, b = 1.0f;  // other than 1 where a difference reaches a wall nearer or farther than one cell
   float offset = 0.0f;       // what the wall's own motion changes between its surface and the given face
@@ -54,7 +54,8 @@ struct ViscousSystem {
   std::int32_t nowhere() const { return faces; }
 };
 
-// How much strain `s` of sample type `t` changes with a face of component c in slot `slot` of FaceSamples.
+// Derivative of strain `s` of sample type `t` with respect to a face of component c in slot `slot` of
+// FaceSamples.
 inline float strainOf(const StrainSample& s, int c, int slot) {
   const float sign = (slot & 1) == 0 ? 1.0f : -1.0f;
   if (slot < 2) return sign * s.a;
@@ -66,13 +67,13 @@ inline float strainOf(const StrainSample& s, int c, int slot) {
 // unknowns and faces.
 void numberFaces(ViscousSystem& system, const std::array<std::vector<std::uint8_t>, 3>& state);
 
-// The numbers of the faces of a sample of type t at a voxel, -1 for those that are none.
+// Indices of the faces of a sample of type t at a voxel, -1 where there is none.
 std::array<std::int32_t, 4> facesOfStrain(const ViscousSystem& system, int t, std::int64_t voxel);
 
 // Fills samplesOf from samples.
 void linkSamples(ViscousSystem& system);
 
-// The system of a liquid; `before` gets the velocity at all faces (nowhere() included). Lengths in cells,
+// The system of a liquid. `before` gets the velocity at all faces (nowhere() included). Lengths in cells,
 // weights relative to the mass of a full cell.
 ViscousSystem viscousSystem(const Velocity& velocity, const FloatGrid& phi, const SolidField& solid,
                             double dt, double density, const ViscosityField& viscosity,

@@ -33,7 +33,7 @@ double negativeShare(double middle, double gx, double gy, double gz) {
   if (m1 > m2) std::swap(m1, m2);
   if (m2 > m3) std::swap(m2, m3);
   if (m1 > m2) std::swap(m1, m2);
-  // Slopes next to nothing beside the largest one are none: the formulas divide by them.
+  // Slopes that are negligible beside the largest one are raised to this share: the formulas divide by them.
   constexpr double kFlat = 1e-4;
   m1 = std::max(m1, kFlat * sum);
   m2 = std::max(m2, kFlat * sum);

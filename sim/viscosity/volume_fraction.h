@@ -1,11 +1,12 @@
-// How much of a cell a surface cuts off.
+// Volume fraction of a cell on one side of a plane.
 #pragma once
 
 namespace fluidtex::sim {
 
-// Share of a cube, 0 to 1, where a linear field is negative: `middle` is its value at the cube's centre, gx,
-// gy, gz how much it changes over one side of the cube along each axis. Scardovelli and Zaleski, "Analytical
-// relations connecting linear interfaces and volume fractions in rectangular grids", 2000.
+// Share of a cube, 0 to 1, where a linear field is negative. middle: its value at the cube's centre. gx, gy,
+// gz: its change over one side of the cube along each axis.
+// Source: Scardovelli and Zaleski, "Analytical relations connecting linear interfaces and volume fractions in
+// rectangular grids", 2000.
 double negativeShare(double middle, double gx, double gy, double gz);
 
 }  // namespace fluidtex::sim

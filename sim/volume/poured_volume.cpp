@@ -13,14 +13,13 @@
 namespace fluidtex::sim {
 namespace {
 
-// Of a cell: distances made anew differ by less where nothing is lost.
+// Share of a cell: recomputed distances differ by less where no volume is lost.
 constexpr float kRounding = 1e-3f;
-// The share of a cell that a plane leaves, by its distance from the centre alone, is wrong by less where the
-// plane is aslant.
+// Error bound of a cell's share by the distance from its centre alone, for an oblique plane.
 constexpr float kSlanted = 0.05f;
 
-// The share of a cell that a body takes: as liquidShares says, by its distance from the centre, but beside
-// edges by those of the cell's eight parts.
+// The share of a cell inside a body: by the distance from its centre, as in liquidShares, but near edges by
+// the distances of the cell's eight parts.
 float shareOf(const std::function<double(const Vec3d&)>& body, float far, const Vec3d& middle, float h) {
   double fine = 0.0;
   for (int part = 0; part < 8; ++part) {

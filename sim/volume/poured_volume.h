@@ -1,4 +1,4 @@
-// What of poured liquid its surface does not show.
+// Volume deficit of poured liquid: the part of it that its surface does not represent.
 #pragma once
 
 #include "sim/flows/flows.h"
@@ -8,18 +8,20 @@
 
 namespace fluidtex::sim {
 
-// Bodies of liquid that have been put in at once.
+// Bodies of liquid that have been poured at once.
 struct PouredLiquid {
   const FloatGrid& bodies;                       // distance to them, metres, in leaves around them
-  const FloatGrid& phi;                          // with all that was there before, not yet settled
+  const FloatGrid& phi;                          // with the liquid that was there before, not yet settled
   std::function<double(const Vec3d&)> distance;  // the same as `bodies`, anywhere
-  bool start;                                    // they are all that there is
+  bool start;                                    // no liquid was there before
 };
 
-// Adds to what is owed (null for nothing) what the surface does not show of liquid that is poured: films and
-// drops that no cell's centre is in; and, at the start and away from solids, what settling, which makes phi a
-// distance, wears off edges and bodies of a few cells. settled: phi after that. Nothing within a cell of
-// sources and drains.
+// The deficit (null for none) with the part of poured liquid added that its surface does not represent. At
+// cell centres, in units of h^3.
+// Added: films and drops in which no cell centre lies; at the start, away from solids, also what settling,
+// which makes phi a distance, erodes at edges and of bodies of a few cells. Nothing is added in sources and
+// within a cell of drains.
+// settled: phi after settling.
 FloatGrid::Ptr withPoured(const FloatGrid* deficit, const PouredLiquid& poured, const FloatGrid& settled,
                           const SolidField& solid, const RunningFlows& flows);
 

@@ -4,6 +4,7 @@
 #include "sim/grid/mac_grid.h"
 #include "sim/markers/drop_markers.h"
 #include "sim/surface/cell_volume.h"
+#include "sim/volume/deficit_grid.h"
 #include "sim/volume/volume_deficit.h"
 
 #include <tbb/parallel_for.h>
@@ -17,20 +18,20 @@
 namespace fluidtex::sim {
 namespace {
 
-// Of a cell's volume. More than half would reach its centre; but drops that small are lost again at the next
-// step, and seem larger than they are meanwhile.
+// Share of a cell's volume. Half would reach its centre, but drops that small are lost again in the next
+// step, and look too large meanwhile.
 constexpr float kFills = 0.9f;
-// Cells of which a solid leaves less than this share are too small for a surface of their own.
+// Cells of which less than this share is open are too small for a surface of their own.
 constexpr float kRoomy = 0.75f;
 
-// Of a cell's volume: what shows in it, and of that, what is nothing.
+// Shares of a cell's volume: at least kShows is inside the surface, and less than kEmpty of liquid is left.
 constexpr float kShows = 0.3f, kEmpty = 0.05f;
-// Where the liquid is deeper than this, in cells, in a cell or beside it, it is no speck.
+// Where the liquid is deeper than this, in cells, in a cell or beside it, it is not a speck.
 constexpr float kShallow = 0.5f;
 
 struct Regained {
   Coord cell;
-  float share;  // of it that is liquid
+  float share;  // liquid share of the cell
 };
 
 std::vector<Regained> regainedIn(const FloatLeaf& deficit, const FloatTree& phi, const SolidField& solid) {
@@ -41,7 +42,7 @@ std::vector<Regained> regainedIn(const FloatLeaf& deficit, const FloatTree& phi,
   openShares(solid, deficit.origin(), open);
   const LeafPatch distance = patchOf(phi, deficit.origin());
   const LeafPatch wall = patchOf(solid.phi->constTree(), deficit.origin());
-  // Behind a solid's surface phi says how the liquid would go on.
+  // Behind a solid's surface phi is extrapolated.
   const auto isLiquid = [&](int at) { return distance[at] < 0.0f && wall[at] > 0.0f; };
   for (int i = 0; i < kLeafSize; ++i) {
     const int at = patchIndex(i);
@@ -54,7 +55,7 @@ std::vector<Regained> regainedIn(const FloatLeaf& deficit, const FloatTree& phi,
   return found;
 }
 
-// A cell and the six beside it.
+// A cell and its six neighbours.
 std::array<Coord, 7> star(const Coord& cell) {
   std::array<Coord, 7> cells;
   cells.fill(cell);
@@ -62,7 +63,7 @@ std::array<Coord, 7> star(const Coord& cell) {
   return cells;
 }
 
-// Cells that show liquid where next to none is.
+// Cells inside a surface that holds almost no liquid.
 std::vector<Coord> emptyIn(const FloatLeaf& deficit, const FloatGrid& phi, const SolidField& solid) {
   const float* due = deficit.buffer().data();
   std::vector<Coord> found;
@@ -111,7 +112,7 @@ void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& deficit, const S
   }
   dropMarkers(markers,
               [&](const Marker& m, const Coord& cell) { return m.radius > 0.0f && cells.contains(cell); });
-  oweChange(deficit, before, phi, solid);
+  addChange(deficit, before, phi, solid);
 }
 
 void withdrawSurface(FloatGrid& phi, Markers& markers, FloatGrid& deficit, const SolidField& solid) {
@@ -133,7 +134,7 @@ void withdrawSurface(FloatGrid& phi, Markers& markers, FloatGrid& deficit, const
   for (const Coord& cell : cells) phi.tree().setValueOn(cell, dry);
   dropMarkers(markers,
               [&](const Marker& m, const Coord& cell) { return m.radius < 0.0f && cells.contains(cell); });
-  oweChange(deficit, before, phi, solid);
+  addChange(deficit, before, phi, solid);
 }
 
 }  // namespace fluidtex::sim

@@ -1,4 +1,4 @@
-// Liquid that the surface had lost and that is a surface again; and surface where no liquid is left.
+// Conversion between volume deficit and surface, in single cells.
 #pragma once
 
 #include "sim/grid/grids.h"
@@ -7,15 +7,17 @@
 
 namespace fluidtex::sim {
 
-// A level set alone loses films and drops thinner than its cells; they are owed where they were (see
-// sim/volume/volume_deficit.h). Where the flow gathers so much of that in a cell of the air that it is all
-// but full, with no liquid beside it that could take it, phi becomes a surface there again, as far from the
-// centre as a plane that parts so much from the cell. What it then holds is owed no more: the sum stays.
-// Markers of the air in and beside these cells are dropped, or they would take the surface away.
+// Turns a deficit that fills a cell back into surface. A level set alone loses films and drops thinner than
+// its cells; their volume is deficit where they were (see sim/volume/volume_deficit.h). Where the flow
+// gathers so much of it in an air cell that the cell is almost full, with no liquid beside it that could take
+// it, phi becomes a surface there again. Its distance from the centre is that of a plane that cuts off this
+// volume.
+// The deficit is reduced by what the surface then encloses, so that the sum stays. Air markers in and beside
+// these cells are dropped, or they would remove the surface.
 void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& deficit, const SolidField& solid);
 
-// The other way round: where the flow has left next to nothing in a cell that phi still shows, by a speck of
-// a surface that markers hold in a film or thread long thinner than a cell, there is none any more. The sum
+// The reverse. Markers can hold a speck of surface in a film or thread that has become much thinner than a
+// cell. Where the fluxes have left almost nothing in a cell inside such a surface, it is removed. The sum
 // stays.
 void withdrawSurface(FloatGrid& phi, Markers& markers, FloatGrid& deficit, const SolidField& solid);
 

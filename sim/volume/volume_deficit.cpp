@@ -18,23 +18,21 @@
 namespace fluidtex::sim {
 namespace {
 
-// No more than this share of a cell is given back at once.
-constexpr float kMost = 0.5f;
-// Rounds in which what is owed in the air falls towards the liquid, a cell each.
+// Rounds in which the deficit in the air moves towards the liquid, a cell each.
 constexpr int kGatherRounds = 4;
-// Steps of diffusion in the liquid. Fluxes know a smooth surface to some hundredths of a cell, too much here
-// and too little there: this evens out before it moves the surface.
+// Diffusion steps in the liquid. Fluxes know a smooth surface to some hundredths of a cell, too much here and
+// too little there: diffusion evens this out before it moves the surface.
 constexpr int kSpreadRounds = 10;
-// Less than this share of a cell is nothing.
+// Deficits below this share of a cell count as 0.
 constexpr float kNothing = 1e-6f;
-// What is owed in cells with less room than this share stays where it is.
+// The deficit of cells with less room than this share is not advected.
 constexpr float kCarries = 1e-3f;
-// Rounds in which what a cell cannot hold goes on, a cell each.
+// Rounds in which the excess of full cells is passed on, a cell each.
 constexpr int kPileRounds = 6;
-// Solid, to what looks for the liquid, in cells.
+// Distance to the liquid, in cells, that cells in solids get.
 constexpr float kFar = 1e3f;
 
-// The leaves in which something can be owed; `inside` the liquid, too.
+// The leaves that can hold a deficit. inside: include those of the liquid's interior.
 LeafTable leavesAround(const FloatGrid& before, const FloatGrid& after, const FloatGrid* deficit, bool inside,
                        const CoordBBox& domain) {
   FloatTree topology(0.0f);
@@ -60,25 +58,25 @@ bool isZero(const LeafPatch& patch) {
   return std::none_of(patch.begin(), patch.end(), [](float v) { return v != 0.0f; });
 }
 
-// Where a voxel's row of 8 in z begins, in a leaf and in its patch.
+// Calls body with the index at which each row of 8 voxels in z begins, in a leaf and in its patch.
 template <class Body>
 void forRows(const Body& body) {
   for (int row = 0; row < kLeafSize; row += kLeafDim) body(row, patchIndex(row));
 }
 
-// Whether liquid can go from a cell to the one beside it along an axis. faces: open shares.
+// Whether liquid can flow from a cell to its neighbour along an axis. faces: open area fractions.
 bool isWay(const LeafPatch& faces, const LeafPatch& room, int at, int axis, bool up) {
   const int stride = kPatchStride[axis];
   return faces[up ? at + stride : at] > 0.0f && room[up ? at + stride : at - stride] > 0.0f &&
          room[at] > 0.0f;
 }
 
-// What is owed in cells of air falls towards the liquid, to the neighbours that are nearer to it. phi: `far`
-// or more in solids.
+// Moves the deficit of air cells towards the liquid, to the neighbours that are nearer to it. phi: `far` or
+// more in solids.
 void gatherInLiquid(const LeafTable& leaves, const std::vector<float>& phi, float far,
                     std::vector<float>& deficit) {
-  const auto none = [far](float) { return 2.0f * far; };  // nothing goes where there is no leaf
-  // One over the sum of differences to lower neighbours; 0 where nothing is given on.
+  const auto none = [far](float) { return 2.0f * far; };  // nothing moves where there is no leaf
+  // One over the sum of differences to lower neighbours; 0 where nothing is passed on.
   std::vector<float> rate(deficit.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     LeafPatch distance;
@@ -118,14 +116,14 @@ void gatherInLiquid(const LeafTable& leaves, const std::vector<float>& phi, floa
   }
 }
 
-// No cell holds more than its volume, or lacks more: where drops land, or liquid is pressed together, what is
-// beyond that goes to the cells beside that it can reach. A round takes it a cell further.
+// Limits the deficit of a cell to its volume, either sign. Where drops land or liquid is compressed, the
+// excess goes to the neighbours that it can reach, a cell further in each round.
 void spreadPiles(const LeafTable& leaves, const SolidField& solid, const std::vector<float>& room,
                  std::vector<float>& deficit) {
   const auto excess = [](float due, float space) { return due - std::clamp(due, -space, space); };
   const auto& open = solid.open.component;
   for (int round = 0; round < kPileRounds; ++round) {
-    // Of each cell's excess what goes through each side that is open.
+    // The part of each cell's excess that goes through each of its open sides.
     std::vector<float> given(deficit.size(), 0.0f);
     std::vector<char> gives(leaves.size(), 0);
     tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
@@ -172,17 +170,17 @@ void spreadPiles(const LeafTable& leaves, const SolidField& solid, const std::ve
   }
 }
 
-// Of the difference to each neighbour what goes there in a round. Alone most of these steps would not be
-// stable, but the ten together are, and spread as far as 33 that are: Alexiades, Amiez, Gremaud,
-// "Super-time-stepping acceleration of explicit schemes for parabolic problems", 1996. Long and short ones
-// take turns.
+// Share of the difference to each neighbour that a round moves. Most of these steps are unstable alone, but
+// the ten together are stable, and diffuse as far as 33 stable ones: Alexiades, Amiez, Gremaud,
+// "Super-time-stepping acceleration of explicit schemes for parabolic problems", 1996. Long and short steps
+// alternate.
 float spreadShare(int round) {
   constexpr double kStable = 1.0 / 6.0, kDamping = 0.03;
   const double angle = (2 * (3 * round % kSpreadRounds) + 1) * std::numbers::pi / (2 * kSpreadRounds);
   return static_cast<float>(kStable / ((kDamping - 1.0) * std::cos(angle) + 1.0 + kDamping));
 }
 
-// Evens out what the cells of the liquid owe, as a share of their room.
+// Diffuses the deficit of liquid cells, as a share of their room.
 void spreadInLiquid(const LeafTable& leaves, const std::vector<float>& phi, const std::vector<float>& room,
                     std::vector<float>& deficit) {
   std::vector<float> wet(deficit.size());
@@ -214,7 +212,7 @@ void spreadInLiquid(const LeafTable& leaves, const std::vector<float>& phi, cons
   }
 }
 
-// What is beyond a side of the domain is gone.
+// Drops the deficit beyond the sides of the domain.
 void dropOutside(const LeafTable& leaves, const CoordBBox& domain, std::vector<float>& deficit) {
   for (std::size_t n = 0; n < leaves.size(); ++n) {
     if (domain.isInside(CoordBBox::createCube(leaves.origins[n], kLeafDim))) continue;
@@ -225,7 +223,7 @@ void dropOutside(const LeafTable& leaves, const CoordBBox& domain, std::vector<f
   }
 }
 
-// Cells that sources fill up, and those of them whose faces have a source's velocity.
+// Cells that sources refill, and those of them whose faces have a source's velocity.
 struct SourceCells {
   std::vector<FilledCell> filled;
   std::vector<std::size_t> given;
@@ -250,7 +248,8 @@ SourceCells cellsOf(const RunningFlows& flows, const LeafTable& leaves, const So
       openShares(solid, origin, room);
       for (int i = 0; i < kLeafSize; ++i) {
         if (room[i] <= kCarries || held[i] <= 0.0f) continue;
-        // Its own part, or, as full as it was where only the source's velocity leads out of it.
+        // The source's own share; or the share before the step, where only the source's velocity leads out of
+        // the cell.
         const std::size_t cell = n * kLeafSize + i;
         const bool given = flowing && distance[i] < 0.0f;
         found[n].filled.push_back({cell, std::max(held[i] / room[i], given ? was[cell] : 0.0f), !given});
@@ -266,8 +265,8 @@ SourceCells cellsOf(const RunningFlows& flows, const LeafTable& leaves, const So
   return all;
 }
 
-// Nothing is owed within a cell of what is always empty.
-void forgive(const LeafTable& leaves, const FloatGrid& shape, float h, std::vector<float>& deficit) {
+// Clears the deficit within a cell of a drain, which is always empty.
+void drainDeficit(const LeafTable& leaves, const FloatGrid& shape, float h, std::vector<float>& deficit) {
   for (std::size_t n = 0; n < leaves.size(); ++n) {
     float scratch[kLeafSize];
     const float* phi = leafValues(shape.constTree(), leaves.origins[n], scratch);
@@ -296,7 +295,7 @@ FloatGrid::Ptr toGrid(const LeafTable& leaves, const std::vector<float>& deficit
 FloatGrid::Ptr volumeDeficit(const FloatGrid& before, const FloatGrid& after, const FloatGrid* deficit,
                              const Velocity& velocity, const SolidField& solid, const SolidField& solidAfter,
                              const RunningFlows& flows, double dt) {
-  // Between two steps solids come or go; all the liquid may be there.
+  // Between two steps solids come or go, anywhere in the liquid.
   const bool between = dt == 0.0;
   const VolumeFlux flux = volumeFlux(leavesAround(before, after, deficit, between, solidAfter.domain), before,
                                      after, velocity, solid, dt);
@@ -305,7 +304,7 @@ FloatGrid::Ptr volumeDeficit(const FloatGrid& before, const FloatGrid& after, co
   std::vector<float> was = wetShares(before, solid, leaves);
   const std::vector<float> is = wetShares(after, solidAfter, leaves);
   std::vector<float> phi = sampleOn(leaves, after.constTree());
-  // What is in a solid says how the liquid would go on there; where the solid leaves air behind, it was none.
+  // phi in a solid is extrapolated; where the solid leaves air behind, there was no liquid.
   for (std::size_t at = 0; at < was.size(); ++at)
     if (flux.open[at] <= 0.0f && phi[at] >= 0.0f) was[at] = 0.0f;
   std::vector<float> shares = was;
@@ -327,16 +326,16 @@ FloatGrid::Ptr volumeDeficit(const FloatGrid& before, const FloatGrid& after, co
   const std::vector<float> depth =
       moved ? sampleOn(leaves, solidAfter.phi->constTree()) : std::vector<float>();
   for (std::size_t at = 0; at < due.size(); ++at) {
-    // What slivers have room for beyond their volume holds nothing.
+    // The room of slivers beyond their volume is empty.
     const float more = flux.room[at] - flux.open[at];
     due[at] += flux.room[at] * flown.share[at] - more * was[at] - openAfter[at] * is[at];
     if (!flown.swept.empty()) due[at] -= flown.swept[at];
-    // Out of solids that have come over liquid it leads to their surface.
+    // In solids that have covered liquid, leads the deficit to their surface.
     if (openAfter[at] <= 0.0f) phi[at] = kFar * h - (moved ? depth[at] : 0.0f);
   }
   dropOutside(leaves, solid.domain, due);
-  for (const FloatGrid* drain : flows.drains) forgive(leaves, *drain, h, due);
-  // Where a source's velocity holds nothing can grow: what is owed goes around it.
+  for (const FloatGrid* drain : flows.drains) drainDeficit(leaves, *drain, h, due);
+  // No expansion where a source's velocity is given: the deficit moves around these cells.
   for (const std::size_t cell : inSources.given) {
     openAfter[cell] = 0.0f;
     phi[cell] = kFar * h;
@@ -345,73 +344,6 @@ FloatGrid::Ptr volumeDeficit(const FloatGrid& before, const FloatGrid& after, co
   spreadInLiquid(leaves, phi, openAfter, due);
   spreadPiles(leaves, solidAfter, openAfter, due);
   return toGrid(leaves, due, solid.voxelSize);
-}
-
-double totalDeficit(const FloatGrid& deficit) {
-  double cells = 0.0;
-  for (auto leaf = deficit.constTree().cbeginLeaf(); leaf; ++leaf)
-    cells += std::accumulate(leaf->buffer().data(), leaf->buffer().data() + kLeafSize, 0.0);
-  return cells * std::pow(deficit.voxelSize()[0], 3);
-}
-
-ShownLiquid shownAround(const MaskGrid& where, const FloatGrid& phi, const SolidField& solid) {
-  MaskGrid::TreeType blocks;
-  for (auto leaf = where.constTree().cbeginLeaf(); leaf; ++leaf) {
-    if (leaf->isEmpty()) continue;
-    for (int n = 0; n < 27; ++n)
-      blocks.touchLeaf(leaf->origin().offsetBy(kLeafDim * (n / 9 - 1), kLeafDim * (n / 3 % 3 - 1),
-                                               kLeafDim * (n % 3 - 1)));
-  }
-  ShownLiquid shown;
-  for (auto leaf = blocks.cbeginLeaf(); leaf; ++leaf) shown.blocks.push_back(leaf->origin());
-  shown.shares.resize(shown.blocks.size());
-  tbb::parallel_for(std::size_t{0}, shown.blocks.size(),
-                    [&](std::size_t n) { liquidShares(phi, solid, shown.blocks[n], shown.shares[n]); });
-  return shown;
-}
-
-void oweChange(FloatGrid& deficit, const ShownLiquid& before, const FloatGrid& phi, const SolidField& solid) {
-  std::vector<FloatLeaf*> leaves(before.blocks.size());
-  for (std::size_t n = 0; n < leaves.size(); ++n) leaves[n] = deficit.tree().touchLeaf(before.blocks[n]);
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    LeafShares after;
-    liquidShares(phi, solid, before.blocks[n], after);
-    leaves[n]->setValuesOn();
-    for (int i = 0; i < kLeafSize; ++i)
-      leaves[n]->setValueOnly(i, leaves[n]->getValue(i) + before.shares[n][i] - after[i]);
-  });
-  for (std::size_t n = 0; n < leaves.size(); ++n) {
-    const float* values = leaves[n]->buffer().data();
-    if (std::all_of(values, values + kLeafSize, [](float v) { return v == 0.0f; }))
-      delete deficit.tree().stealNode<FloatLeaf>(before.blocks[n], 0.0f, false);
-  }
-}
-
-Vec3d placeOfMost(const FloatGrid& deficit) {
-  double most = -1.0;
-  Coord cell(0);
-  for (auto leaf = deficit.constTree().cbeginLeaf(); leaf; ++leaf) {
-    const float* values = leaf->buffer().data();
-    const double sum = std::abs(std::accumulate(values, values + kLeafSize, 0.0));
-    if (sum <= most) continue;
-    most = sum;
-    const float* largest = std::max_element(values, values + kLeafSize,
-                                            [](float a, float b) { return std::abs(a) < std::abs(b); });
-    cell = leaf->offsetToGlobalCoord(static_cast<openvdb::Index>(largest - values));
-  }
-  return deficit.indexToWorld(cell);
-}
-
-FloatGrid::Ptr growthOf(const FloatGrid& deficit, double time) {
-  require(time > 0.0, "growthOf: the time must be positive");
-  const FloatGrid::Ptr growth = deficit.deepCopy();
-  const float rate = static_cast<float>(1.0 / time);
-  const auto leaves = leavesOf(growth->tree());
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    float* values = leaves[n]->buffer().data();
-    for (int i = 0; i < kLeafSize; ++i) values[i] = rate * std::clamp(values[i], -kMost, kMost);
-  });
-  return growth;
 }
 
 }  // namespace fluidtex::sim

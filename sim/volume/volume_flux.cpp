@@ -12,15 +12,15 @@
 namespace fluidtex::sim {
 namespace {
 
-// Cells with less room than this share do not make sub-steps shorter.
+// Cells with less room than this share do not shorten the sub-steps.
 constexpr float kSliver = 0.25f;
 constexpr float kLeastRoom = 1e-12f;
-// Beyond an open side of the domain there is so much room that what flows in or out changes no share.
+// Room beyond an open side of the domain: so much that what flows in or out changes no share.
 constexpr float kBeyond = 1e6f;
-// Less than this share of a cell is no flow.
+// Fluxes below this share of a cell count as 0.
 constexpr float kLeastFlow = 1e-6f;
 
-// From a face to the next one along the axis, and to those of the next row of cells along x and y.
+// Strides from a face to the next one along the axis, and to those of the next row of cells along x and y.
 constexpr int kNextFace[3] = {64, 8, 1};
 constexpr int kFaceRowX[3] = {64, 72, 72}, kFaceRowY[3] = {8, 8, 9};
 
@@ -38,15 +38,15 @@ float netOutflow(const LeafFaces& flux, int offset) {
   return sum;
 }
 
-// One side of a face: of the room there the share that is liquid, and phi in cells.
+// One side of a face: liquid share of the room, the room, and phi in cells.
 struct Beside {
   float share, room, phi;
 };
 
-// The liquid that goes up through a face with the volume `flux`. By phi it lies at the face, or off it, or
-// beside it. The weighted line interface calculation, Yokoi, "Efficient implementation of THINC scheme",
-// 2007, sec. 2.3; there the part beside the face is of first order and smooths slopes away, here it follows
-// the slope of phi.
+// Liquid volume that passes a face upwards with the total volume `flux`. The slope of phi decides whether the
+// liquid lies at the face, away from it, or beside it. Weighted line interface calculation: Yokoi, "Efficient
+// implementation of THINC scheme", 2007, sec. 2.3. There the part beside the face is first-order and smooths
+// slopes away; here it follows the slope of phi.
 inline float liquidThrough(float flux, const Beside& below, const Beside& above) {
   const bool up = flux > 0.0f;
   const float volume = up ? flux : -flux, share = up ? below.share : above.share,
@@ -55,7 +55,7 @@ inline float liquidThrough(float flux, const Beside& below, const Beside& above)
   const float across = std::min(rise * rise, 1.0f), even = volume * share;
   const float atFace = std::min(volume, share * room),
               offFace = std::max(0.0f, volume - (room - share * room));
-  // What has no room has no open face, and nothing flows out of it.
+  // A cell without room has no open face, and nothing flows out of it.
   const float swept = volume / std::max(room, kLeastRoom);
   const float beside = std::clamp(even - 0.5f * volume * (1.0f - swept) * rise, offFace, atFace);
   const float mixed = beside + across * ((rise < 0.0f ? atFace : offFace) - beside);
@@ -63,8 +63,8 @@ inline float liquidThrough(float flux, const Beside& below, const Beside& above)
   return up ? liquid : -liquid;
 }
 
-// Divides a whole step's fluxes into sub-steps. leaving: what flows out of each cell; most: through a face of
-// each leaf's cells, over their room.
+// Divides a whole step's fluxes into sub-steps. leaving: outflow of each cell; most: largest flux through a
+// face of each leaf's cells, over their room.
 void divide(VolumeFlux& flux, const std::vector<float>& leaving, const std::vector<float>& most) {
   const float largest = most.empty() ? 0.0f : *std::max_element(most.begin(), most.end());
   flux.steps = std::max(1, static_cast<int>(std::ceil(largest)));
@@ -74,7 +74,7 @@ void divide(VolumeFlux& flux, const std::vector<float>& leaving, const std::vect
       for (float& volume : axis) volume *= part;
     }
     for (std::size_t cell = n * kLeafSize; cell < (n + 1) * kLeafSize; ++cell) {
-      // Out of slivers more may flow than they hold: they get the room for it.
+      // More may flow out of slivers than they hold: their room is enlarged.
       float& room = flux.room[cell];
       if (room <= kSliver) room = std::max(room, part * leaving[cell]);
       if (!flux.swept.empty()) flux.swept[cell] *= part;
@@ -82,10 +82,9 @@ void divide(VolumeFlux& flux, const std::vector<float>& leaving, const std::vect
   });
 }
 
-// Shares after the flow along one axis. full: which cells count as full in this sub-step; along one axis
-// alone these swell or shrink, which is taken out again with the `last` axis, so that all is exact in sum:
-// Weymouth and Yue, "Conservative volume-of-fluid method for free-surface simulations on Cartesian grids",
-// 2010.
+// Shares after the flow along one axis. full: cells that count as full in this sub-step. The flow along one
+// axis alone expands or compresses them; the `last` axis corrects that, so that the sum is exact: Weymouth
+// and Yue, "Conservative volume-of-fluid method for free-surface simulations on Cartesian grids", 2010.
 template <int kAxis>
 std::vector<float> carriedAlong(const VolumeFlux& all, bool last, const std::vector<char>& full,
                                 const std::vector<float>& shares, std::vector<float>& pressed) {
@@ -123,7 +122,7 @@ std::vector<float> carriedAlong(const VolumeFlux& all, bool last, const std::vec
         gain[k] = liquid[at] - liquid[at + kStride];
         gain[k] = isFull[k] != 0 ? gain[k] + expands - net[k] : gain[k];
       }
-      // What solids sweep out, or make room for, is neither lost nor gained.
+      // Volume that solids sweep out or make room for is neither lost nor gained.
       for (int k = 0; swept != nullptr && k < kLeafDim; ++k) {
         const float more = swept[row + k] * share[patchIndex(row) + k];
         gain[k] += more;
@@ -192,7 +191,7 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
       }
       result.phi[cell] = 0.5f * (from[i] + to[i]) / h;
       if (result.open[cell] <= 0.0f) {
-        // A corner of it may be open all the same: what comes through there has to be somewhere.
+        // A corner of the cell may be open all the same; what passes there needs room.
         const float through = std::max(out, in);
         if (outside) {
           result.room[cell] = through > kLeastFlow ? kBeyond : 0.0f;
@@ -219,7 +218,7 @@ std::vector<float> wetShares(const FloatGrid& phi, const SolidField& solid, cons
     float scratch[kLeafSize];
     const float* p = leafValues(phi.constTree(), leaves.origins[n], scratch);
     for (int i = 0; i < kLeafSize; ++i) {
-      const float inSolid = p[i] < 0.0f ? 1.0f : 0.0f;  // what lies beyond the outline of the open part
+      const float inSolid = p[i] < 0.0f ? 1.0f : 0.0f;  // of cells without an open part
       shares[n * kLeafSize + i] = open[i] > 0.0f ? liquid[i] / open[i] : inSolid;
     }
   });
@@ -247,7 +246,7 @@ CarriedShares carried(const VolumeFlux& flux, std::vector<float> shares,
   fill();
   for (int step = 0; step < flux.steps; ++step) {
     std::transform(shares.begin(), shares.end(), full.begin(), [](float share) { return share > 0.5f; });
-    // The axes take turns at being first.
+    // The axes alternate in being first.
     for (int n = 0; n < 3; ++n) {
       const int axis = (step + n) % 3;
       const auto along = axis == 0 ? carriedAlong<0> : axis == 1 ? carriedAlong<1> : carriedAlong<2>;

@@ -8,8 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <filesystem>
+#include <numbers>
 
 namespace fluidtex::scenes {
 

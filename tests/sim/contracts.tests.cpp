@@ -9,6 +9,7 @@
 #include "sim/surface/level_set.h"
 #include "sim/velocity/extrapolate.h"
 #include "sim/viscosity/viscosity.h"
+#include "sim/volume/deficit_grid.h"
 #include "sim/volume/volume_deficit.h"
 #include "tests/sim/step/solver_scenes.h"
 #include "tests/sim/velocity/velocity_field.h"
@@ -114,7 +115,7 @@ TEST_CASE("sim: time steps and properties that make no sense are refused", "[sim
     CHECK_THROWS_AS(project(*u, *v, *w, *block.phi, block.solid, 0.1, wrong), std::invalid_argument);
     CHECK_THROWS_AS(applyViscosity(block.velocity, *block.phi, block.solid, 0.1, wrong, {.constant = 1.0}),
                     std::invalid_argument);
-    CHECK_THROWS_AS(growthOf(*block.phi, wrong), std::invalid_argument);
+    CHECK_THROWS_AS(targetDivergence(*block.phi, wrong), std::invalid_argument);
     Liquid liquid{block.phi, block.velocity, {}, 0, 0.0, {}};
     CHECK_THROWS_AS(step(liquid, block.solid, block.solid, wrong, 0.1, tank(16, {})), std::invalid_argument);
   }

@@ -89,7 +89,8 @@ TEST_CASE("fluidtex compare: every variant's run, sheet, video and table", "[too
   REQUIRE(run.exitCode == 0);
   for (const char* name : {"compare.jpg", "compare.mp4", "compare.md", "compare.json", "frames/0002.png"})
     CHECK(fs::file_size(out / name) > 100);
-  // After one frame nothing is worth renewing yet, so what is carried is all there is in three of the variants.
+  // After one frame nothing is worth renewing yet, so what is carried is all there is in three of the
+  // variants.
   std::vector<std::string> pictures;
   for (const std::string variant : {"untextured", "advected", "alone", "scalars", "full"}) {
     std::string picture = readBytes(out / variant / "frames" / "0002.png");

@@ -1,14 +1,14 @@
-// What tells builds of this room apart that may compute other things.
+// Identifies the build of this room, for caches.
 #pragma once
 
 #include <string_view>
 
 namespace fluidtex::texture {
 
-// The hash of all sources of this room and of what compiles them, taken when it is built
-// (cmake/build_id.cmake). What is kept from run to run is known by it too: a list of those sources that a
-// table depends on, or a number to be raised by hand, would be forgotten one day, and a wrong table is found
-// by nobody. The price is that tables are built once more after any change here.
+// Hash of all sources of this room and of what compiles them, taken at build time (cmake/build_id.cmake). It
+// is part of the key of cached tables. A list of the sources that a table depends on, or a version number,
+// would be forgotten one day, and nobody would notice a wrong table. The price: tables are rebuilt once after
+// any change here.
 std::string_view buildId();
 
 }  // namespace fluidtex::texture

@@ -1,6 +1,5 @@
-// The channels and their settings are those that a study of planar prototypes found best: features as a
-// signed distance (after S. Lefebvre, H. Hoppe, "Appearance-space texture synthesis", 2006), and gradient
-// energy.
+// Signed distance from features: after S. Lefebvre, H. Hoppe, "Appearance-space texture synthesis", 2006.
+// These channels and their constants did best in a comparison on planar textures.
 
 #include "texture/exemplar/channels.h"
 
@@ -16,16 +15,16 @@ namespace fluidtex::texture {
 namespace {
 
 constexpr double kNarrowBlur = 1.0, kWideBlur = 10.0;  // px: features are thinner than the wide one
-constexpr double kFeatureThreshold = 0.8;         // standard deviations of the difference of the two blurs
-constexpr int kSmallestFeature = 40;              // px
-constexpr float kInside = 4.0f, kOutside = 8.0f;  // px: where the signed distance is cut off
-constexpr int kReach = 10;                        // px: distances beyond need not be exact
+constexpr double kFeatureThreshold = 0.8;              // standard deviations of the difference of the blurs
+constexpr int kSmallestFeature = 40;                   // px
+constexpr float kInside = 4.0f, kOutside = 8.0f;       // px: clamping of the signed distance
+constexpr int kReach = 10;                             // px: distances are exact up to here
 constexpr double kGradientCap = 1.2;
 constexpr double kQuantile = 0.99;
-// Contrast below this is quantisation, not texture: half a step of an 8-bit image.
+// Contrast below half a step of an 8-bit image is quantisation, not texture.
 constexpr double kNoise = 0.5 / 255.0;
 
-// Index i of n, continued: wrapped, or the nearest that exists.
+// Index i of n, wrapped or clamped.
 int continued(int i, int n, bool toroidal) {
   if (!toroidal) return std::clamp(i, 0, n - 1);
   i %= n;
@@ -42,8 +41,7 @@ std::vector<float> gaussian(double sigma) {
   return kernel;
 }
 
-// Keeps the parts of the mask that have at least `smallest` pixels; pixels that touch at a corner belong
-// together.
+// Removes 8-connected parts of the mask with fewer than `smallest` pixels.
 void dropSmallParts(std::vector<std::uint8_t>& mask, int width, int height, bool toroidal, int smallest) {
   std::vector<std::uint8_t> seen(mask.size(), 0);
   std::vector<std::size_t> part;
@@ -67,8 +65,8 @@ void dropSmallParts(std::vector<std::uint8_t>& mask, int width, int height, bool
   }
 }
 
-// Distance of each pixel's centre to the nearest pixel's centre where mask == value, exact up to kReach:
-// first along rows, then the smallest sum of squares along columns.
+// Distance from each pixel's centre to the nearest centre where mask == value, exact up to kReach: along rows
+// first, then the least sum of squares along columns.
 std::vector<float> distanceTo(const std::vector<std::uint8_t>& mask, std::uint8_t value, int width,
                               int height, bool toroidal) {
   std::vector<int> along(mask.size());  // squared
@@ -80,7 +78,7 @@ std::vector<float> distanceTo(const std::vector<std::uint8_t>& mask, std::uint8_
     const auto step = [&](int x, int since) {
       return row[continued(x, width, toroidal)] == value ? 0 : std::min(since + 1, kReach);
     };
-    int since = kReach;  // the last such pixel, from the left, then from the right
+    int since = kReach;  // distance from the last such pixel, left to right, then right to left
     for (int x = -kReach; x < 0; ++x) since = step(x, since);
     for (int x = 0; x < width; ++x) nearest[x] = since = step(x, since);
     since = kReach;
@@ -169,7 +167,7 @@ Image featureDistance(const Image& luminance, bool toroidal) {
   const std::vector<float> toOutside = distanceTo(mask, 0, luminance.width, luminance.height, toroidal);
   Image result = likeSize(luminance, 1);
   for (std::size_t i = 0; i < mask.size(); ++i) {
-    // The outline runs half way between a pixel inside and one outside.
+    // The outline runs half way between an inner and an outer pixel.
     const float distance = mask[i] ? 0.5f - toOutside[i] : toInside[i] - 0.5f;
     result.data[i] = (std::clamp(distance, -kInside, kOutside) + kInside) / (kInside + kOutside);
   }
@@ -180,7 +178,7 @@ Image gradientEnergy(const Image& luminance, bool toroidal) {
   Image squared = likeSize(luminance, 1);
   tbb::parallel_for(0, luminance.height, [&](int y) {
     for (int x = 0; x < luminance.width; ++x) {
-      // Central differences; one-sided at an edge that is not continued.
+      // Central differences; one-sided at a clamped edge.
       const int left = toroidal ? x - 1 : std::max(x - 1, 0),
                 right = toroidal ? x + 1 : std::min(x + 1, luminance.width - 1);
       const int above = toroidal ? y - 1 : std::max(y - 1, 0),

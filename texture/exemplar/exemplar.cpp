@@ -17,7 +17,7 @@
 namespace fluidtex::texture {
 namespace {
 
-// The encoded premultiplied colours of one level, from linear premultiplied RGBA.
+// Encoded premultiplied colours of a level, from linear premultiplied RGBA.
 Image encodedColors(const Image& premultiplied, int channels) {
   Image result{premultiplied.width, premultiplied.height, channels, {}};
   result.data.resize(std::size_t(result.width) * std::size_t(result.height) * std::size_t(channels));
@@ -32,7 +32,7 @@ Image encodedColors(const Image& premultiplied, int channels) {
   return result;
 }
 
-// `image` with the channels of another one, scaled.
+// `image` with the channels of another one appended, scaled.
 Image withChannels(const Image& image, const Image& more, float scale) {
   Image result{image.width, image.height, image.channels + more.channels, {}};
   result.data.resize(image.data.size() + more.data.size());
@@ -81,20 +81,20 @@ Image premultipliedColors(Image color) {
   return color;
 }
 
-// Lanes of a texel that colours, guidance and the two found channels leave.
+// Channels left for maps by colours, guidance and the two feature channels.
 int lanesForMaps(const Exemplar& exemplar, const SynthesisOptions& synthesis) {
   return kMaxChannels - exemplar.colorChannels - exemplar.guided - (synthesis.featureWeight > 0.0) -
          (synthesis.gradientWeight > 0.0);
 }
 
-// Fills match and what it says of maps, from exemplar.color and exemplar.maps.
+// Fills match and its description of the maps from exemplar.color and exemplar.maps.
 void makeMatch(Exemplar& exemplar, Image guidance, const SynthesisOptions& synthesis, int levels) {
   const bool toroidal = exemplar.toroidal;
   Image premultiplied = premultipliedColors(exemplar.color);
   Image encoded = encodedColors(premultiplied, exemplar.colorChannels);
   const Image luminance = featureLuminance(encoded);
 
-  // The channels are made at full size and reduced with the colours, each in its own space.
+  // Computed at full size and reduced with the colours, each in its own space.
   std::vector<std::pair<Image, float>> channels;
   if (!guidance.data.empty())
     channels.emplace_back(std::move(guidance), float(std::sqrt(synthesis.guidanceWeight)));
@@ -122,7 +122,7 @@ void makeMatch(Exemplar& exemplar, Image guidance, const SynthesisOptions& synth
   }
 }
 
-// All that makeMatch() depends on, as a file's name.
+// File name that hashes all that makeMatch() depends on.
 std::string nameOfMatch(const Exemplar& exemplar, const Image& guidance, const SynthesisOptions& synthesis,
                         int levels) {
   const auto bits = [](double value) { return std::bit_cast<std::int64_t>(value); };
@@ -144,7 +144,7 @@ std::string nameOfMatch(const Exemplar& exemplar, const Image& guidance, const S
   return keptName(".match", settings, data);
 }
 
-// makeMatch(), or what an earlier run has kept of it.
+// makeMatch(), or its cached result.
 void keptOrMadeMatch(Exemplar& exemplar, Image guidance, const SynthesisOptions& synthesis, int levels,
                      const CacheFolder& cache) {
   if (cache.path.empty()) return makeMatch(exemplar, std::move(guidance), synthesis, levels);
@@ -179,7 +179,7 @@ Exemplar prepare(Image color, Image guidance, std::map<std::string, ExemplarMap>
   exemplar.guidanceWeight = float(synthesis.guidanceWeight);
   exemplar.color = std::move(color);
   exemplar.maps = std::move(maps);
-  // Colours that are carried have no maps beside them.
+  // Transported colours have no maps beside them.
   if (synthesis.method != Method::coordinates)
     for (auto& [own, map] : exemplar.maps) map.weight = 0.0f;
   keptOrMadeMatch(exemplar, std::move(guidance), synthesis, std::max(levels, 1), cache);

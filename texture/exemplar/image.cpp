@@ -7,7 +7,7 @@
 namespace fluidtex::texture {
 namespace {
 
-// Comparisons are written so that a coordinate that is not a number reads some texel instead of outside.
+// Comparisons are written so that NaN reads some texel instead of out of bounds.
 float inside(float t, int size, bool toroidal) {
   if (!toroidal) return t > 0.0f ? std::min(t, float(size - 1)) : 0.0f;
   if (t >= 0.0f && t < float(size)) return t;
@@ -20,7 +20,7 @@ int neighbor(int i, int size, bool toroidal) {
   return toroidal ? (i % size + size) % size : std::clamp(i, 0, size - 1);
 }
 
-// Of the values at -1, 0, 1, 2.
+// Weights of the values at -1, 0, 1, 2.
 std::array<float, 4> cubicWeights(float t) {
   const float t2 = t * t, t3 = t2 * t;
   return {0.5f * (-t3 + 2.0f * t2 - t), 0.5f * (3.0f * t3 - 5.0f * t2 + 2.0f),
@@ -43,7 +43,7 @@ void sampleBilinear(const Image& image, bool toroidal, const Vec2f& texel, float
 
 namespace {
 
-// read(texel, k) is what is interpolated in channel k.
+// read(texel, k): value of channel k to be interpolated.
 template <typename Read>
 void cubic(const Image& image, bool toroidal, const Vec2f& texel, const Read& read, float* out) {
   const float x = inside(texel[0], image.width, toroidal), y = inside(texel[1], image.height, toroidal);

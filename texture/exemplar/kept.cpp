@@ -18,10 +18,10 @@ namespace fluidtex::texture {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint64_t kSeed = 2;  // of hashes of contents
+constexpr std::uint64_t kSeed = 2;  // of content hashes
 constexpr std::array<const char*, 2> kEndings{".table", ".match"};
 
-// Removes what has not been used for longest until the rest fits.
+// Removes the least recently used files until the rest fits.
 void trim(const fs::path& folder) {
   struct File {
     fs::file_time_type used;
@@ -34,7 +34,7 @@ void trim(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (std::find(kEndings.begin(), kEndings.end(), entry.path().extension()) == kEndings.end()) continue;
     const File file{entry.last_write_time(error), entry.file_size(error), entry.path()};
-    if (error) continue;  // another run has just removed it
+    if (error) continue;  // removed by another run meanwhile
     sum += file.bytes;
     all.push_back(file);
   }
@@ -73,7 +73,7 @@ std::optional<KeptBytes> readKept(const CacheFolder& folder, const std::string& 
   if (error) return std::nullopt;
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
-  // Its hash says that this program has written it, whole: then its parts need no further tests.
+  // The hash shows that this program wrote it completely: its parts need no further checks.
   KeptBytes bytes{std::make_unique_for_overwrite<char[]>(size), size};
   XXH64_hash_t hash;
   const bool whole =
@@ -84,7 +84,7 @@ std::optional<KeptBytes> readKept(const CacheFolder& folder, const std::string& 
     if (folder.warn) folder.warn(file.string() + " is damaged; it is made anew.");
     return std::nullopt;
   }
-  fs::last_write_time(file, fs::file_time_type::clock::now(), error);  // used just now
+  fs::last_write_time(file, fs::file_time_type::clock::now(), error);  // marks it as used
   return bytes;
 }
 

@@ -1,5 +1,5 @@
-// What is kept from run to run: files in a folder, each named by a hash of all that it depends on, and ending
-// in a hash of what is in it.
+// The cache between runs: files in a folder, each named by a hash of all that it depends on and ending in a
+// hash of its contents.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,7 @@
 
 namespace fluidtex::texture {
 
-// An empty path: nothing is kept. warn, where it is not empty, is told of files that are damaged, from any
-// thread.
+// Empty path: no cache. warn, unless empty, is called for damaged files, from any thread.
 struct CacheFolder {
   CacheFolder(std::filesystem::path folder = {}, std::function<void(const std::string&)> teller = {})
       : path(std::move(folder)), warn(std::move(teller)) {}
@@ -23,7 +22,7 @@ struct CacheFolder {
   std::function<void(const std::string&)> warn;
 };
 
-// A file's name: the hash of this build, settings and data (128 bits, hexadecimal), then `kind`, its ending.
+// File name: hash of this build, the settings and the data (128 bits, hexadecimal), then `kind` as extension.
 std::string keptName(const std::string& kind, std::span<const std::int64_t> settings,
                      std::span<const std::span<const float>> data);
 
@@ -32,17 +31,17 @@ struct KeptBytes {
   std::size_t size = 0;
 };
 
-// What an earlier run has left under this name; nothing where there is no such file, or one that is damaged
-// or cut short: then `warn` is told, and it is to be written anew.
+// Contents of a file of an earlier run. Nothing if there is none; nothing, and a call of `warn`, if it is
+// damaged or truncated.
 std::optional<KeptBytes> readKept(const CacheFolder& folder, const std::string& name);
 
-// Writes a file under a temporary name and renames it. Above kCacheBytes those that have not been used for
-// longest are removed. A folder that cannot be written is no fault: nothing is kept then.
+// Writes a file under a temporary name and renames it. Beyond kCacheBytes in total, the least recently used
+// files are removed. A folder that cannot be written is not an error: nothing is cached.
 void writeKept(const CacheFolder& folder, const std::string& name, std::vector<char> bytes);
 
 inline constexpr std::uintmax_t kCacheBytes = std::uintmax_t(2) << 30;
 
-// Values as bytes, one after the other; a vector after the number of its members.
+// Serialises values in order; a vector after its size.
 struct ByteWriter {
   std::vector<char>& bytes;
   void put(const void* data, std::size_t size) const {

@@ -12,7 +12,7 @@ Image vertexMap(Image map, int exemplarWidth, bool toroidal) {
 
 namespace {
 
-// One channel where all three of a picture are alike, as grey pictures are often stored.
+// One channel if all three are equal, as grey pictures are often stored.
 Image greyIfAlike(Image image) {
   if (image.channels != 3) return image;
   const std::size_t pixels = image.data.size() / 3;

@@ -2,10 +2,11 @@
 // synthesis", ACM Trans. Graph. 25(3), 2006, sec. 3.
 #include "texture/exemplar/matched_maps.h"
 
+#include "texture/exemplar/principal_axes.h"
 #include "texture/exemplar/texel_place.h"
 
 #include <tbb/parallel_for.h>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +16,11 @@
 namespace fluidtex::texture {
 namespace {
 
-// Below this the colours are plain, and no map can be measured by their differences.
+// Below this variance the colours are plain, and no measure for maps.
 constexpr double kLeastColorVariance = 3 * 0.02 * 0.02;
-// Of its mean square, a map's variance below this is rounding.
+// A map's variance below this share of its mean square is rounding.
 constexpr double kRounding = 1e-10;
-// A component with less of all differences is not worth a channel.
+// Least share of the variance that is worth a channel.
 constexpr double kLeastShare = 1e-4;
 
 std::size_t pixelsOf(const Image& image) {
@@ -31,7 +32,7 @@ struct Moments {
   Eigen::MatrixXd covariance;
 };
 
-// Of the channels; each pixel counts as often as weight(pixel) says.
+// Means of the channels, pixels weighted by weight(pixel).
 template <typename Weight>
 Moments momentsOf(const Image& image, const Weight& weight) {
   const auto channels = std::size_t(image.channels);
@@ -59,7 +60,7 @@ Moments momentsOf(const Image& image, const Weight& weight) {
   return result;
 }
 
-// What a vertex that shows a texel's centre is given of the map.
+// Value of the map at a vertex that shows a texel's centre.
 Image readAtTexels(const Image& map, const Image& color, bool toroidal) {
   if (map.width == color.width && map.height == color.height) return map;
   const TexelToImage toMap(color.width, color.height, map);
@@ -72,7 +73,7 @@ Image readAtTexels(const Image& map, const Image& color, bool toroidal) {
   return result;
 }
 
-// The channels of all maps of weight, centred and scaled.
+// Channels of all maps with a weight, centred and scaled.
 Image weighted(const std::map<std::string, ExemplarMap>& maps, const Image& color, double colorVariance,
                bool toroidal) {
   const auto alpha = [&](std::size_t i) { return double(color.data[4 * i + 3]); };
@@ -87,8 +88,7 @@ Image weighted(const std::map<std::string, ExemplarMap>& maps, const Image& colo
     const Moments moments = momentsOf(part, alpha);
     const double variance = moments.covariance.trace();
     if (!(variance > kRounding * (moments.mean.squaredNorm() + variance))) continue;
-    // The variance of all texels, of which those that are not seen have none, is to be weight times the
-    // colours'.
+    // The variance over all texels, transparent ones counting 0, becomes weight times the colours'.
     double seen = 0.0;
     for (std::size_t i = 0; i < pixelsOf(color); ++i) seen += alpha(i) * alpha(i);
     const double scale = std::sqrt(map.weight * colorVariance / (variance * seen / double(pixelsOf(color))));
@@ -117,16 +117,16 @@ MatchedMaps matchedMaps(const std::map<std::string, ExemplarMap>& maps, const Im
   const Image all = weighted(maps, color, colors, toroidal);
   if (all.channels == 0) return {};
 
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(momentsOf(all, once).covariance);
-  const Eigen::VectorXd held = solver.eigenvalues().cwiseMax(0.0).reverse();  // falling
+  const PrincipalAxes principal = principalAxes(momentsOf(all, once).covariance);
+  const Eigen::VectorXd& held = principal.variance;
   const double sum = held.sum();
   int count = 0;
   while (count < std::min(most, all.channels) && held[count] > kLeastShare * sum) ++count;
-  Eigen::MatrixXd axes = solver.eigenvectors().rightCols(count).rowwise().reverse();
+  Eigen::MatrixXd axes = principal.axis.leftCols(count);
   for (Eigen::Index k = 0; k < axes.cols(); ++k) {
     Eigen::Index largest = 0;
     axes.col(k).cwiseAbs().maxCoeff(&largest);
-    if (axes(largest, k) < 0.0) axes.col(k) *= -1.0;  // a solver is free to choose the sign
+    if (axes(largest, k) < 0.0) axes.col(k) *= -1.0;  // the solver's choice of sign is arbitrary
   }
   MatchedMaps result{{color.width, color.height, count, {}}, held.head(count).sum() / sum};
   result.image.data.resize(pixelsOf(color) * std::size_t(count));

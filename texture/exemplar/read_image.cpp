@@ -19,7 +19,7 @@ using foreign::Curve;
 using foreign::Picture;
 using foreign::Sample;
 
-// Where the pixel at (x, y) of the upright picture is stored, for the eight orientations of TIFF and EXIF.
+// Where pixel (x, y) of the upright picture is stored, for the eight TIFF/EXIF orientations.
 std::size_t storedAt(int orientation, int x, int y, int width, int height) {
   const int right = width - 1 - x, bottom = height - 1 - y;
   int column = x, row = y, columns = width;
@@ -51,7 +51,7 @@ std::size_t storedAt(int orientation, int x, int y, int width, int height) {
   return std::size_t(row) * std::size_t(columns) + std::size_t(column);
 }
 
-// The file's own words of what is wrong become a sentence.
+// Turns the reader's error into one sentence.
 Picture pictureIn(const std::filesystem::path& file, Picture (*read)(const std::filesystem::path&)) {
   const std::string name = file.string();
   std::error_code error;
@@ -66,7 +66,7 @@ Picture pictureIn(const std::filesystem::path& file, Picture (*read)(const std::
   }
 }
 
-// The upright picture, whole numbers as 0..1.
+// The upright picture, integers as 0..1.
 struct Upright {
   const Picture& picture;
 
@@ -76,7 +76,7 @@ struct Upright {
   bool alpha() const { return picture.channels == 2 || picture.channels == 4; }
   int colors() const { return picture.channels < 3 ? 1 : 3; }
 
-  // `channels` values.
+  // Writes `channels` values.
   void at(int x, int y, float* out) const {
     const std::size_t first =
         storedAt(picture.orientation, x, y, width(), height()) * std::size_t(picture.channels);
@@ -92,7 +92,7 @@ float toLinear(const Picture& picture, float value) {
   return value;
 }
 
-// The linear value of each whole number that can be stored, which takes a power each; of floats none.
+// Linear value of each storable integer, since decoding needs a power function; empty for floats.
 std::vector<float> tableOf(const Picture& picture) {
   if (picture.sample == Sample::real) return {};
   std::vector<float> table(picture.sample == Sample::byte ? 256 : 65536);
@@ -121,7 +121,7 @@ Image readImage(const std::filesystem::path& file) {
       upright.at(x, y, in);
       float* out = image.at(x, y);
       const float alpha = upright.alpha() ? in[picture.channels - 1] : 1.0f;
-      out[3] = std::clamp(alpha, 0.0f, 1.0f);  // passes on what is not a number, to be refused below
+      out[3] = std::clamp(alpha, 0.0f, 1.0f);  // NaN passes, to be rejected below
       const bool asStored = picture.straight != 0 || alpha <= 0.0f || alpha == 1.0f;
       for (int c = 0; c < 3; ++c) {
         const float value = in[upright.colors() == 3 ? c : 0];

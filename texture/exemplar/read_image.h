@@ -1,4 +1,4 @@
-// Reading an image file of any kind, into linear RGBA or as numbers.
+// Reads image files, as linear RGBA or as numbers.
 #pragma once
 
 #include "foreign/picture.h"
@@ -10,17 +10,16 @@ namespace fluidtex::texture {
 
 using foreign::kLargestSide;
 
-// Linear RGBA of sRGB's primaries with straight alpha, rows from the top. Grey becomes R = G = B, CMYK is
-// turned into RGB, a file without alpha gets alpha 1, and the file's own orientation is applied. Integer
-// values are sRGB-encoded and float values linear, unless the file, or a colour profile in it, says
-// otherwise; of a file with layers the one that is shown is taken (foreign/picture.h). Throws ExemplarError:
-// missing, not an image, a side above kLargestSide, values that are not finite, and what the library that
-// reads it says is wrong.
+// Reads an image as linear RGBA with sRGB primaries and straight alpha, rows from the top. Grey becomes R = G
+// = B, CMYK is converted, alpha is 1 where a file has none, and the file's orientation is applied. Integers
+// are taken as sRGB-encoded, floats as linear, unless the file or its colour profile says otherwise. Of a
+// layered file the visible layer is read (foreign/picture.h).
+// Throws ExemplarError: missing, not an image, a side above kLargestSide, values that are not finite, errors
+// of the reading library.
 Image readImage(const std::filesystem::path& file);
 
-// The numbers of a map (height, roughness, a guidance map) as they are stored, whole numbers as 0..1: one
-// channel of a grey image, three of a coloured one, or with `channels` 1 the first alone. Throws as
-// readImage().
+// Reads a map (height, roughness, guidance) as stored, integers as 0..1: one channel of a grey image, three
+// of a coloured one; only the first with `channels` 1. Throws as readImage().
 Image readMap(const std::filesystem::path& file, int channels = 0);
 
 }  // namespace fluidtex::texture

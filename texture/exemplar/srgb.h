@@ -1,5 +1,5 @@
-// The sRGB transfer curve, 0..1 to 0..1 (IEC 61966-2-1); values outside are continued by the curve, below
-// zero as an odd function.
+// sRGB transfer curve, 0..1 to 0..1 (IEC 61966-2-1), continued above 1 by its formula and below 0 as an odd
+// function.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ inline float decodeSrgb(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
-// Of linear R, G and B; of encoded ones, what the eye takes for it (luma).
+// Luminance of linear RGB; luma of encoded RGB.
 inline float luminance(const float* rgb) {
   return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
 }

@@ -11,14 +11,14 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr float kMostHalf = 65504.0f;  // the largest number of half precision
+constexpr float kMostHalf = 65504.0f;  // largest half
 
 float wrapped(float x, float size) {
   x -= size * std::floor(x / size);
   return x < size ? x : 0.0f;  // a tiny negative number rounds up to size
 }
 
-// Clamped so that a coordinate that is not a number becomes the lower bound.
+// Written so that NaN becomes the lower bound.
 float clamped(float x, float low, float high) {
   return x > low ? std::min(x, std::max(low, high)) : low;
 }

@@ -1,6 +1,6 @@
-// One level of the exemplar, laid out for the optimisation: every texel is eight numbers, of which unused
-// ones are zero, and the image is continued on all sides, so that a window is read without a test for the
-// edge. Windows are read all over it, and a wide one does not fit into a cache: texels are of half precision.
+// A pyramid level of the exemplar in the layout of the optimisation. A texel has eight channels, unused ones
+// zero. The image is padded on all sides, so that windows are read without bounds checks. Half precision,
+// since wide windows read all over the image and would not fit into a cache.
 #pragma once
 
 #include "texture/exemplar/exemplar.h"
@@ -10,7 +10,7 @@
 
 namespace fluidtex::texture {
 
-// Channels of all vertices; the first `channels` lanes are used.
+// Channels at the vertices (#V); the first `channels` lanes are used.
 using Values = std::vector<Float8>;
 
 inline constexpr int kMaxChannels = 8;
@@ -19,15 +19,15 @@ struct TexelImage {
   int width = 0, height = 0, channels = 0;
   int margin = 0, stride = 0;  // stride = width + 2 margin, texels
   bool toroidal = false;
-  Ways ways;                    // in which it may be laid
-  int guide = -1;               // the channel of the guidance map, where there is one
-  float guidanceWeight = 1.0f;  // by whose root it is multiplied
-  int firstMap = 0, maps = 0;   // the channels of matched maps
-  std::vector<Half8> data;      // rows from the top, margins included
+  Ways ways;                    // allowed symmetry variants
+  int guide = -1;               // channel of the guidance map; -1: none
+  float guidanceWeight = 1.0f;  // the channel is multiplied by its square root
+  int firstMap = 0, maps = 0;   // first channel and number of matched maps
+  std::vector<Half8> data;      // rows from the top, with margins
 
   Float8 at(std::size_t texel) const { return widened(data[texel]); }
 
-  // Bilinear. The position must not lie farther outside than margin - 1 texels.
+  // Bilinear. Precondition: at most margin - 1 texels outside the image.
   Float8 sampleInside(float x, float y) const {
     x += float(margin);
     y += float(margin);
@@ -42,13 +42,13 @@ struct TexelImage {
     return above + fy * (between(row + stride) - above);
   }
 
-  // Bilinear anywhere: clamped to the image, or wrapped around it.
+  // Bilinear anywhere: clamped, or wrapped where toroidal.
   Float8 sample(const Vec2f& texel) const {
     const Vec2f t = brought(texel);
     return sampleInside(t[0], t[1]);
   }
 
-  // The nearest position inside the image: clamped to texel centres, or wrapped to 0 <= x < width.
+  // The nearest position inside: clamped to texel centres, or wrapped to 0 <= x < width.
   Vec2f brought(const Vec2f& texel) const {
     const bool inside =
         texel[0] >= 0.0f && texel[1] >= 0.0f && texel[0] <= float(width - 1) && texel[1] <= float(height - 1);
@@ -56,11 +56,10 @@ struct TexelImage {
   }
   Vec2f broughtFromOutside(const Vec2f& texel) const;
 
-  // The nearest centre of a window that reaches `reach` texels to every side.
+  // The nearest valid centre of a window that reaches `reach` texels to every side.
   Vec2f centerFor(const Vec2f& texel, float reach) const;
 
-  // Index into `data` (and arrays of its shape) of the texel nearest to a position that sampleInside() may
-  // read.
+  // Index into `data` (and arrays of its shape) of the texel nearest to a position valid for sampleInside().
   std::size_t nearest(float x, float y) const {
     return std::size_t(int(y + float(margin) + 0.5f)) * stride + std::size_t(int(x + float(margin) + 0.5f));
   }
@@ -69,8 +68,7 @@ struct TexelImage {
 // Throws std::invalid_argument if the image has more than kMaxChannels channels.
 TexelImage makeTexelImage(const Image& image, bool toroidal, int margin);
 
-// The root of the expected squared difference of two random texels: the scale on which differences are
-// judged.
+// Root mean square difference of two random texels: the unit of differences.
 float randomDifference(const TexelImage& image, const Float8& channelWeight);
 
 }  // namespace fluidtex::texture

@@ -1,4 +1,4 @@
-// Where a vertex's place in the exemplar lies in another image over the same picture.
+// From exemplar coordinates to pixels of another image over the same picture.
 #pragma once
 
 #include "texture/exemplar/exemplar.h"
@@ -7,8 +7,8 @@
 
 namespace fluidtex::texture {
 
-// From texels of a surface's exemplar to pixels of an image of any size. Throws std::invalid_argument if the
-// image is empty or the surface does not know the size of its exemplar.
+// Maps texels of a surface's exemplar to pixels of an image of any size. Throws std::invalid_argument if the
+// image is empty or the exemplar's size unknown.
 class TexelToImage {
  public:
   TexelToImage(const TexturedSurface& surface, const Image& image)
@@ -19,7 +19,7 @@ class TexelToImage {
     if (exemplarWidth < 1 || exemplarHeight < 1)
       throw std::invalid_argument("map of the exemplar: the surface does not know the exemplar's size");
   }
-  // Centres lie at integers, in the exemplar as in the image.
+  // Centres lie at integers in both.
   Vec2f operator()(const Vec2f& texel) const {
     const Vec2f half(0.5f, 0.5f);
     return (texel + half) * m_scale - half;
@@ -29,7 +29,7 @@ class TexelToImage {
   Vec2f m_scale;
 };
 
-// How much of a vertex's former place is still shown, 0 to 1.
+// Weight of a vertex's former colour, 0..1.
 inline float leftOf(const Fading& fading, std::uint32_t v) {
   return fading.weight.empty() ? 0.0f : fading.weight[v];
 }

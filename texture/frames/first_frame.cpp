@@ -7,11 +7,11 @@
 namespace fluidtex::texture {
 namespace {
 
-// Side of the blocks that a first frame starts from, texels of the full exemplar.
+// Side of the initial blocks, texels of the full exemplar.
 constexpr float kBlockSize = 64.0f;
 // Coarser levels decide the layout and are cheap: they iterate longer.
 constexpr int kCoarseIterations = 3;
-// How near joined labels stay to the last average.
+// Weight of the data term: difference of the labels' colours from the last average.
 constexpr float kData = 0.15f;
 
 }  // namespace

@@ -15,22 +15,22 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr int kPlaces = 256;        // drawn at random
-constexpr int kCompared = 64;       // the least used of them
-constexpr int kUsageCells = 12;     // along the exemplar's shorter side
-constexpr float kGuided = 4.0f;     // a level that is off by a quarter weighs as much as all likeness
+constexpr int kPlaces = 256;        // random places per disc
+constexpr int kCompared = 64;       // of these, the least used
+constexpr int kUsageCells = 12;     // along the shorter side of the exemplar
+constexpr float kGuided = 4.0f;     // a guidance level off by 0.25 costs as much as a correlation of 1
 constexpr std::size_t kStride = 3;  // every third vertex is compared
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// Of the exemplar.
+// A block of the exemplar.
 struct Block {
   Vec2f center{0.0f};
   Way way = 0;
   Vec2f texelAt(const Vec2f& offset) const { return center + laid(way, offset); }
 };
 
-// How badly a block suits a disc: how far it is from what guidance asks for, less its correlation with what
-// is there. The least difference would always be that of what has little contrast.
+// Cost of a block for a disc: mean guidance cost minus correlation with the present picture. The least
+// squared difference would always favour blocks of little contrast.
 float unsuitability(const MeshView& view, const TexelImage& image, const Neighborhoods& blocks, std::size_t p,
                     const Block& block, const Values& value) {
   Float8 a{}, b{}, aa{}, bb{}, ab{};
@@ -53,7 +53,7 @@ void startAfresh(const MeshView& view, const TexelImage& image, const std::vecto
                  const Values& value, std::uint64_t seed, Labels& labels) {
   std::vector<std::uint32_t> centers;
   const auto reach = float(kDiscShare * radius);
-  std::vector<std::uint32_t> owner(labels.size(), kNone);  // the place among `centers`
+  std::vector<std::uint32_t> owner(labels.size(), kNone);  // index into `centers`
   for (const Disc& disc : discs) {
     for (const std::uint32_t v : disc.members) owner[v] = std::uint32_t(centers.size());
     centers.push_back(disc.center);

@@ -1,5 +1,5 @@
-// What is renewed gets a start of its own: what was carried there is drawn out, and what is found from that,
-// by least differences, has less contrast with every renewal.
+// Initial values of regions to be renewed. Starting from the transported texture would not do: it is
+// stretched, and windows matched to it by least difference lose contrast with every renewal.
 #pragma once
 
 #include "texture/frames/renewal.h"
@@ -10,11 +10,10 @@
 
 namespace fluidtex::texture {
 
-// Lays one block of the exemplar over the members of each disc: of many random places those are looked at
-// that the surface uses least, and of these the one is taken that fits guidance and correlates most with
-// `value`, the picture that is there. Blocks are as large as discs of `radius` (DiscOptions), and lie
-// in any of the exemplar's ways; members beyond take what the nearest block goes on with. All other labels
-// stay.
+// Lays one block of the exemplar over each disc. Among random places, the least used are compared; the chosen
+// one fits guidance best and correlates most with `value` (#V), the present picture. Blocks have the size of
+// discs of nominal `radius` (DiscOptions, pixels) and may lie in any of the exemplar's symmetry variants.
+// Members beyond the block continue it. Changes the labels (#V) of disc members only.
 void startAfresh(const MeshView& view, const TexelImage& image, const std::vector<Disc>& discs, double radius,
                  const Values& value, std::uint64_t seed, Labels& labels);
 

@@ -17,22 +17,23 @@
 namespace fluidtex::texture {
 namespace {
 
-// Around discs, this many rings may change with them, so that seams find a place.
+// Rings around discs whose labels may change too, so that seams find a path.
 constexpr int kRim = 5;
-// Of what is renewed where the flow wears out much, discs are this share, and the rest lies between them.
+// Where the flow wears out much: the share of the renewed surface that discs cover; the rest lies between
+// them.
 constexpr double kDiscsOfAll = 0.65;
-// How near joined labels stay to the last average.
+// Weight of the data term: difference of the labels' colours from the last average.
 constexpr float kData = 0.4f;
-// New texture is squeezed by kMostAhead, and never so much (log) that flattening takes the strained surface
-// for a folded one.
+// Upper bound on the compression of new texture (log), besides kMostAhead: beyond it, flattening would take
+// the strained surface for a folded one.
 constexpr double kMostStrain = 0.45;
-// Vertices that stand for the surface at half its detail lie 1 to 2 of its pixels apart.
+// Spacing of the vertices that sample the surface at half detail: 1 to 2 of its pixels.
 constexpr float kHalfRadius = 0.8f;
-// Rings beyond what is laid out at half detail within which windows see its surroundings. Wider ones are cut
-// off there: all of a 33 pixel window's, 47, makes no better texture and takes longer.
+// Rings beyond the renewed region within which windows at half detail see its surroundings. Wider windows are
+// cut off there: the full reach of a 33 pixel window, 47, gives no better texture and takes longer.
 constexpr int kHalfReach = 20;
 
-// What the steps of one frame share.
+// Inputs shared by the steps of one frame.
 struct Job {
   Synthesizer& synthesizer;
   const Surface& surface;
@@ -42,15 +43,15 @@ struct Job {
   const Progress& progress;
 };
 
-// What is renewed.
+// What is renewed in a frame.
 struct Renewal {
   std::vector<Disc> discs;
   std::vector<std::uint8_t> wanted;    // #V: in discs, or lost
-  std::vector<std::uint8_t> withRims;  // #V: those and rims around them, within which they are joined
+  std::vector<std::uint8_t> withRims;  // #V: these and the rims around them, within which labels are joined
 };
 
-// Texel x of the full exemplar lies at (x - 1/2) / 2 of the halved one; what a label says of its surroundings
-// in pixels stays.
+// Texel x of the full exemplar lies at (x - 1/2) / 2 of the halved one. Jacobians stay: pixels double as
+// texels do.
 Labels halved(const Labels& labels, const TexelImage& half) {
   Labels result = labels;
   forEachIndex(labels.size(), [&](std::uint32_t v) {
@@ -59,7 +60,7 @@ Labels halved(const Labels& labels, const TexelImage& half) {
   return result;
 }
 
-// Labels of members at full detail, handed on to the wanted vertices between them.
+// Takes the members' labels to full detail and continues them over the wanted vertices between them.
 void spread(const TexelImage& image, const MeshView& view, const std::vector<std::uint8_t>& wanted,
             const Labels& coarse, Labels& labels) {
   std::vector<std::uint8_t> placed(labels.size(), 0);
@@ -71,8 +72,7 @@ void spread(const TexelImage& image, const MeshView& view, const std::vector<std
   handOn(image, view, wanted, std::move(placed), labels);
 }
 
-// Lays out what is wanted at half the surface's detail, where features are half as large and their scale is
-// kept.
+// Lays out the wanted vertices at half detail: features cover half as many pixels, of twice the size.
 void layOut(const Job& job, const std::vector<std::uint8_t>& wanted, Labels& labels) {
   const SearchTables& tables = *job.synthesizer.tables;
   const MeshView& view = job.seams.view;
@@ -94,7 +94,7 @@ void layOut(const Job& job, const std::vector<std::uint8_t>& wanted, Labels& lab
   spread(tables.image.front(), half, wanted, state.labels, labels);
 }
 
-// Starts what is wide and new from nothing, where the surface has levels for it.
+// Textures wide fresh surface like a first frame, where the surface has coarser levels.
 void startFromNothing(const Job& job, const std::vector<float>& trust, Labels& labels) {
   const auto& [synthesizer, surface, seams, frame, stats, progress] = job;
   const MeshView& view = seams.view;
@@ -109,8 +109,9 @@ void startFromNothing(const Job& job, const std::vector<float>& trust, Labels& l
     if (wide[v]) labels[v] = fine[v];
 }
 
-// What is wanted, laid anew on what was carried: discs from blocks of the exemplar, wide new surface from
-// nothing, all of it at half detail first; then within the rims around it, from where seams show least.
+// Labels of the renewed surface: discs start from blocks of the exemplar, wide fresh surface from a coarser
+// level; all of it is laid out at half detail first, then at full detail within the rims, and joined along
+// the least visible seams.
 Labels layAnew(const Job& job, Renewal renewal, const std::vector<float>& trust, const Labels& before) {
   const auto& [synthesizer, surface, seams, frame, stats, progress] = job;
   const SynthesisOptions& options = synthesizer.options;
@@ -147,8 +148,8 @@ std::vector<Disc> discsOf(const Synthesizer& synthesizer, const SeamModel& seams
                     streamOf(options.seed, Stream::renewal));
 }
 
-// #V, 1 where labels may change: droplets too small for texture stay as they are; so does what still fades,
-// or it would jump.
+// #V, 1 where labels may change. Droplets keep theirs, and so do vertices within a cross-fade, whose colour
+// would jump.
 std::vector<std::uint8_t> renewable(const Synthesizer& synthesizer, const VertexGraph& graph,
                                     const Carried& carried) {
   std::vector<std::uint8_t> result = searched(synthesizer, graph);
@@ -158,7 +159,7 @@ std::vector<std::uint8_t> renewable(const Synthesizer& synthesizer, const Vertex
   return result;
 }
 
-// #V, 1 where the first, and the second or the third, are 1.
+// #V: free and (a or b).
 std::vector<std::uint8_t> freeWhereEither(const std::vector<std::uint8_t>& free, std::vector<std::uint8_t> a,
                                           const std::vector<std::uint8_t>& b) {
   for (std::size_t v = 0; v < free.size(); ++v) a[v] = free[v] && (a[v] || b[v]);
@@ -181,7 +182,7 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
     result.fadingSpeed[v] = fadingSpeed(largest(rates[v]), options.keepStretch, options.fade);
   });
 
-  // From here on the surface is that of a while ahead, and labels are what they will be there.
+  // From here on the surface is the strained one ahead in time, and labels are as it has them.
   const double most = std::min(kMostAhead * std::log(options.keepStretch), kMostStrain);
   const std::vector<Strain> ahead = strainAhead(rates, options.lookAhead, most);
   const Connection connection = strained(now, ahead);

@@ -1,4 +1,5 @@
-// Later frames: what the flow carried is kept where it is good, and renewed in discs where it is not.
+// Later frames: transported texture is kept where it is coherent and hardly stretched, and renewed in discs
+// elsewhere.
 #pragma once
 
 #include "texture/optimize/passes.h"
@@ -7,12 +8,13 @@ namespace fluidtex::texture {
 
 struct LaterFrame {
   Labels labels;
-  std::vector<std::uint8_t> renewed;  // #V: 1 where the label is not the carried one
-  std::vector<float> fadingSpeed;     // #V, 1/s: the least at which what fades gives way in this frame
+  std::vector<std::uint8_t> renewed;  // #V: 1 where the label is not the transported one
+  std::vector<float> fadingSpeed;     // #V, 1/s: least decrease of cross-fade weights in this frame
 };
 
-// `view` is of the surface's finest level. Where it has coarser ones too, surface that has just come to
-// light, and that a window fits into, is textured coarse to fine like a first frame.
+// Textures a frame from the transported one. `view` is of the surface's finest level. Where the surface has
+// coarser levels too, fresh regions that a window fits into are textured coarse to fine like a first frame.
+// secondsSinceLast: time since the transported frame, s.
 LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, const MeshView& view,
                            const Carried& carried, int frame, double secondsSinceLast, SynthesisStats& stats,
                            const Progress& progress);

@@ -12,15 +12,16 @@ namespace fluidtex::texture {
 namespace {
 
 constexpr int kBlurSweeps = 24;
-// Lengths that change more than this from one frame to the next (log) tell of other points, not of the flow.
+// Edges whose length changes by more than this in a frame (log) are taken for connections of unrelated
+// points.
 constexpr float kMostPerFrame = 1.0f;
 
-// A strain, times how far it is believed, and that.
+// A strain times its confidence, and the confidence.
 using Weighted = float __attribute__((vector_size(16)));
 enum : int { kMean, kWeight, kDeviatorReal, kDeviatorImag };
 
-// The lengths before, squared and over those now, are n.C n for edges of direction n: m + d.q for q = n^2 as
-// numbers, m and d being C's mean and deviator. The strain is -log(C) / 2.
+// Squared former edge lengths over the present ones are n.C n for edges of direction n, that is m + d.q with
+// q = n^2 as a complex number, m and d the mean and deviator of C. The strain is -log(C) / 2.
 Weighted fittedStrain(const MeshView& view, const std::vector<Vec3f>& previous, std::uint32_t v) {
   const std::vector<Vec3f>& now = view.mesh.positions;
   float count = 0.0f, ratios = 0.0f, xx = 0.0f, xy = 0.0f, yy = 0.0f;
@@ -40,7 +41,7 @@ Weighted fittedStrain(const MeshView& view, const std::vector<Vec3f>& previous, 
   xx -= center.real() * sum.real(), xy -= center.real() * sum.imag(), yy -= center.imag() * sum.imag();
   right -= center * ratios;
   const float det = xx * yy - xy * xy;
-  if (!(det > 1e-3f)) return Weighted{};  // all edges along two directions
+  if (!(det > 1e-3f)) return Weighted{};  // edges span no more than two directions
   const Complexf deviator((right.real() * yy - right.imag() * xy) / det,
                           (right.imag() * xx - right.real() * xy) / det);
   const float mean = ratios / count - center.real() * deviator.real() - center.imag() * deviator.imag();
@@ -54,7 +55,7 @@ Weighted fittedStrain(const MeshView& view, const std::vector<Vec3f>& previous, 
 
 std::vector<Weighted> blurred(const MeshView& view, std::vector<Weighted> value) {
   const std::vector<Complexf>& rotation = view.connection.rotation;
-  std::vector<Complexf> turn(rotation.size());  // of a deviator
+  std::vector<Complexf> turn(rotation.size());  // rotation of a deviator
   forEachIndex(turn.size(), [&](std::uint32_t h) { turn[h] = product(rotation[h], rotation[h]); });
   return averaged(view.graph, std::move(value), kBlurSweeps, [&](const Weighted& w, std::uint32_t h) {
     const float re = turn[h].real(), im = turn[h].imag();

@@ -1,5 +1,5 @@
-// The surface as it will be a while from now: texture that is laid for it is compressed where the flow draws
-// it out, and lasts up to twice as long before it is stretched too much.
+// Look-ahead: texture is laid for the surface as the flow will have strained it. Where the flow stretches,
+// new texture is laid compressed, and lasts up to twice as long until it is stretched too much.
 #pragma once
 
 #include "texture/labels/labels.h"
@@ -8,7 +8,8 @@
 
 namespace fluidtex::texture {
 
-// A symmetric 2x2 matrix in a vertex's axes: `mean` times one plus [[a, b], [b, -a]], deviator = a + i b.
+// Logarithmic strain, a symmetric 2x2 matrix in a vertex's axes: mean I + [[a, b], [b, -a]] with deviator = a
+// + i b.
 struct Strain {
   float mean = 0.0f;
   Complexf deviator{0.0f, 0.0f};
@@ -17,22 +18,22 @@ struct Strain {
 // exp(strain) x.
 Complexf strained(const Strain& strain, const Complexf& x);
 
-// #V, 1/s, logarithmic: how the surface around each vertex was strained in the last `seconds`. Fitted to how
-// the lengths of the vertex's edges changed since `previous` (where the vertices were) and averaged over a
-// small window; where trust is low it is that of the surroundings. Zero where seconds are.
+// #V: logarithmic strain rate of the surface, 1/s, over the last `seconds`. Fitted to the change of edge
+// lengths since `previous` (#V, former positions) and averaged over a small window; where trust (#V) is low
+// it is that of the surroundings. Zero if `seconds` is zero.
 std::vector<Strain> strainRates(const MeshView& view, const std::vector<Vec3f>& previous,
                                 const std::vector<float>& trust, double seconds);
 
-// Its largest eigenvalue, up to the sign.
+// Largest absolute eigenvalue.
 float largest(const Strain& strain);
 
-// #V: how the surface will be strained in `horizon` seconds if it goes on so, no eigenvalue beyond `most`.
+// #V: strain after `horizon` seconds at constant rates, scaled so that no absolute eigenvalue exceeds `most`.
 std::vector<Strain> strainAhead(std::vector<Strain> rates, double horizon, double most);
 
-// The view's edges strained, each by the mean of its ends.
+// The view's connection with strained edges, each by the mean strain of its ends.
 Connection strained(const MeshView& view, const std::vector<Strain>& strain);
 
-// The labels as the strained surface has them, and back.
+// Labels in pixels of the strained surface, and the inverse.
 Labels strained(Labels labels, const std::vector<Strain>& strain);
 Labels unstrained(Labels labels, const std::vector<Strain>& strain);
 

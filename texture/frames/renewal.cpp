@@ -17,18 +17,18 @@ namespace {
 
 constexpr float kSeamWeight = 0.75f;
 constexpr float kLostStretch = 4.0f;
-constexpr float kSameTexel = 0.7f;     // a proposal this near to the carried texel says the same
-constexpr float kSlipStretch = 1.15f;  // closing slips leaves as much: no reason to renew the same texel
-constexpr float kLeastGain = 0.05f;    // a piece is renewed if its badness falls by this on average
-constexpr int kBlurSweeps = 16;        // badness is averaged over (averaged.h)
-constexpr double kDiscsApart = 2.0 * kDiscShare;  // of a disc's nominal radius
-constexpr float kMostYoung = 0.35f;               // share of a disc
+constexpr float kSameTexel = 0.7f;     // texels: a proposal this close to the transported label is the same
+constexpr float kSlipStretch = 1.15f;  // stretch that closing slips leaves: no reason to renew the same texel
+constexpr float kLeastGain = 0.05f;    // least mean decrease of badness for which a piece is accepted
+constexpr int kBlurSweeps = 16;        // of the averaging of badness (averaged.h)
+constexpr double kDiscsApart = 2.0 * kDiscShare;  // centres, over the nominal radius
+constexpr float kMostYoung = 0.35f;               // share of a disc that may be in a cross-fade
 constexpr float kTooYoung =
-    0.3f;  // around a centre with more of it none is tried again, of the nominal radius
-// Of what is kept (log): the earliest that texture is renewed. Far from one, for neighbours were laid
-// together.
+    0.3f;  // over the nominal radius: no further centre is tried this close to a disc that had more
+// Earliest renewal, in units of log keepStretch. Well below 1, since neighbours were laid together and would
+// otherwise be renewed together.
 constexpr float kEarliest = 0.5f;
-// How much further (log), of what is kept, texture may be drawn out while it fades.
+// How much texture may stretch during its cross-fade, in units of log keepStretch.
 constexpr float kFadesWithin = 1.8f;
 
 bool lost(const TexelImage& image, const Label& label, float trust) {
@@ -41,7 +41,7 @@ float stretchBadness(const TexelImage& image, const Label& label, float trust) {
   return lost(image, label, trust) ? std::max(amount, std::log(kLostStretch)) : amount;
 }
 
-// Smooth noise in 0..1 over the exemplar: random values at the corners of a grid, interpolated.
+// Value noise in 0..1 over the exemplar: bilinear between random values on a grid.
 float noiseAt(const Vec2f& texel, std::uint64_t seed) {
   constexpr float kCell = 24.0f;  // texels
   const float x = texel[0] / kCell, y = texel[1] / kCell;
@@ -74,7 +74,7 @@ bool believed(float trust) {
 
 namespace {
 
-// Walks over the surface around a vertex, as far as it hangs together within a distance of it.
+// Region growing: vertices connected to a centre within a distance of it.
 class Surroundings {
  public:
   explicit Surroundings(const MeshView& view) : m_view(view), m_stamp(view.mesh.positions.size(), 0) {}
@@ -99,14 +99,14 @@ class Surroundings {
   std::uint32_t m_current = 0;
 };
 
-// Round discs leave a third of a plane between them. What is wanted there joins the disc that reaches it
-// first, within `rings` rings: left for later, it would wait until all around it has faded in.
+// Round discs leave a third of a plane uncovered. Wanted vertices there join the first disc to reach them
+// within `rings` rings; left for later, they would wait until the cross-fades around them have ended.
 template <typename Wanted>
 void fillBetween(const VertexGraph& graph, int rings, const Wanted& wanted, std::vector<Disc>& discs) {
   std::vector<std::uint8_t> taken(graph.first.size() - 1, 0);
   for (const Disc& disc : discs)
     for (const std::uint32_t v : disc.members) taken[v] = 1;
-  std::vector<std::size_t> front(discs.size(), 0);  // where a disc's outermost members begin
+  std::vector<std::size_t> front(discs.size(), 0);  // start of each disc's outermost ring
   for (int ring = 0; ring < rings; ++ring)
     for (std::size_t d = 0; d < discs.size(); ++d) {
       std::vector<std::uint32_t>& members = discs[d].members;
@@ -166,11 +166,11 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
             [&](std::uint32_t a, std::uint32_t b) { return bad[a] > bad[b] || (bad[a] == bad[b] && a < b); });
 
   std::vector<Disc> discs;
-  std::vector<std::uint8_t> near(count, 0);  // to the centre of a disc, or found too young
+  std::vector<std::uint8_t> near(count, 0);  // no further centre here
   Surroundings surroundings(model.view);
   double covered = 0.0;
   for (const std::uint32_t center : candidates) {
-    // A budget of less than a vertex is none.
+    // A budget below one vertex is none.
     const double budget = urgent(center) ? options.urgentBudget : options.budget;
     if (covered + 1.0 > budget * double(count)) continue;
     if (near[center]) continue;
@@ -218,8 +218,8 @@ std::vector<std::uint8_t> grown(const VertexGraph& graph, std::vector<std::uint8
 
 namespace {
 
-// #V: how much badness changes where `renewed` is 1: a vertex's own, and its share of that of neighbours that
-// stay. What is proposed does not depend on what was carried: it is trusted.
+// #V: change of badness where `renewed` is 1: the vertex's own, and its share of the neighbours that stay.
+// Proposed labels do not depend on transported ones, so their trust is 1.
 std::vector<float> changesOf(const SeamModel& model, const Labels& carried, const Labels& proposed,
                              const std::vector<float>& trust, const std::vector<std::uint8_t>& renewed) {
   const VertexGraph& graph = model.view.graph;
@@ -253,7 +253,7 @@ Labels settle(const SeamModel& model, const Labels& carried, const Labels& propo
     renewed[v] = 1;
     result[v] = proposed[v];
   });
-  closeSlips(model, renewed, result);  // what is judged is what comes of it
+  closeSlips(model, renewed, result);  // before judging: pieces are judged as they will be
 
   const std::vector<float> change = changesOf(model, carried, result, trust, renewed);
   const std::vector<std::uint8_t> offered = renewed;

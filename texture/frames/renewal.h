@@ -1,5 +1,5 @@
-// Where carried texture is renewed on later frames, and where it stays. What is coherent and hardly stretched
-// is not touched: that keeps the texture calm, and cheap.
+// Which transported texture is renewed on later frames. Texture that is coherent and hardly stretched is not
+// touched: that is calm, and cheap.
 #pragma once
 
 #include "texture/frames/look_ahead.h"
@@ -11,32 +11,32 @@
 
 namespace fluidtex::texture {
 
-// How bad each vertex's label is: log stretch() + kSeamWeight * seamCostAround() + guidanceCost(). A label
-// that is lost (lostLabels) counts as stretched kLostStretch times.
+// #V, cost of each label: log stretch() + kSeamWeight * seamCostAround() + guidanceCost(). A lost label
+// (lostLabels) counts as stretched by kLostStretch at least.
 std::vector<float> badness(const SeamModel& model, const Labels& labels, const std::vector<float>& trust);
 
-// Whether a carried label means anything: where trust is low, nothing was there before.
+// Whether a transported value has enough confidence to be used (kLowTrust).
 bool believed(float trust);
 
-// A piece of the surface that is renewed at once.
+// A region of the surface that is renewed at once.
 struct Disc {
   std::uint32_t center = 0;
-  std::vector<std::uint32_t> members;  // from the centre outwards
+  std::vector<std::uint32_t> members;  // vertices, from the centre outwards
 };
 
-// Of a disc's nominal radius: how far it reaches.
+// Radius of a disc over its nominal radius.
 inline constexpr double kDiscShare = 0.8;
-// Of what is kept (log): by how much new texture is laid squeezed at most where the flow draws it out, and
-// where waiting ends. What is laid must not be urgent if the flow stops.
+// In units of log keepStretch: how much new texture is compressed at most where the flow stretches it, and
+// the stretch from which renewal is urgent. New texture must not be urgent if the flow stops.
 inline constexpr double kMostAhead = 1.45;
 inline constexpr float kUrgent = 1.5f;
 static_assert(kMostAhead < kUrgent);
 
 struct DiscOptions {
-  double keepStretch;  // what is coherent and stretched less is kept
-  double radius;       // pixels, nominal; discs' centres are at least twice as far apart as they reach
-  // Shares of the vertices that discs may cover: where texture is not stretched by more than kUrgent times
-  // what is kept (log), and where it is.
+  double keepStretch;  // coherent texture that is stretched less is kept
+  double radius;       // nominal, pixels; centres are at least 2 kDiscShare radius apart
+  // Shares of the vertices that discs may cover: where log stretch is below kUrgent log keepStretch, and
+  // where it is above.
   double budget;
   double urgentBudget;
 };
@@ -44,41 +44,40 @@ struct DiscOptions {
 // Averages over half a small window.
 struct Wear {
   std::vector<float> bad;      // #V: badness()
-  std::vector<float> stretch;  // #V: log stretch() alone; 0 where a label is beyond use
+  std::vector<float> stretch;  // #V: log stretch() alone; 0 where the label is lost
 };
 Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<float>& trust);
 
-// Share of the texture that the flow wears out in that time: mean of how far each vertex is strained (rates,
-// 1/s, logarithmic), over what lies between texture that is laid ahead and texture that is urgent.
+// Share of the texture that the flow wears out in `seconds`: mean over vertices of strain (rates #V, 1/s,
+// logarithmic) over the texture's life, the range from fully compressed (kMostAhead) to urgent (kUrgent).
 double wornShare(const std::vector<Strain>& rates, double seconds, double keepStretch);
 
-// Discs around the worst places, worst first, until the budget is used: where wear is worse than that of
-// texture stretched by keepStretch. The threshold varies from half of that (log), smoothly over the exemplar,
-// so that neighbours do not renew at once. What is not `free` (#V: what still fades, and droplets) is no
-// member, and discs that hold much of it are left for later. What is urgent and lies between discs, within as
-// much again as they reach, joins the nearest whatever the budget.
+// Discs around vertices whose wear exceeds that of texture stretched by keepStretch, worst first, until the
+// budget is used. The threshold varies smoothly over the exemplar, from half of log keepStretch on, so that
+// neighbours are not renewed at once. Vertices that are not `free` (#V: in a cross-fade, or on droplets) are
+// no members; discs with many of them are skipped. Urgent vertices between discs, within twice their radius,
+// join the nearest disc whatever the budget.
 std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,
                              const std::vector<std::uint8_t>& free, const DiscOptions& options,
                              std::uint64_t seed);
 
-// 1/s, how fast the old texture gives way where it is renewed: in `fade` seconds, or in the time in which
-// texture is stretched 1.8 times (log) what keepStretch says, if that is shorter. strainRate: 1/s,
-// logarithmic.
+// 1/s, speed of the cross-fade: 1 / fade (s), or faster, so that texture stretches by no more than 1.8 log
+// keepStretch meanwhile. strainRate: 1/s, logarithmic.
 float fadingSpeed(float strainRate, double keepStretch, double fade);
 
-// 1 where labels must be renewed whatever else is: hardly trusted, beyond the edge of an exemplar that does
-// not wrap, or folded to mirror images that the exemplar must not show.
+// #V, 1 where labels must be renewed in any case: of low trust, beyond the edge of an exemplar that is not
+// toroidal, or mirrored where the exemplar may not be.
 std::vector<std::uint8_t> lostLabels(const SeamModel& model, const Labels& labels,
                                      const std::vector<float>& trust);
 
-// The mask grown by `rings` rings of neighbours.
+// The mask (#V) grown by `rings` rings of neighbours.
 std::vector<std::uint8_t> grown(const VertexGraph& graph, std::vector<std::uint8_t> mask, int rings);
 
-// Merges proposed labels into carried ones. Where they continue each other the carried one stays. Of the
-// others, slips are closed; they form connected pieces, and a piece is renewed if that lowers the summed
-// badness of the surface: the piece's own and that of the vertices around it, whose seams change with it.
-// renewed[v] says where. A surface at rest therefore comes to rest: every renewal lowers a sum that has a
-// bound.
+// Merges proposed labels into transported ones. Where both show the same texel, the transported label stays.
+// Among the others sub-texel misalignments are closed. Each connected piece of them is accepted only if that
+// lowers the summed badness of the surface: its own, and that of its neighbours, whose seams change with it.
+// renewed (#V) is 1 where a label was accepted. Every renewal lowers a sum that is bounded below, so a
+// surface at rest comes to rest.
 Labels settle(const SeamModel& model, const Labels& carried, const Labels& proposed,
               const std::vector<float>& trust, std::vector<std::uint8_t>& renewed);
 

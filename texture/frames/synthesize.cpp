@@ -1,4 +1,4 @@
-// What is made of a frame's labels: coordinates, what fades, colours.
+// From a frame's labels to coordinates, cross-fade and colours.
 #include "texture/frames/synthesize.h"
 
 #include "texture/exemplar/srgb.h"
@@ -32,7 +32,7 @@ Vec4f decoded(const Float8& value, int channels) {
   return color;
 }
 
-// The paper's way: colours carried, averaged, held to.
+// [Kwatra07]: transported colours are averaged, under the soft constraint.
 State synthesizeColors(Synthesizer& synthesizer, const MeshView& view, const Carried& carried, int frame,
                        SynthesisStats& stats, const Progress& progress) {
   State state;
@@ -62,8 +62,8 @@ void checkSizes(const SurfaceMesh& mesh, const Carried& carried) {
   });
 }
 
-// What fades after a frame. A vertex renewed now shows what it showed before, and that gives way; where
-// nothing meaningful was shown, the new texture stands at once.
+// Cross-fade after a frame. A vertex that is renewed fades from what it showed before. Where trust was low,
+// the new texture shows at once.
 Fading fadingAfter(const Carried& carried, const LaterFrame& later, double seconds) {
   const std::size_t count = later.labels.size();
   Fading result = carried.fading;
@@ -71,13 +71,13 @@ Fading fadingAfter(const Carried& carried, const LaterFrame& later, double secon
     if (later.renewed[v]) {
       result.weight[v] = believed(carried.trust[v]) ? 1.0f : 0.0f;
       result.speed[v] = later.fadingSpeed[v];
-      // Of a vertex that is renewed while it still fades, the place that is seen more goes on.
+      // A vertex renewed within a cross-fade keeps the more visible of its two coordinates.
       if (carried.fading.weight[v] <= 0.5f) {
         result.coordinate[v] = carried.coordinate[v];
         result.gradient[v] = carried.gradient[v];
       }
     }
-    // Where the flow has become faster since then, so has the fade: only what has faded can be renewed again.
+    // A fade speeds up with the flow: a vertex can only be renewed again after it.
     const float speed = std::max(result.speed[v], later.fadingSpeed[v]);
     result.weight[v] = std::max(0.0f, result.weight[v] - speed * float(seconds));
   });

@@ -9,8 +9,8 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr float kLargest = 4.0f;  // distortion of a pair of edges that can be one piece
-constexpr float kAgree = 0.5f;    // texels: of a neighbour with a gradient
+constexpr float kLargest = 4.0f;  // largest distortion of a proposed gradient
+constexpr float kAgree = 0.5f;    // texels: deviation up to which a neighbour agrees
 
 struct Edge {
   Vec2f local, texel;
@@ -68,7 +68,7 @@ Vec2f Coordinates::local(std::uint32_t v, const Vec3f& x) const {
 }
 
 float distortion(const Jacobian& j) {
-  // Singular values from the parts of the matrix that are a similarity and a mirrored one.
+  // Singular values from the conformal and the anticonformal part.
   const float same = std::hypot(j[0] + j[3], j[2] - j[1]), mirrored = std::hypot(j[0] - j[3], j[2] + j[1]);
   const float s1 = 0.5f * (same + mirrored), s2 = 0.5f * std::abs(same - mirrored);
   return s2 > 0.0f ? std::max(s1, 1.0f / s2) : std::numeric_limits<float>::infinity();
@@ -82,7 +82,7 @@ std::vector<std::optional<Jacobian>> fittedGradients(const Coordinates& coordina
     for (const std::uint32_t u : coordinates.graph.around(v))
       edges.push_back({coordinates.local(v, surface.positions[u]),
                        coordinates.difference(surface.coordinate[u], surface.coordinate[v])});
-    std::pair<int, float> best{0, 0.0f};  // how many agree, and how little they are off
+    std::pair<int, float> best{0, 0.0f};  // how many agree, then minus their total deviation
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const auto j = through(edges[i], edges[(i + 1) % edges.size()]);
       if (!j) continue;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// For each vertex the number of edges to the nearest one outside of the mask, kNone where there is none.
+// #V: edges to the nearest vertex outside the mask; kNone where there is none.
 std::vector<std::uint32_t> depths(const VertexGraph& graph, const std::vector<std::uint8_t>& mask) {
   std::vector<std::uint32_t> depth(mask.size(), kNone), queue;
   for (std::uint32_t v = 0; v < mask.size(); ++v) {

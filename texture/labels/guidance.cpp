@@ -9,10 +9,10 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr float kCostOfLevel = 2.0f;  // a level off by half is as bad as texture stretched by e
+constexpr float kCostOfLevel = 2.0f;  // a level off by 0.5 costs as much as a stretch by e
 constexpr int kCell = 8;              // texels
-constexpr int kLevels = 16;           // in which levels are counted
-constexpr double kHardlyAny = 1e-3;   // share of the exemplar: a level of which there is less cannot be shown
+constexpr int kLevels = 16;           // bins of the levels
+constexpr double kHardlyAny = 1e-3;   // share of the exemplar below which a level counts as absent
 
 using Shares = std::array<double, kLevels>;
 
@@ -20,7 +20,7 @@ int levelOf(float guidance) {
   return int(std::lround(std::clamp(guidance, 0.0f, 1.0f) * float(kLevels - 1)));
 }
 
-// What the surface asks for; levels that the exemplar hardly has are counted for the nearest that it has.
+// Wanted share of each level; levels absent from the exemplar count for the nearest present one.
 Shares wantedShares(const SurfaceMesh& mesh, const Shares& available) {
   Shares wanted{};
   for (const float guidance : mesh.guidance) wanted[std::size_t(levelOf(guidance))] += 1.0;
@@ -36,7 +36,7 @@ Shares wantedShares(const SurfaceMesh& mesh, const Shares& available) {
   return result;
 }
 
-// The mean of each cell and the eight around it.
+// 3 x 3 box filter.
 void blur(bool toroidal, Demand& demand) {
   const auto continued = [&](int i, int n) { return toroidal ? (i + n) % n : std::clamp(i, 0, n - 1); };
   const std::vector<float> sharp = demand.share;
@@ -80,7 +80,7 @@ Demand demandOn(const TexelImage& image, const SurfaceMesh& mesh) {
   if (!isGuided(image, mesh) || !(image.guidanceWeight > 0.0f)) return {};
   const float scale = 1.0f / std::sqrt(image.guidanceWeight);
   Demand demand{(image.width + kCell - 1) / kCell, (image.height + kCell - 1) / kCell, {}};
-  // The exemplar's levels, cell by cell: whole numbers, so that sums do not depend on their order.
+  // Histograms of the exemplar's levels by cell; integer counts do not depend on the order of summation.
   const std::size_t cells = std::size_t(demand.columns) * std::size_t(demand.rows);
   std::vector<std::array<std::uint32_t, kLevels>> counts(cells);
   forEachIndex(cells, [&](std::uint32_t cell) {

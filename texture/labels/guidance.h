@@ -1,7 +1,6 @@
-// Guidance: which parts of the exemplar appear where. A map beside the exemplar says of every texel what
-// level it is of, 0..1; SurfaceMesh::guidance says what level is wanted at a vertex. Windows compare the two
-// like any other channel, labels pay for what does not fit, and what the exemplar's histogram and its even
-// use ask for is taken of the parts that are wanted.
+// Guidance (texture-by-numbers): a map gives each texel of the exemplar a level 0..1, SurfaceMesh::guidance
+// gives the level wanted at a vertex. Windows compare the two as one more channel; labels pay for a mismatch;
+// histogram and usage follow the demand for each part of the exemplar.
 #pragma once
 
 #include "texture/labels/labels.h"
@@ -10,24 +9,24 @@
 
 namespace fluidtex::texture {
 
-// Whether there is a map, and levels that are wanted.
+// Whether the exemplar has a guidance map and the mesh wanted levels.
 bool isGuided(const TexelImage& image, const SurfaceMesh& mesh);
 
-// Puts the wanted levels into the map's channel. Where nothing is guided: leaves the values alone.
+// Sets the guidance channel of `values` (#V) to the wanted levels. Unguided: no change.
 void holdGuidance(const TexelImage& image, const SurfaceMesh& mesh, Values& values);
 
-// By how much the level at a texel is off what is wanted at v, times the weight of guidance; what is off by
-// less than kFittingLevel fits. 0 where nothing is guided. In the units of a log stretch.
+// Cost of a texel at v, in units of log stretch: proportional to the weight of guidance and to the level's
+// deviation from the wanted one beyond kFittingLevel. Unguided: 0.
 float guidanceCost(const TexelImage& image, const SurfaceMesh& mesh, const Vec2f& texel, std::uint32_t v);
 inline constexpr float kFittingLevel = 0.1f;
 
-// How much of the surface asks for each part of the exemplar, 1 on average: a grid of cells, a little
-// blurred, since texels appear together with those around them. Empty where nothing is guided.
+// Demand for each part of the exemplar, 1 on average, on a grid of cells. Slightly blurred, since texels
+// appear together with their surroundings. Empty if unguided.
 struct Demand {
   int columns = 0, rows = 0;
   std::vector<float> share;  // rows from the top
   bool empty() const { return share.empty(); }
-  float at(float x, float y) const;  // texels, inside the image
+  float at(float x, float y) const;  // texel, inside the image
 };
 Demand demandOn(const TexelImage& image, const SurfaceMesh& mesh);
 

@@ -20,20 +20,20 @@
 namespace fluidtex::texture {
 namespace {
 
-// All in pixels.
-constexpr float kDisc = 18.0f;           // radius of what one cut may change
-constexpr float kCenters = 10.0f;        // discs' centres are about 15 apart
-constexpr float kSeamReach = 9.0f;       // a disc is looked at where a seam lies this near to its centre
-constexpr float kProposalsFrom = 12.0f;  // from the centre
-constexpr int kProposals = 5;            // the centre's own label among them
-constexpr float kSame = 0.5f;            // texels: labels this near to each other say the same
+// Lengths in pixels.
+constexpr float kDisc = 18.0f;      // radius of a disc, the domain of one cut
+constexpr float kCenters = 10.0f;   // selection radius of the centres, which are then about 15 apart
+constexpr float kSeamReach = 9.0f;  // a disc is visited if a seam lies within this distance of its centre
+constexpr float kProposalsFrom = 12.0f;  // distance of the other proposals from the centre
+constexpr int kProposals = 5;            // the centre's own label included
+constexpr float kSame = 0.5f;            // texels: labels this close are the same
 
-constexpr float kLeastGain = 0.9f;    // in units of the difference of random texels, per cut
-constexpr float kMostStretch = 1.2f;  // a label stretched more is offered unstretched
-constexpr std::size_t kChunk = 2048;  // discs that are flattened at once
+constexpr float kLeastGain = 0.9f;    // per cut, in units of the difference of random texels
+constexpr float kMostStretch = 1.2f;  // labels stretched more are offered unstretched
+constexpr std::size_t kChunk = 2048;  // discs flattened at once
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// A label of the disc's centre, or one brought there, in the centre's axes.
+// A proposed label, at the disc's centre and in its axes.
 struct Proposal {
   Label label;
   Label at(const Vec2f& l, const Complexf& turn) const {
@@ -44,7 +44,7 @@ struct Proposal {
   }
 };
 
-// One vertex's label as the disc's centre sees it: the centre lies at -l in the vertex's surroundings.
+// A vertex's label continued to the centre, which lies at -l in the vertex's surroundings.
 Proposal broughtToCenter(const Label& label, const Ways& ways, const Vec2f& l, const Complexf& turn) {
   const Label used = stretch(label) > kMostStretch ? unstretched(label.texel, layOf(label, ways)) : label;
   const Complexf back = std::conj(turn);  // from the centre's axes to the vertex's
@@ -54,22 +54,22 @@ Proposal broughtToCenter(const Label& label, const Ways& ways, const Vec2f& l, c
            {j[0] * c + j[1] * s, j[1] * c - j[0] * s, j[2] * c + j[3] * s, j[3] * c - j[2] * s}}};
 }
 
-// Of an edge: where neither end takes what is proposed, the second does, or the first does.
+// Seam costs of an edge: neither end takes the proposal, the second does, the first does.
 struct SeamCosts {
   float keepKeep = 0.0f, keepTake = 0.0f, takeKeep = 0.0f;
 };
 
-// What one thread keeps from disc to disc.
+// Per-thread workspace, reused from disc to disc.
 struct Workspace {
   explicit Workspace(std::size_t vertexCount) : slot(vertexCount, kNone) {}
-  std::vector<std::uint32_t> slot;   // of the present disc's free members; reset after each disc
-  std::vector<std::uint32_t> entry;  // the members' entries of the neighbourhood
+  std::vector<std::uint32_t> slot;   // #V: index among the free members, or kNone; reset after each disc
+  std::vector<std::uint32_t> entry;  // per member: its entry of the neighbourhood
   Labels proposed;
   Values value;                            // the image at the proposed labels
-  std::vector<float> present;              // seams of all edges of members, as they are, in their order
-  std::vector<float> labelNow, labelThen;  // own costs of the members
-  std::vector<float> ownNow, ownThen;      // the same with those of seams that they alone decide about
-  std::vector<SeamCosts> seams;            // of the edges that may change, in the members' order
+  std::vector<float> present;              // present seam cost of each edge, in the order of forEachEdge()
+  std::vector<float> labelNow, labelThen;  // unary costs of the members: keep, take
+  std::vector<float> ownNow, ownThen;      // the same with the seams to fixed vertices
+  std::vector<SeamCosts> seams;            // of the edges that may change, in the order of forEachEdge()
   std::vector<std::uint8_t> differs;
   MinCut cut;
 };
@@ -112,10 +112,11 @@ class Expansion {
  private:
   bool isFree(std::uint32_t v) const { return m_free.empty() || m_free[v]; }
 
-  // Discs in their order, those that touch an earlier one behind it; discs of one batch do not touch.
+  // Colours the discs greedily in their order: discs of one batch do not touch, and each comes after the
+  // earlier ones that it touches.
   std::vector<std::vector<std::uint32_t>> batches() const {
     std::vector<std::vector<std::uint32_t>> result;
-    std::vector<std::uint16_t> next(m_labels.size(), 0);  // the first batch that no disc at the vertex is in
+    std::vector<std::uint16_t> next(m_labels.size(), 0);  // #V: first batch that no disc at the vertex is in
     const auto touched = [&](std::uint32_t p, const auto& body) {
       for (std::uint32_t i = m_discs.first[p]; i < m_discs.first[p + 1]; ++i) {
         body(m_discs.vertex[i]);
@@ -147,7 +148,7 @@ class Expansion {
     }
   }
 
-  // All proposals of one disc. Returns how many cuts were made and how many taken.
+  // Cuts all proposals of one disc. Returns the numbers of cuts made and taken.
   std::array<int, 2> runDisc(std::uint32_t p, Workspace& work, std::vector<Change>& changes) {
     std::array<int, 2> counts{0, 0};
     work.entry.clear();
@@ -178,7 +179,7 @@ class Expansion {
     return false;
   }
 
-  // The labels of the centre and of the vertices nearest to four places around it, without repetition.
+  // Labels of the centre and of the vertices nearest to four places around it, without duplicates.
   std::size_t propose(std::uint32_t p, std::array<Proposal, kProposals>& proposals) const {
     std::size_t count = 0;
     const auto offer = [&](std::uint32_t entry) {
@@ -207,7 +208,7 @@ class Expansion {
     return labelCost(m_model, m_terms, label, value, v) + m_terms.usage * (m_usage.at(label.texel) - 1.0f);
   }
 
-  // What the disc costs as it is.
+  // Costs of the disc with its present labels.
   void countPresent(Workspace& work) const {
     work.labelNow.clear(), work.present.clear();
     for (const std::uint32_t entry : work.entry) {
@@ -277,9 +278,9 @@ class Expansion {
     return settleCut(now, work, changes);
   }
 
-  // A pair's four costs as what own costs and a cut can express. Where both take there is no seam: they get
-  // one label, continued. Seam costs are a metric but for what coherence forgives; where the triangle
-  // inequality fails, the mixed cases count for more than they cost, which at worst leaves a label as it is.
+  // Splits a pair's costs into unary costs and one arc of the graph. Where both ends take, there is no seam:
+  // the label is continued. Seam costs are a metric except for the tolerance of kCoherent; where the triangle
+  // inequality fails, the mixed terms are overestimated, which at worst keeps a label.
   static void addPair(std::uint32_t i, std::uint32_t j, const SeamCosts& costs, Workspace& work) {
     // With x = 1 where an end takes: keepKeep + x_i (takeKeep - keepKeep) - x_j takeKeep + (1 - x_i) x_j
     // mixed.
@@ -290,8 +291,8 @@ class Expansion {
     if (mixed > 0.0f) work.cut.addPair(i, j, mixed, 0.0f);
   }
 
-  // Calls body(i, j, v, u, h) for the edges h, from v to u, that a member is an end of, once each: i is v's
-  // place among the members, j that of u or kNone.
+  // Calls body(i, j, v, u, h) once for each edge h, from v to u, with a member at an end: i is the index of v
+  // among the members, j that of u or kNone.
   template <typename Body>
   void forEachEdge(const Workspace& work, const Body& body) const {
     const VertexGraph& graph = m_model.view.graph;
@@ -304,7 +305,7 @@ class Expansion {
     }
   }
 
-  // Makes the change if the cost falls by enough; the seams between two that take are counted now.
+  // Applies the change if the cost falls by enough. Seams between two vertices that take are included here.
   bool settleCut(double now, Workspace& work, std::vector<Change>& changes) {
     const auto takes = [&](std::uint32_t i) { return work.differs[i] && work.cut.takes(i); };
     bool any = false;

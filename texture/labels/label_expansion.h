@@ -1,5 +1,5 @@
-// Label expansion [Boykov01, Kwatra03]: pieces of the exemplar grow over their surroundings along the cuts
-// that show least, so that what the optimisation leaves as chips becomes whole pieces.
+// Alpha expansion [Boykov01, Kwatra03]: labels grow over discs of their surroundings along minimal cuts, so
+// that fragments that the optimisation leaves become whole patches.
 #pragma once
 
 #include "texture/labels/seams.h"
@@ -8,13 +8,12 @@
 
 namespace fluidtex::texture {
 
-// Offers discs of the surface, one after the other, the labels of their centre and of vertices around it,
-// each continued over the whole disc by the surface's own parallel transport. Which of the disc's vertices
-// take it is the exact minimum, by a cut, of the sum of their own costs (terms) and of the seams on their
-// edges (seamCost); a change is made where the sum falls by more than a threshold, so it never rises. Where
-// usage counts, it is that of the texels at the time of the cut. Vertices outside `free` (empty: all are
-// free) keep their labels. Discs that do not touch are cut at once. Returns the share of the discs' cuts that
-// were taken.
+// Visits discs of the surface. Offers each the labels of its centre and of vertices around it, continued over
+// the disc by parallel transport. A graph cut finds exactly which vertices take the label: the minimum of
+// their unary costs (`terms`) and of the seam costs of their edges (seamCost). A cut is taken only if it
+// lowers the sum by more than a threshold, so the sum never rises.
+// Usage is that of the texels at the time of the cut. Vertices outside `free` (#V; empty: all are free) keep
+// their labels. Discs that do not touch are cut in parallel. Returns the share of cuts taken.
 double expandLabels(const SeamModel& model, const LabelTerms& terms, const std::vector<std::uint8_t>& free,
                     std::uint64_t seed, Labels& labels);
 

@@ -16,14 +16,14 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint64_t kGuidedPlaces =
-    32;  // tried for a block, until its middle is of the level that is wanted
-constexpr std::uint64_t kWayOfBlock = 1ull << 40;  // keys of their own
+    32;  // random places tried per block until its centre has the wanted level
+constexpr std::uint64_t kWayOfBlock = 1ull << 40;  // keys apart from those of the places
 
 }  // namespace
 
 Lay layOf(const Label& label, const Ways& ways) {
   const std::array<float, 4>& j = label.jacobian;
-  // The parts that do and do not commute with rotations: the nearest rotation, and the nearest mirror image.
+  // Conformal and anticonformal part of the Jacobian: the nearest rotation, and the nearest reflection.
   const Complexf keep(j[0] + j[3], j[2] - j[1]), flip(j[3] - j[0], -j[1] - j[2]);
   const bool mirrored = ways.mirrored && isMirrored(label);
   const Complexf& part = mirrored ? flip : keep;
@@ -38,7 +38,7 @@ Label unstretched(const Vec2f& texel, const Lay& lay) {
 
 float stretch(const Label& label) {
   const std::array<float, 4>& j = label.jacobian;
-  // Singular values from the parts that do and do not commute with rotations.
+  // Singular values from the conformal and the anticonformal part.
   const float keep = std::hypot(j[0] + j[3], j[2] - j[1]), flip = std::hypot(j[0] - j[3], j[1] + j[2]);
   const float largest = 0.5f * (keep + flip), smallest = 0.5f * std::abs(keep - flip);
   constexpr float kTorn = 1e3f;
@@ -77,7 +77,7 @@ Values lookUp(const TexelImage& image, const Labels& labels) {
 }
 
 Labels blockLabels(const MeshView& view, const TexelImage& image, float size, std::uint64_t seed) {
-  // Seeds come to lie about 0.7 sizes apart, and no part reaches much farther than `reach` from its seed.
+  // Seeds lie about 0.7 sizes apart; no part reaches much farther than `reach` from its seed.
   const float reach = 0.55f * size;
   const std::vector<std::uint32_t> seeds = selectCenters(view, reach);
   const std::size_t count = view.mesh.positions.size();
@@ -113,12 +113,12 @@ Labels blockLabels(const MeshView& view, const TexelImage& image, float size, st
       queue.push_back(u);
     }
   }
-  // Ring by ring; a vertex takes the mean of what the placed ones of its own part give it.
+  // Ring by ring: a vertex takes the mean of the predictions of its placed neighbours of the same part.
   for (std::size_t i = seeds.size(); i < queue.size(); ++i) {
     const std::uint32_t v = queue[i];
     Vec2f texel(0.0f, 0.0f);
     Complexf turn(0.0f);
-    bool mirrored = false;  // as all of the part
+    bool mirrored = false;  // the same all over the part
     int found = 0;
     for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
       const std::uint32_t u = view.graph.neighbor[h];
@@ -139,7 +139,7 @@ Labels blockLabels(const MeshView& view, const TexelImage& image, float size, st
 
 Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const SurfaceMesh& fine,
                     const TexelImage& fineImage) {
-  // A fine vertex looks into the 27 cells around it, then farther.
+  // A fine vertex searches the 27 cells around it, then everywhere.
   double cell = 1.5 * coarse.spacing;
   if (!coarse.scale.empty()) cell *= *std::max_element(coarse.scale.begin(), coarse.scale.end());
   const PointGrid grid(coarse.positions, cell);
@@ -154,7 +154,7 @@ Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const Surfa
       if (distance < bestDistance) bestDistance = distance, best = u;
     };
     grid.visitNear(x, offer);
-    if (best == kNone)  // a drop the coarser level has lost
+    if (best == kNone)  // a drop that the coarser level has lost
       for (std::uint32_t u = 0; u < coarse.positions.size(); ++u) offer(u);
     if (best == kNone) return;
 
@@ -168,7 +168,7 @@ Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const Surfa
     turn = norm > 1e-6f ? turn / norm : Complexf(1.0f);
     const std::array<float, 4>& j = labels[best].jacobian;
     const float c = turn.real(), s = turn.imag();
-    // Halving joins texels 2i and 2i + 1: the centre of i lies at 2i + 1/2.
+    // Halving averages texels 2i and 2i + 1: the centre of texel i lies at 2i + 1/2.
     result[v].texel = fineImage.brought(texel * 2.0f + Vec2f(0.5f, 0.5f));
     result[v].jacobian = {j[0] * c + j[1] * s, j[1] * c - j[0] * s, j[2] * c + j[3] * s, j[3] * c - j[2] * s};
   });
@@ -176,7 +176,7 @@ Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const Surfa
 }
 
 Label continued(const TexelImage& image, const Label& label, const Complexf& edge, const Complexf& rotation) {
-  // In the label's own axes the edge is conj(rotation) * edge; the way to the neighbour is its negative.
+  // In the label's axes the edge is conj(rotation) * edge; the vector to the neighbour is its negative.
   Label result;
   result.texel = image.brought(label.at(-conjugateProduct(rotation, edge)));
   const std::array<float, 4>& j = label.jacobian;
@@ -213,7 +213,7 @@ void handOn(const TexelImage& image, const MeshView& view, const std::vector<std
         if (placed[view.graph.neighbor[h]] && distance < nearest && mayTake(h)) nearest = distance, from = h;
       }
       if (nearest == std::numeric_limits<float>::infinity()) {
-        reached[v] = 0;  // later, perhaps, from another side
+        reached[v] = 0;  // may be reached later from another side
         continue;
       }
       labels[v] = continued(image, labels[view.graph.neighbor[from]], view.connection.edge[from],

@@ -1,5 +1,5 @@
-// Labels: where in the exemplar each vertex comes from, and how the exemplar lies around it. They are the
-// state that the optimisation leaves behind and that is carried from frame to frame.
+// Labels: exemplar coordinate and Jacobian of each vertex. They are the state that the optimisation produces
+// and that is transported from frame to frame.
 #pragma once
 
 #include "texture/exemplar/texel_image.h"
@@ -15,11 +15,11 @@ namespace fluidtex::texture {
 
 struct Label {
   Vec2f texel{0.0f, 0.0f};
-  // d(texel) / d(l), l the local coordinates in the vertex's own axes, pixels: row 0 (s) then row 1 (t). A
-  // rotation where the texture lies unstretched.
+  // d(texel) / d(l) with l the local coordinates in the vertex's axes, pixels: row 0 (s), then row 1 (t). A
+  // rotation where the texture is isometric.
   std::array<float, 4> jacobian{1.0f, 0.0f, 0.0f, 1.0f};
 
-  // The texel that this label puts at local coordinates l.
+  // Texel that this label predicts at local coordinates l.
   Vec2f at(const Complexf& l) const {
     return Vec2f(texel[0] + jacobian[0] * l.real() + jacobian[1] * l.imag(),
                  texel[1] + jacobian[2] * l.real() + jacobian[3] * l.imag());
@@ -27,30 +27,30 @@ struct Label {
 };
 using Labels = std::vector<Label>;
 
-// How an exemplar lies that is not stretched: an offset on the surface is mirrored (first component negated),
-// if at all, then turned, and is one in the exemplar.
+// An isometric placement of the exemplar: an offset on the surface becomes one in the exemplar by mirroring
+// (first component negated), if `mirrored`, then by rotation.
 struct Lay {
   Complexf turn{1.0f};  // unit
   bool mirrored = false;
 };
 
-// The same, for axes that `rotation` takes to those it was for.
+// The same placement in axes that `rotation` takes to the present ones.
 inline Lay seenFrom(const Lay& lay, const Complexf& rotation) {
   return {lay.mirrored ? conjugateProduct(rotation, lay.turn) : product(lay.turn, rotation), lay.mirrored};
 }
 
-// Of those that an exemplar may have, the unstretched one nearest to a label; upright where none is.
+// The isometric placement nearest to a label, mirrored only if `ways` allows it; upright for a zero Jacobian.
 Lay layOf(const Label& label, const Ways& ways);
 
-// Whether a label shows its mirror image.
+// Whether the Jacobian's determinant is negative.
 inline bool isMirrored(const Label& label) {
   return label.jacobian[0] * label.jacobian[3] < label.jacobian[1] * label.jacobian[2];
 }
 
 Label unstretched(const Vec2f& texel, const Lay& lay);
 
-// How far a label is from that: the larger of its greatest magnification and its greatest reduction, 1 =
-// unstretched, very large where it is torn.
+// Largest of s1 and 1 / s2, singular values s1 >= s2 of the Jacobian: 1 where the texture is isometric, 1000
+// at most.
 float stretch(const Label& label);
 
 Label labelOf(const SurfaceMesh& mesh, std::uint32_t v, const Vec2f& coordinate,
@@ -59,19 +59,19 @@ Labels labelsOf(const SurfaceMesh& mesh, const std::vector<Vec2f>& coordinate,
                 const std::vector<TexelGradient>& gradient);
 TexelGradient gradientOf(const Label& label, const Vec3f& orientation, const Vec3f& normal, double spacing);
 
-// Channels looked up at the labels.
+// Channels of the image at the labels.
 Values lookUp(const TexelImage& image, const Labels& labels);
 
-// Random blocks: the surface is divided among seeds about `size` pixels apart, and each part gets one
-// contiguous block of the exemplar, from a random place, where guided one of the level that is wanted.
+// Initial labels: the surface is divided among seeds about `size` pixels apart, and each part gets one
+// contiguous block from a random place in the exemplar; where guided, from one of the wanted level.
 Labels blockLabels(const MeshView& view, const TexelImage& image, float size, std::uint64_t seed);
 
-// Labels for a finer level, whose exemplar is twice as large, from the nearest vertex of the coarser one that
-// faces the same way.
+// Labels of a finer level, whose exemplar is twice as large, from the nearest vertex of the coarser level
+// that faces the same way.
 Labels refineLabels(const SurfaceMesh& coarse, const Labels& labels, const SurfaceMesh& fine,
                     const TexelImage& fineImage);
 
-// a - b; on an exemplar that wraps, positions differ by whole turns without meaning it.
+// a - b; the shortest difference where the exemplar is toroidal.
 inline Vec2f texelDifference(const TexelImage& image, const Vec2f& a, const Vec2f& b) {
   const auto shortest = [](float d, float size) {
     return std::abs(d) <= 0.5f * size ? d : d - size * std::floor(d / size + 0.5f);
@@ -80,25 +80,26 @@ inline Vec2f texelDifference(const TexelImage& image, const Vec2f& a, const Vec2
   return image.toroidal ? Vec2f(shortest(d[0], float(image.width)), shortest(d[1], float(image.height))) : d;
 }
 
-// Whether a texel lies on the exemplar, within half a texel; on one that wraps all do.
+// Whether a texel lies on the exemplar, within half a texel; always on a toroidal one.
 inline bool liesOn(const TexelImage& image, const Vec2f& texel) {
   return image.toroidal || (texel - image.brought(texel)).lengthSqr() <= 0.25f;
 }
 
-// A label continued to a neighbouring vertex; `edge` and `rotation` are that vertex's, towards the label's
-// own.
+// A label continued to a neighbouring vertex. `edge` and `rotation`: connection of that vertex's half-edge
+// towards the label's vertex.
 Label continued(const TexelImage& image, const Label& label, const Complexf& edge, const Complexf& rotation);
 
-// Beyond the edge of an exemplar that does not wrap, labels are continued by what lies at its edge, or not.
+// Whether labels are continued beyond the edge of an exemplar that is not toroidal: by the texels at its
+// edge, or not at all.
 enum class HandOn { everywhere, inside };
 
-// Continues the labels of `placed` vertices (#V) ring by ring over the `wanted` ones (#V) that hang together
-// with them; each takes that of the nearest neighbour that has one.
+// Continues the labels of `placed` vertices (#V) ring by ring over the `wanted` ones (#V) connected to them;
+// each takes that of its nearest placed neighbour.
 void handOn(const TexelImage& image, const MeshView& view, const std::vector<std::uint8_t>& wanted,
             std::vector<std::uint8_t> placed, Labels& labels, HandOn how = HandOn::everywhere);
 
-// Two labels continue each other where each puts, at the other's place, a texel this near to the other's (the
-// mean of both).
+// Texels. Two labels continue each other if each predicts the other's texel with an error below this,
+// averaged over both.
 inline constexpr float kCoherent = 0.75f;
 
 }  // namespace fluidtex::texture

@@ -20,8 +20,8 @@ void MinCut::reset(std::size_t nodes) {
 }
 
 void MinCut::addOwn(std::uint32_t node, float keep, float take) {
-  // The source's link is cut where the node takes, the sink's where it keeps; what both have in common flows
-  // at once.
+  // The source arc is cut where the node takes, the sink arc where it keeps. Flow through both is pushed at
+  // once.
   float& residual = m_nodes[node].toTerminal;
   float fromSource = take, toSink = keep;
   if (residual > 0.0f)
@@ -67,7 +67,7 @@ double MinCut::solve() {
     const std::uint32_t i = m_active[m_nextActive];
     const std::int32_t middle = m_nodes[i].parent == kFree ? -1 : grow(i);
     ++m_time;
-    if (middle < 0) {  // nothing more is to be reached from here
+    if (middle < 0) {  // all paths from here are exhausted
       m_nodes[i].active = false;
       ++m_nextActive;
       continue;
@@ -80,8 +80,8 @@ double MinCut::solve() {
   return m_flow;
 }
 
-// Takes free neighbours into the node's tree. Returns the arc to the other tree, directed from the source's
-// tree to the sink's, as soon as one is met; else -1.
+// Adds free neighbours to the node's tree. Returns the first arc that meets the other tree, directed from the
+// source's tree to the sink's; -1 if there is none.
 std::int32_t MinCut::grow(std::uint32_t i) {
   const bool sinkTree = m_nodes[i].inSinkTree;
   for (std::int32_t a = m_nodes[i].firstArc; a >= 0; a = m_arcs[std::size_t(a)].next) {
@@ -94,7 +94,7 @@ std::int32_t MinCut::grow(std::uint32_t i) {
     } else if (other.inSinkTree != sinkTree) {
       return sinkTree ? a ^ 1 : a;
     } else if (other.stamp > own.stamp || other.distance <= own.distance) {
-      continue;  // its own way to the terminal is as short
+      continue;  // its present path to the terminal is as short
     }
     other.parent = a ^ 1;
     other.stamp = own.stamp;
@@ -103,7 +103,7 @@ std::int32_t MinCut::grow(std::uint32_t i) {
   return -1;
 }
 
-// Sends as much flow as fits along the path through both trees and the arc between them.
+// Pushes the bottleneck capacity along the path through both trees and the arc between them.
 void MinCut::augment(std::int32_t middle) {
   const std::uint32_t ends[2] = {m_arcs[std::size_t(middle ^ 1)].head, m_arcs[std::size_t(middle)].head};
   float flow = m_arcs[std::size_t(middle)].residual;
@@ -131,7 +131,7 @@ void MinCut::augment(std::int32_t middle) {
   m_flow += double(flow);
 }
 
-// Arcs from a node to its terminal; kFar where an orphan lies on the way.
+// Arcs from a node to its terminal; kFar if an orphan is on the path.
 int MinCut::distanceToTerminal(std::uint32_t i) const {
   for (int steps = 0;; ++steps) {
     const Node& node = m_nodes[i];
@@ -142,8 +142,8 @@ int MinCut::distanceToTerminal(std::uint32_t i) const {
   }
 }
 
-// Finds an orphan a new parent in its tree, the nearest to the terminal; without one it becomes free and its
-// children orphans.
+// Adoption: gives an orphan the parent in its tree that is nearest to the terminal. Without one the node
+// becomes free and its children orphans.
 void MinCut::adopt(std::uint32_t i) {
   const bool sinkTree = m_nodes[i].inSinkTree;
   int least = kFar;
@@ -156,7 +156,7 @@ void MinCut::adopt(std::uint32_t i) {
     int distance = distanceToTerminal(j);
     if (distance == kFar) continue;
     if (distance < least) least = distance, best = a;
-    // What was walked need not be walked again.
+    // Marks the path, so that it is not walked again.
     for (std::uint32_t k = j; m_nodes[k].stamp != m_time; --distance) {
       m_nodes[k].stamp = m_time;
       m_nodes[k].distance = distance;

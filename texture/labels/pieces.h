@@ -1,4 +1,4 @@
-// Connected pieces of a surface.
+// Connected components of a masked surface.
 #pragma once
 
 #include "texture/orientation/tangent.h"
@@ -8,8 +8,9 @@
 
 namespace fluidtex::texture {
 
-// Calls body(piece) with the vertices of every piece of the mask (#V) that hangs together over half-edges h
-// for which joined(h), the same both ways, holds: pieces by their first vertex, each from there outwards.
+// Calls body(piece) for each connected component of the mask (#V) over half-edges h with joined(h), which
+// must be symmetric. Components come in the order of their first vertex, their vertices in breadth-first
+// order from it.
 template <typename Joined, typename Body>
 void forEachPiece(const VertexGraph& graph, const std::vector<std::uint8_t>& mask, const Joined& joined,
                   const Body& body) {
@@ -30,7 +31,7 @@ void forEachPiece(const VertexGraph& graph, const std::vector<std::uint8_t>& mas
   }
 }
 
-// The same over all half-edges.
+// The same with all half-edges joined.
 template <typename Body>
 void forEachPiece(const VertexGraph& graph, const std::vector<std::uint8_t>& mask, const Body& body) {
   forEachPiece(

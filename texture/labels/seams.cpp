@@ -1,5 +1,5 @@
-// Seam cost after Kwatra, Schoedl, Essa, Turk, Bobick: Graphcut Textures (2003); minimised vertex by vertex
-// (iterated conditional modes).
+// Seam cost after Kwatra, Schoedl, Essa, Turk, Bobick: Graphcut Textures (2003); minimised by iterated
+// conditional modes.
 #include "texture/labels/seams.h"
 
 #include "texture/labels/guidance.h"
@@ -12,14 +12,14 @@
 namespace fluidtex::texture {
 namespace {
 
-// A vertex's own cost is taken for a dozen labels.
+// Grain of the parallel loop; a vertex evaluates about a dozen labels.
 constexpr std::size_t kSeamGrain = 128;
 
 float length(const Float8& difference, const Float8& weight) {
   return std::sqrt(sum8(weight * difference * difference));
 }
 
-// What the label of each end of an edge puts at the other end.
+// What each end's label predicts at the other end.
 struct Across {
   Vec2f vThere, uHere;
 };
@@ -35,7 +35,7 @@ bool continues(const SeamModel& model, const Label& atV, const Label& atU, const
   return here + there < 2.0f * kCoherent;
 }
 
-// Where they do not.
+// Where the labels do not continue each other.
 float seamCost(const SeamModel& model, const Across& across, const Float8& valueV, const Float8& valueU) {
   const Float8 atEnd = model.image.sample(across.vThere) - valueU;
   const Float8 atStart = model.image.sample(across.uHere) - valueV;
@@ -43,7 +43,7 @@ float seamCost(const SeamModel& model, const Across& across, const Float8& value
          (length(atEnd, model.channelWeight) + length(atStart, model.channelWeight)) / model.unit;
 }
 
-// The free vertices by colour, no two neighbours in one.
+// Greedy colouring of the free vertices: neighbours differ in colour.
 std::vector<std::vector<std::uint32_t>> colored(const VertexGraph& graph,
                                                 const std::vector<std::uint8_t>& free) {
   const std::size_t count = graph.first.size() - 1;
@@ -56,7 +56,7 @@ std::vector<std::vector<std::uint32_t>> colored(const VertexGraph& graph,
       if (color[u] >= 0) taken |= std::uint64_t(1) << std::min<int>(color[u], 63);
     int own = 0;
     while (own < 63 && (taken >> own & 1)) ++own;
-    if (own == 63) continue;  // a vertex with that many neighbours stays as it is
+    if (own == 63) continue;  // vertices with that many neighbours keep their label
     color[v] = std::int16_t(own);
     if (std::size_t(own) >= classes.size()) classes.resize(std::size_t(own) + 1);
     classes[std::size_t(own)].push_back(v);
@@ -111,7 +111,7 @@ void straightenSeams(const SeamModel& model, const LabelTerms& terms, const std:
   const VertexGraph& graph = model.view.graph;
   const std::vector<std::vector<std::uint32_t>> classes = colored(graph, free);
   std::vector<std::uint8_t> active(labels.size(),
-                                   1);  // whose surroundings have changed since it was last looked at
+                                   1);  // the surroundings have changed since the last visit
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     std::vector<std::uint8_t> changed(labels.size(), 0);
     for (const std::vector<std::uint32_t>& members : classes) {
@@ -129,7 +129,7 @@ void straightenSeams(const SeamModel& model, const LabelTerms& terms, const std:
               return cost;
             };
             constexpr float kAny = 1e30f;
-            constexpr float kGain = 1e-4f;  // less is rounding
+            constexpr float kGain = 1e-4f;  // above rounding
             const float present = costOf(labels[v], kAny);
             float least = present;
             Label best = labels[v];

@@ -8,14 +8,15 @@
 namespace fluidtex::texture {
 namespace {
 
-// A slip of half a texel is spread over about two rings to each side. With 16 sweeps and four rings as much
-// texture is drawn out by 1.4, and more windows are unlike the exemplar's
+// Spreads a slip of half a texel over about two rings to each side. With 16 sweeps and four rings as much
+// texture is stretched by 1.4, and more windows are unlike the exemplar's
 // (docs/notebook/2026-11-23-synthesis-variants.md).
 constexpr int kSweeps = 4;
-// The Jacobian before counts as much as this share of an edge of one pixel in each direction.
+// Regularisation: the former Jacobian weighs as much as this share of an edge of one pixel in each direction.
 constexpr float kInertia = 0.5f;
 
-// Of each edge from v to u: how far from v's texel u's label puts v's, and whether they continue each other.
+// Of an edge from v to u: the texel that u's label predicts at v minus v's own, and whether the labels
+// continue each other.
 struct Slip {
   Vec2f offset{0.0f, 0.0f};
   bool continues = false;
@@ -36,12 +37,12 @@ std::vector<Slip> slipsOf(const SeamModel& model, const std::vector<std::uint32_
   return slips;
 }
 
-// Least squares over the edges that hang together, near to what it was.
+// Regularised least-squares fit of the Jacobian to the edges that continue.
 void refit(const SeamModel& model, std::uint32_t v, const std::vector<Slip>& slips, const Labels& labels,
            std::array<float, 4>& jacobian) {
   const MeshView& view = model.view;
   float xx = kInertia, xy = 0.0f, yy = kInertia;
-  Vec2f right[2] = {{0.0f, 0.0f}, {0.0f, 0.0f}};  // of what the edges are off
+  Vec2f right[2] = {{0.0f, 0.0f}, {0.0f, 0.0f}};  // right-hand sides, for the residual
   for (std::uint32_t h = view.graph.first[v]; h < view.graph.first[v + 1]; ++h) {
     if (!slips[h].continues) continue;
     const Complexf& edge = view.connection.edge[h];
@@ -84,7 +85,7 @@ void closeSlips(const SeamModel& model, const std::vector<std::uint8_t>& free, L
   forEachIndex(members.size(), [&](std::uint32_t i) {
     labels[members[i]].texel = model.image.brought(labels[members[i]].texel + shift[members[i]]);
   });
-  // Of its neighbours each reads the texel only.
+  // Reads only the texels of neighbours, so the order does not matter.
   forEachIndex(members.size(), [&](std::uint32_t i) {
     refit(model, members[i], slips, labels, labels[members[i]].jacobian);
   });

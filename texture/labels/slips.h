@@ -1,6 +1,6 @@
-// Slips: joints at which two pieces of the exemplar are off by less than kCoherent texels. Windows are found
-// at whole texels and lie between them, so that pieces that are one in the exemplar meet like that
-// everywhere; as each slip is taken up by a single edge, texture is drawn out or squeezed there.
+// Slips, sub-texel misalignments: edges across which labels continue each other with an error below kCoherent
+// texels. Windows are matched at whole texels and lie between them, so that patches that are one in the
+// exemplar meet like that everywhere; each slip stretches or compresses the texture on a single edge.
 #pragma once
 
 #include "texture/labels/seams.h"
@@ -9,9 +9,9 @@
 
 namespace fluidtex::texture {
 
-// Spreads slips over some rings of vertices: free vertices (free empty: all) move towards the mean of what
-// the labels of those neighbours that they continue() put there, and their Jacobians are fitted to where
-// these neighbours are then. The others keep their labels. Wider joints stay as they are.
+// Diffuses slips over a few rings of vertices: free vertices (`free` #V; empty: all) move towards the mean of
+// the texels that the labels of neighbours they continue predict there; their Jacobians are then refitted.
+// Other vertices keep their labels. Wider misalignments stay.
 void closeSlips(const SeamModel& model, const std::vector<std::uint8_t>& free, Labels& labels);
 
 }  // namespace fluidtex::texture

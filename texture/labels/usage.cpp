@@ -6,7 +6,7 @@
 namespace fluidtex::texture {
 namespace {
 
-// Parts that hardly anyone asks for may be used a little, lest a single use of them costs everything.
+// Least expected usage, so that a single use of a part without demand has a finite cost.
 constexpr float kLeastAsked = 0.1f;
 constexpr int kSamples = 3;  // along a cell's side
 

@@ -1,4 +1,4 @@
-// How often each part of the exemplar is used, so that all of it keeps its share [Kaspar15].
+// Usage of each part of the exemplar, for a penalty that keeps its coverage [Kaspar15].
 #pragma once
 
 #include "texture/exemplar/texel_image.h"
@@ -8,16 +8,16 @@
 
 namespace fluidtex::texture {
 
-// Places in the exemplar, counted in a grid of cells and spread linearly over the four nearest.
+// A histogram of exemplar coordinates over a grid of cells, each spread bilinearly over four.
 class Usage {
  public:
-  // Square cells of about `cell` texels; `count` places will be counted in all. Where parts are asked for
-  // unevenly, each should be used as much as it is asked for.
+  // cell: side of the square cells, texels, approximately. count: places that will be added in all. demand:
+  // expected usage; empty: even.
   Usage(const TexelImage& image, int cell, std::size_t count, const Demand& demand = {});
 
   void add(const Vec2f& texel, float amount);
 
-  // 1 where this part is used as often as it should be, 2 where twice as often.
+  // Usage over its expected value at a texel: 1 as expected, 2 twice as much.
   float at(const Vec2f& texel) const;
 
  private:

@@ -1,4 +1,4 @@
-// Ways to lay an exemplar that looks the same turned, by halves or quarters of a turn, or mirrored.
+// Symmetry variants of an exemplar: rotations by multiples of 90 degrees, and reflections.
 #pragma once
 
 #include "texture/labels/labels.h"
@@ -9,13 +9,13 @@
 
 namespace fluidtex::texture {
 
-// What takes an offset on the surface to one in the exemplar: it is mirrored (first component negated) if
-// kMirrored is set, then turned by so many quarter turns, 0 to 3.
+// Takes an offset on the surface to one in the exemplar: mirrored (first component negated) if kMirrored is
+// set, then rotated by 0 to 3 quarter turns.
 using Way = std::uint8_t;
 inline constexpr Way kMirrored = 4;
 inline constexpr int kMostWays = 8;
 
-// An offset l on the surface, as one in the exemplar.
+// Offset in the exemplar for an offset l on the surface.
 inline Vec2f laid(Way way, Vec2f l) {
   if (way & kMirrored) l[0] = -l[0];
   switch (way & 3) {
@@ -39,14 +39,14 @@ inline int countOf(const Ways& ways) {
   return ways.mirrored ? 2 * ways.turns : ways.turns;
 }
 
-// The i-th of them; the first is upright.
+// The i-th variant; 0 is upright.
 inline Way wayAt(const Ways& ways, int i) {
   assert(i >= 0 && i < countOf(ways));
   const Way turned = Way(i % ways.turns * (4 / ways.turns));
   return i < ways.turns ? turned : turned | kMirrored;
 }
 
-// The one nearest to how something lies; mirrored as that is, where that may be.
+// The variant nearest to a placement; mirrored if the placement is, where that is allowed.
 inline Way nearestWay(const Ways& ways, const Lay& lay) {
   const int begin = lay.mirrored && ways.mirrored ? ways.turns : 0;
   Way best = wayAt(ways, begin);

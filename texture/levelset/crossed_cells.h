@@ -1,4 +1,4 @@
-// The cells of a block that the zero set crosses.
+// Cells of a block that the zero set crosses.
 #pragma once
 
 #include "texture/levelset/level_set.h"
@@ -9,13 +9,13 @@
 
 namespace fluidtex::texture {
 
-// Calls body(x, y, z, pointer to the value at its lowest corner) for each cell of a block whose corners
-// differ in sign, x slowest. `values`: as LevelSet::values.
+// Calls body(x, y, z, pointer to the value at the lowest corner) for each cell of a block whose corners
+// differ in sign, x slowest. values: as LevelSet::values.
 template <typename Body>
 void forCrossedCells(const float* values, const Body& body) {
   constexpr int kSide = LevelSet::kSide, kPadded = LevelSet::kPadded;
   const auto row = [&](int x, int y) { return values + ((x + 1) * kPadded + y + 1) * kPadded + 1; };
-  // One bit a value, a row along z at a time.
+  // One bit per value, one row along z at a time.
   std::array<std::array<unsigned, kSide + 1>, kSide + 1> inside;
   for (int x = 0; x <= kSide; ++x)
     for (int y = 0; y <= kSide; ++y)

@@ -25,9 +25,9 @@ constexpr int kSide = LevelSet::kSide;
 constexpr int kPadded = LevelSet::kPadded;
 constexpr int kBlockCells = kSide * kSide * kSide;
 constexpr std::size_t kTermsAtOnce = 4096;  // of a sum
-constexpr int kCentre = 12;                 // in the table: the extra vertex in the cell's middle
+constexpr int kCentre = 12;                 // in the table: the extra vertex at the centre
 
-// A crossing lies on the edge between two corners; corner c of a cell is at (c & 1, c >> 1 & 1, c >> 2 & 1).
+// A crossing is on the edge between two corners; corner c of a cell is at (c & 1, c >> 1 & 1, c >> 2 & 1).
 struct Crossing {
   int low, high;
   bool operator==(const Crossing&) const = default;
@@ -51,8 +51,8 @@ bool onOneFace(const Crossing& a, const Crossing& b) {
 
 using Polygon = std::vector<Crossing>;
 
-// Triangles of a polygon by its own corners, with no diagonal that lies in a face of the cell: the neighbour
-// might draw the same one, and the edge would have four triangles. Nothing if there is no such division.
+// Triangulation of a polygon without diagonals in a face of the cell: the neighbouring cell might have the
+// same one, and the edge four triangles. Nothing if there is none.
 std::optional<std::vector<std::array<Crossing, 3>>> triangulate(const Polygon& polygon) {
   using Triangles = std::vector<std::array<Crossing, 3>>;
   const std::size_t n = polygon.size();
@@ -125,8 +125,8 @@ std::vector<std::array<Crossing, 3>> tetrahedraTriangles(unsigned negative) {
   return triangles;
 }
 
-// The loops in which the triangles of one cell meet its faces, as oriented by the triangles, diagonal
-// crossings left out.
+// Loops in which the triangles of a cell meet its faces, oriented as the triangles, without diagonal
+// crossings.
 std::vector<Polygon> faceLoops(const std::vector<std::array<Crossing, 3>>& triangles) {
   std::vector<std::array<Crossing, 2>> open;
   for (const auto& t : triangles) {
@@ -166,13 +166,12 @@ Case makeCase(unsigned negative) {
     result.triangles.push_back({std::uint8_t(a.edge()), std::uint8_t(b.edge()), std::uint8_t(c.edge())});
   };
   const std::vector<Polygon> loops = faceLoops(tetrahedraTriangles(negative));
-  // Two opposite corners on the dividing diagonal: one tube between two triangles, the only patch that is no
+  // Two opposite corners on the dividing diagonal: a tube between two triangles, the only patch that is no
   // disc.
   constexpr unsigned kEnds = 1u | 1u << 7;
   if (negative == kEnds || negative == (~kEnds & 0xffu)) {
     assert(loops.size() == 2 && loops[0].size() == 3 && loops[1].size() == 3);
-    // The edges of one end are matched with those of the other by nearness: they share one corner's
-    // coordinate pattern.
+    // Edges at both ends are matched by nearness: they share one corner's coordinate pattern.
     const Polygon& a = loops[0];
     Polygon b = loops[1];
     const auto parallel = [](const Crossing& p, const Crossing& q) {
@@ -254,8 +253,8 @@ IsoSurface isoSurface(const LevelSet& phi) {
   surface.triangles.resize(firstTriangle.back());
   surface.cells.resize(firstTriangle.back());
 
-  // vertexOf[(block * cells + cell) * 3 + axis]: the crossing on the edge from the cell's lowest corner along
-  // that axis.
+  // vertexOf[(block * cells + cell) * 3 + axis]: crossing on the edge from the cell's lowest corner along the
+  // axis.
   const auto vertexOf = std::make_unique_for_overwrite<std::uint32_t[]>(blocks * kBlockCells * 3);
   forBlocks([&](std::size_t b) {
     constexpr float kMargin = 0.02f;

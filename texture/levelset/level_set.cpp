@@ -29,7 +29,7 @@ constexpr int kPadded = LevelSet::kPadded;
 constexpr std::size_t kBlockValues = std::size_t(kPadded) * kPadded * kPadded;
 static_assert(Leaf::DIM == kSide);
 
-// Values further from the surface than this carry no information about it; the bound keeps products finite.
+// Values farther from the surface carry no information; the bound keeps products finite.
 constexpr float kFarthest = 8.0f;
 
 std::uint64_t morton(const Coord& origin) {
@@ -61,8 +61,8 @@ void requireFinite(const FloatGrid& phi, const std::vector<const Leaf*>& leaves)
   if (std::find(bad.begin(), bad.end(), 1) != bad.end()) fail();
 }
 
-// Blocks in which a cell may have corners of both signs. A cell belongs to the block of its lowest corner, so
-// the blocks below each leaf count too. Two tiles of opposite sign may touch without a leaf between them:
+// Blocks that may have a cell with corners of both signs. A cell belongs to the block of its lowest corner,
+// so the blocks below each leaf count too. Tiles of opposite sign may touch without a leaf between them:
 // their rim counts as well.
 std::vector<Coord> candidateBlocks(const FloatGrid& phi, const std::vector<const Leaf*>& leaves) {
   std::vector<Coord> blocks = gathered<Coord>(leaves.size(), [&](std::uint32_t i, std::vector<Coord>& found) {
@@ -101,8 +101,8 @@ std::vector<Coord> candidateBlocks(const FloatGrid& phi, const std::vector<const
   return blocks;
 }
 
-// Whether a cell of the block may have corners of both signs: none has if the block and those above it have
-// one.
+// Whether a cell of the block may have corners of both signs: not if the block and those above it have one
+// sign.
 bool maybeCrossed(const FloatGrid::ConstAccessor& acc, const Coord& origin) {
   bool inside = false, outside = false;
   for (int n = 0; n < 8; ++n) {
@@ -111,7 +111,7 @@ bool maybeCrossed(const FloatGrid::ConstAccessor& acc, const Coord& origin) {
     if (!leaf) {
       (acc.getValue(o) < 0.0f ? inside : outside) = true;
     } else {
-      // Of the blocks above only the lowest layer, edge or corner is the block's too.
+      // Of the blocks above, only the lowest layer, edge or corner belongs to the block.
       const float* v = leaf->buffer().data();
       const int xs = n & 1 ? 1 : kSide, ys = n & 2 ? 1 : kSide, zs = n & 4 ? 1 : kSide;
       for (int x = 0; x < xs; ++x)
@@ -159,7 +159,7 @@ void gather(const FloatGrid::ConstAccessor& acc, const Coord& origin, float scal
   }
 }
 
-struct CellBox {  // of the cells that the zero set crosses; empty if lo > hi
+struct CellBox {  // of crossed cells; empty if lo > hi
   std::array<std::int8_t, 3> lo{8, 8, 8}, hi{-1, -1, -1};
   bool empty() const { return hi[0] < 0; }
 };
@@ -214,7 +214,7 @@ LevelSet::LevelSet(const FloatGrid& phi) {
     boxes[i] = crossedCells(v.data());
   });
 
-  // A point that slides along the surface may leave its cell by a little: keep the blocks one cell around.
+  // A point that slides along the surface may leave its cell slightly: keep blocks within one cell.
   std::vector<Coord> around;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (boxes[i].empty()) continue;
@@ -264,7 +264,7 @@ LevelSet::Sample LevelSet::sample(const Vec3f& x) const {
   const std::uint32_t block = find(Coord(i & ~7, j & ~7, k & ~7));
   if (block == kNone) return s;
 
-  // Catmull-Rom weights of the four values along one direction, and their derivatives.
+  // Catmull-Rom weights along one axis, and their derivatives.
   const auto weights = [](float t, float* w, float* d) {
     const float t2 = t * t, t3 = t2 * t;
     w[0] = 0.5f * (-t + 2.0f * t2 - t3);
@@ -347,7 +347,7 @@ LevelSet::Projection LevelSet::project(const Vec3f& x, float reach) const {
 
 LevelSet::Projection LevelSet::slide(const Vec3f& x, float reach) const {
   constexpr float kNear = 0.05f;  // voxels: one step is enough from here
-  constexpr float kSteep = 0.5f;  // so steep must the gradient be for it
+  constexpr float kSteep = 0.5f;  // least gradient for it
   const Sample s = sample(x);
   const float length2 = s.gradient.lengthSqr();
   if (!s.known || std::abs(s.value) > kNear || length2 < kSteep * kSteep) return project(x, reach);

@@ -1,5 +1,5 @@
-// A narrow-band level set copied into small padded blocks, so that a tricubic sample is one gather of 4x4x4
-// values; and how large an exemplar's pixel should be beside it.
+// A narrow-band level set in small padded blocks, so that a tricubic sample is one gather of 4x4x4 values;
+// and the scale of the texture on it.
 #pragma once
 
 #include "texture/surface.h"
@@ -10,9 +10,9 @@
 
 namespace fluidtex::texture {
 
-// Works in index space (one voxel = 1, voxel centres at integers) and in voxels of distance, whatever the
-// grid's transform. Only blocks near the zero set are kept. Throws std::invalid_argument if a value is not
-// finite or voxels are not cubes.
+// Index space (voxel = 1, voxel centres at integers); distances in voxels, whatever the grid's transform.
+// Only blocks near the zero set are kept. Throws std::invalid_argument if a value is not finite or voxels are
+// not cubes.
 class LevelSet {
  public:
   static constexpr int kSide = 8;     // cells along a block's edge; block origins are multiples of it
@@ -21,7 +21,7 @@ class LevelSet {
 
   explicit LevelSet(const openvdb::FloatGrid& phi);
 
-  // Blocks that hold a cell which the zero set crosses come first, along a space-filling curve; then their
+  // Blocks with a cell that the zero set crosses come first, along a space-filling curve, then their
   // surroundings.
   std::size_t surfaceBlockCount() const { return m_surfaceBlocks; }
   const openvdb::Coord& origin(std::size_t block) const { return m_origins[block]; }
@@ -33,32 +33,31 @@ class LevelSet {
   std::size_t blockCount() const { return m_origins.size(); }
   std::uint32_t find(const openvdb::Coord& origin) const;
 
-  // The side of an exemplar's pixel at x, as a multiple of the spacing; 1 everywhere until setScale() is
-  // called. Linear between voxels.
+  // Side of an exemplar pixel at x over the spacing; linear between voxels. 1 before setScale().
   float scale(const Vec3f& x) const { return m_scale.empty() ? 1.0f : sampleScale(x); }
   bool scaled() const { return !m_scale.empty(); }
-  // kScaled^3 values for each of the blocks, at local coordinates 0..8, x slowest.
+  // kScaled^3 values per block, at local coordinates 0..8, x slowest.
   static constexpr int kScaled = kSide + 1;
   void setScale(std::vector<float> values) { m_scale = std::move(values); }
 
   struct Sample {
     float value = 0.0f;    // voxels, negative inside
-    Vec3f gradient{0.0f};  // of the same interpolant; zero where the level set is not known
+    Vec3f gradient{0.0f};  // of the same interpolant; zero where unknown
     bool known = false;
   };
-  // Catmull-Rom interpolation in each direction: value and gradient are continuous.
+  // Catmull-Rom interpolation along each axis: value and gradient are continuous.
   Sample sample(const Vec3f& x) const;
 
   struct Projection {
     Vec3f position;
     Vec3f normal{0.0f};     // unit, outward; zero where the gradient vanishes
-    float distance = 0.0f;  // |value| that is left, voxels
+    float distance = 0.0f;  // residual |value|, voxels
     bool known = false;
   };
-  // Newton steps along the gradient to the zero set, at most `reach` voxels from x.
+  // Projects to the zero set by Newton steps along the gradient, at most `reach` voxels from x.
   Projection project(const Vec3f& x, float reach = 1.0f) const;
-  // One Newton step, for a point that has left the zero set by a little only: what it leaves is of the second
-  // order. `distance` is not filled in.
+  // One Newton step, for points close to the zero set: the residual is of second order. `distance` is not
+  // set.
   Projection slide(const Vec3f& x, float reach = 1.0f) const;
 
  private:

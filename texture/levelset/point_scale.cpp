@@ -32,7 +32,7 @@ int nodeAt(int x, int y, int z) {
   return (x * kSide + y) * kSide + z;
 }
 
-// Local coordinates -1..8 of a block: the neighbour that holds them, by its place in Neighbors.
+// Local coordinates -1..8 of a block: index in Neighbors of the block that holds them.
 int neighborAt(int x, int y, int z) {
   const auto part = [](int i) { return i < 0 ? 0 : i < kSide ? 1 : 2; };
   return part(x) * 9 + part(y) * 3 + part(z);
@@ -43,8 +43,8 @@ class Limiter {
   Limiter(const LevelSet& phi, std::vector<float> nodes, float rise)
       : m_neighbors(neighborsOf(phi)), m_nodes(std::move(nodes)), m_rise(rise) {}
 
-  // Lowers what rises too steeply until nothing does. Whatever the order, the result is the same: the largest
-  // field below the given one that rises nowhere too steeply.
+  // Gradient limiting: lowers what rises too steeply until nothing does. The result, the largest admissible
+  // field below the given one, does not depend on the order.
   void run() {
     std::vector<std::uint32_t> active(m_neighbors.size());
     for (std::uint32_t b = 0; b < active.size(); ++b) active[b] = b;
@@ -66,7 +66,7 @@ class Limiter {
     }
   }
 
-  // As LevelSet::setScale wants them.
+  // In the layout of LevelSet::setScale().
   std::vector<float> corners() const {
     constexpr int kScaled = LevelSet::kScaled;
     std::vector<float> result(m_neighbors.size() * kScaled * kScaled * kScaled);
@@ -82,7 +82,7 @@ class Limiter {
  private:
   float* block(std::uint32_t b) { return m_nodes.data() + std::size_t(b) * kNodes; }
 
-  // At local coordinates -1..8; where there is no block, of the nearest node that the block has itself.
+  // At local coordinates -1..8; without a block there, of the nearest node of this block.
   float value(std::uint32_t b, int x, int y, int z) const {
     const std::uint32_t n = m_neighbors[b][std::size_t(neighborAt(x, y, z))];
     if (n != kNone) return m_nodes[std::size_t(n) * kNodes + std::size_t(nodeAt(x & 7, y & 7, z & 7))];
@@ -90,7 +90,7 @@ class Limiter {
     return m_nodes[std::size_t(b) * kNodes + std::size_t(nodeAt(inside(x), inside(y), inside(z)))];
   }
 
-  // One pass forwards and one backwards over a block and the nodes around it. Whether anything fell.
+  // One forward and one backward pass over a block and the nodes around it. Returns whether anything fell.
   bool lower(std::uint32_t b, std::array<float, kNodes>& result) const {
     constexpr int kWide = kSide + 2;
     std::array<float, kWide * kWide * kWide> v;
@@ -105,7 +105,7 @@ class Limiter {
         const int k = way < 0 ? node : kNodes - 1 - node;
         const int here = at(k / (kSide * kSide), k / kSide % kSide, k % kSide);
         float& own = v[std::size_t(here)];
-        for (int n = 0; n < 13; ++n) {  // the neighbours that the pass has been at
+        for (int n = 0; n < 13; ++n) {  // neighbours already visited
           const int dx = n / 9 - 1, dy = n / 3 % 3 - 1, dz = n % 3 - 1;
           const int there = here - way * ((dx * kWide + dy) * kWide + dz);
           const float most = v[std::size_t(there)] + rise[std::size_t(dx * dx + dy * dy + dz * dz)];

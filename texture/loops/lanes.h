@@ -1,5 +1,5 @@
-// Eight floats, eight of half precision, or sixteen small numbers, at once, for inner loops. Compiled for a
-// processor without such registers it works as well, only slower.
+// SIMD types for inner loops: eight floats, eight halves, or sixteen shorts. Without such registers they
+// compile to slower code.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace fluidtex::texture {
 
 using Float8 = float __attribute__((vector_size(32)));
 
-// Eight numbers of half precision, 11 bits each: from 0 to 1 at least eight times as fine as 8-bit colours.
+// Eight halves, 11 significant bits: in 0..1 at least eight times as fine as 8-bit colours.
 using Half8 = _Float16 __attribute__((vector_size(16)));
 
 inline Float8 widened(const Half8& lanes) {

@@ -1,11 +1,11 @@
-// Order along a space-filling curve: what is near in it is near in space.
+// Order along a space-filling curve (Morton code), for locality.
 #pragma once
 
 #include <cstdint>
 
 namespace fluidtex::texture {
 
-// Bits of x spread to every third place.
+// Spreads the bits of x to every third position.
 inline std::uint64_t spreadBits(std::uint64_t x) {
   x &= 0x1fffff;
   x = (x | x << 32) & 0x1f00000000ffffULL;
@@ -16,7 +16,7 @@ inline std::uint64_t spreadBits(std::uint64_t x) {
   return x;
 }
 
-// Of coordinates from -2^20 to 2^20 - 1; others wrap around.
+// Coordinates from -2^20 to 2^20 - 1; others wrap.
 inline std::uint64_t mortonCode(std::int64_t x, std::int64_t y, std::int64_t z) {
   constexpr std::int64_t kOffset = 1 << 20;
   return spreadBits(std::uint64_t(x + kOffset)) << 2 | spreadBits(std::uint64_t(y + kOffset)) << 1 |

@@ -1,4 +1,4 @@
-// Loops and sums over an index, shared out among threads.
+// Parallel loops and sums over an index.
 #pragma once
 
 #include <tbb/blocked_range.h>
@@ -13,10 +13,11 @@
 
 namespace fluidtex::texture {
 
-// Indices that one task gets at least, where each costs well under a microsecond.
+// Least number of indices per task, where each takes well under a microsecond.
 inline constexpr std::size_t kGrain = 512;
 
-// Calls body(i) for every i < count, in any order and at once: bodies must write to places of their own.
+// Calls body(i) for every i < count, in parallel and in any order. Precondition: no two bodies write to the
+// same place.
 template <typename Body>
 void forEachIndex(std::size_t count, const Body& body, std::size_t grain = kGrain) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
@@ -25,8 +26,8 @@ void forEachIndex(std::size_t count, const Body& body, std::size_t grain = kGrai
                     });
 }
 
-// The sum of double(term(i)) over all i < count, the same on any number of threads. The grain decides the
-// order in which terms are added, and with it the last digits.
+// Sum of double(term(i)) over i < count, independent of the number of threads. The grain fixes the order of
+// summation, and so the last digits.
 template <typename Term>
 double sumOf(std::size_t count, const Term& term, std::size_t grain = kGrain) {
   return tbb::parallel_deterministic_reduce(
@@ -38,7 +39,7 @@ double sumOf(std::size_t count, const Term& term, std::size_t grain = kGrain) {
       std::plus<>());
 }
 
-// What make(i, list) adds to the list for each i < count, in the order of i.
+// Concatenates what make(i, list) appends for each i < count, in the order of i.
 template <typename Value, typename Make>
 std::vector<Value> gathered(std::size_t count, const Make& make, std::size_t chunk = 4 * kGrain) {
   std::vector<std::vector<Value>> parts((count + chunk - 1) / chunk);

@@ -1,4 +1,4 @@
-// Points sorted into cubes of space.
+// Points sorted into a grid of cells.
 #pragma once
 
 #include "texture/loops/parallel.h"
@@ -12,8 +12,8 @@ namespace fluidtex::texture {
 
 using Cell = std::array<int, 3>;
 
-// The cell along one axis of a place in cells. Farther than a billion from the origin all are one; a mesh may
-// lie there, and no integer holds the number of its cell. In this order what is no number gets one, too.
+// Cell along one axis. Clamped at a billion, since a mesh may lie beyond the range of int; the order of min
+// and max makes NaN a cell too.
 inline int cellAlong(double x) {
   return int(std::max(-1e9, std::min(1e9, std::floor(x))));
 }
@@ -22,7 +22,7 @@ inline Cell cellAt(const Vec3f& x, double perLength) {
   return {cellAlong(x.x() * perLength), cellAlong(x.y() * perLength), cellAlong(x.z() * perLength)};
 }
 
-// For hash tables of a power of two of slots.
+// For hash tables with a power of two of slots.
 inline std::size_t cellHash(const Cell& cell) {
   std::uint64_t h = std::uint64_t(std::uint32_t(cell[0])) * 0x9e3779b1u ^
                     std::uint64_t(std::uint32_t(cell[1])) * 0x85ebca77u ^
@@ -31,14 +31,14 @@ inline std::size_t cellHash(const Cell& cell) {
   return std::size_t(h >> 32);
 }
 
-// The same, with the cells of a cube of 4x4x4 next to each other: what is near in space is near in memory.
-// For a surface the table should have about four slots a point, and at least 64.
+// The same, but 4x4x4 cells are adjacent, for locality. For a surface the table should have about four slots
+// per point, and at least 64.
 inline std::size_t nearbySlot(int x, int y, int z, std::size_t mask) {
   const std::size_t cube = cellHash({x >> 2, y >> 2, z >> 2});
   return (cube << 6 | std::size_t((x & 3) << 4 | (y & 3) << 2 | (z & 3))) & mask;
 }
 
-// Points that stay, for looking up those near a position.
+// A static set of points, for queries of those near a position.
 class PointGrid {
  public:
   PointGrid(const std::vector<Vec3f>& points, double cellSize) : m_perLength(1.0 / cellSize) {
@@ -53,7 +53,7 @@ class PointGrid {
   void visitNear(const Vec3f& x, const Visit& visit) const {
     const Cell c = cellAt(x, m_perLength);
     for (int i = c[0] - 1; i <= c[0] + 1; ++i) {
-      for (int j = c[1] - 1; j <= c[1] + 1; ++j) {  // cells of one column follow each other
+      for (int j = c[1] - 1; j <= c[1] + 1; ++j) {  // cells of a column are adjacent
         auto entry = std::lower_bound(m_entries.begin(), m_entries.end(), Entry{{i, j, c[2] - 1}, 0});
         for (; entry != m_entries.end() && entry->cell <= Cell{i, j, c[2] + 1}; ++entry) visit(entry->index);
       }

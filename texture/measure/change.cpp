@@ -14,9 +14,9 @@ namespace fluidtex::texture {
 namespace {
 
 constexpr float kSame = 0.5f;           // texels between a coordinate and the one carried there
-constexpr float kStep = 1.0f / 255.0f;  // of a file's colours: a smaller difference is none
+constexpr float kStep = 1.0f / 255.0f;  // of a file's colours: smaller differences count as none
 
-// What the smooth reading costs between vertices over what reading a vertex from its neighbours costs:
+// Error of the smooth reading between vertices over the error of reading a vertex from its neighbours,
 // measured on sheets whose texture moved exactly.
 constexpr double kBetween = 0.57;
 
@@ -24,7 +24,7 @@ double meanDifference(const Vec3f& a, const Vec3f& b) {
   return (std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2])) / 3.0;
 }
 
-// Weights of a triangle's corners at its point nearest to x: those of the foot, or of the nearest edge's.
+// Barycentric weights of the triangle's point nearest to x.
 Vec3f nearestOnTriangle(const Vec3f& x, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   const Vec3f ab = b - a, ac = c - a, from = x - a;
   const float d00 = ab.dot(ab), d01 = ab.dot(ac), d11 = ac.dot(ac);
@@ -50,7 +50,7 @@ Vec3f nearestOnTriangle(const Vec3f& x, const Vec3f& a, const Vec3f& b, const Ve
   return best;
 }
 
-// A place on the last surface.
+// A point on the last surface.
 struct Landing {
   Vec3I corner{0u, 0u, 0u};
   Vec3f weight{0.0f};
@@ -89,7 +89,7 @@ class LastSurface {
       vertex = std::min(vertex, {here, v});
       for (std::uint32_t k = m_first[v]; k < m_first[v + 1]; ++k) {
         const Vec3I& t = surface.triangles[m_triangle[k]];
-        // Each triangle is looked at from the nearest of its corners.
+        // Each triangle is tested from the nearest of its corners only.
         bool mine = true;
         for (int i = 0; i < 3; ++i)
           mine = mine && (t[i] == v || std::pair(distance2(t[i]), t[i]) > std::pair(here, v));
@@ -114,7 +114,7 @@ class LastSurface {
   std::vector<std::uint32_t> m_first, m_triangle;  // of each vertex
 };
 
-// A picture as the exemplar at its coordinates and what it differs from that.
+// A picture as the exemplar at its coordinates, and its difference from that.
 class Picture {
  public:
   Picture(const TexturedSurface& surface, const Image& color, bool toroidal)
@@ -147,7 +147,7 @@ Vec3f readSmooth(const TileGround& ground, const std::vector<Vec3f>& colors, con
   return sum;
 }
 
-// What reading costs at vertices that have not moved.
+// Error of the reading at vertices that have not moved.
 double readingCost(const TileGround& ground, const std::vector<Vec3f>& colors) {
   const double sum = sumOf(colors.size(), [&](std::uint32_t v) {
     return meanDifference(colors[v], readSmooth(ground, colors, ground.surface.positions[v], v, true));

@@ -1,4 +1,4 @@
-// What changes from frame to frame.
+// Change of the texture from frame to frame.
 #pragma once
 
 #include "texture/exemplar/image.h"
@@ -8,22 +8,22 @@
 
 namespace fluidtex::texture {
 
-// What is new from one frame to the next. Vertices of new surface are left out.
+// Measures of change between two frames. Vertices of new surface are left out.
 struct Change {
-  // 99.9th percentile of a vertex's change along the flow: mean over R, G, B of the difference from the last
-  // frame's colour where the vertex was, read between its vertices.
+  // 99.9th percentile, over vertices, of the change along the flow: mean over R, G, B of the difference from
+  // the last frame's colour at the previous position, interpolated.
   double pop = 0.0;
-  // rms difference of luminance between what is shown and the last picture merely carried: the exemplar at
-  // the carried coordinate (at the shown one where it is the same within half a texel), plus what the last
-  // picture differed from the exemplar at its own, as in a fade. What resampling costs is not in it.
+  // rms difference of luminance between the picture and the last one advected: the exemplar at the
+  // transported coordinate (at the present one if within half a texel), plus the last picture's difference
+  // from the exemplar at its own coordinate, as in a cross-fade. Excludes the error of resampling.
   double change = 0.0;
-  double renewed = 0.0;  // share of the vertices whose coordinate is not the carried one
+  double renewed = 0.0;  // share of the vertices whose coordinate is not the transported one
   double alongFlow =
       0.0;             // mean change along the flow, R, G and B, with the last frame read by a smooth kernel
-  double ratio = 0.0;  // the same less what that reading costs, over shuffled vertices': 0 carried, 1 fresh
+  double ratio = 0.0;  // the same minus that reading's error, over shuffled vertices': 0 advected, 1 fresh
 };
 
-// after.previousPosition lies on `before`. Nothing where no vertex was there before.
+// after.previousPosition lies on `before`. Nothing if no vertex was there before.
 std::optional<Change> measureChange(const TexturedSurface& before, const TexturedSurface& after,
                                     const Image& color, bool toroidal);
 

@@ -1,4 +1,4 @@
-// Whether parts of much or of little contrast are shown.
+// Whether the parts of the exemplar shown have its contrast.
 #pragma once
 
 #include "texture/exemplar/image.h"
@@ -8,13 +8,11 @@
 
 namespace fluidtex::texture {
 
-// Squared gradient of an exemplar's luminance, as it is seen, averaged over 3 x 3 texels, over the mean of
-// the whole: one channel. 1 everywhere where the exemplar is of one luminance. Edges are edges, whether it
-// wraps or not. color: linear RGBA.
+// Squared gradient of the luminance as seen, averaged over 3 x 3 texels, over its mean: one channel; 1
+// everywhere if the luminance is constant. Not wrapped. color: linear RGBA.
 Image contrastOf(const Image& color);
-// Mean of that over the texels that the vertices show, new surface's too, what fades in but not what fades
-// out: 1 where all of the exemplar is shown alike, less where what has little contrast was chosen. Nothing
-// without a surface.
+// Mean of `contrast` over the texels shown, on new surface too, without former coordinates: 1 if the whole
+// exemplar is shown evenly, less if parts of little contrast were favoured. Nothing without a surface.
 std::optional<double> measureContrast(const TexturedSurface& surface, const Image& contrast);
 
 }  // namespace fluidtex::texture

@@ -13,7 +13,7 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr int kEnoughTiles = 24;  // of a size; fewer, and smaller ones are tried
+constexpr int kEnoughTiles = 24;  // tiles of a size; with fewer, smaller ones are tried
 constexpr int kSmallest = 17;     // texels across
 constexpr int kFewest = 4;
 constexpr int kGap = 2;  // texels on both sides of the line between an exemplar's halves
@@ -33,7 +33,7 @@ std::vector<std::pair<Image, Image>> halvesOf(const Image& image) {
           {cut(image, 0, 0, w, top), cut(image, 0, bottom, w, h - bottom)}};
 }
 
-// Of the lightness: mean square of forward differences along both axes.
+// Mean squared forward differences of the lightness along both axes.
 double gradientEnergy(const Stack& stack) {
   double sum = 0.0;
   for (int t = 0; t < stack.count; ++t)
@@ -46,8 +46,7 @@ double gradientEnergy(const Stack& stack) {
   return sum / (double(stack.count) * (stack.height - 1) * (stack.width - 1));
 }
 
-// The exemplar on a frame's tiles. A few times over: which parts of it fall on the tiles makes some
-// difference.
+// The exemplar on a frame's tiles, repeated, since it matters which parts of it fall on the tiles.
 constexpr int kTimes = 3;
 struct Laid {
   std::optional<PatchJudge> judge;
@@ -67,7 +66,7 @@ constexpr std::uint64_t kOfExemplar = 0, kOfFrame = 1, kOfTimes = 2;
 
 }  // namespace
 
-// Nothing of one frame is kept for the next, dice neither: a frame's figures are its own.
+// No state is kept between frames, random numbers included: a frame's measures are its own.
 struct LikenessJudge::Internals {
   Image picture;
   MeasureOptions options;

@@ -1,10 +1,10 @@
-// Which surface counts as new when a texture is judged.
+// Which surface counts as new in the measures.
 #pragma once
 
 namespace fluidtex::texture {
 
-// Trust below which a vertex counts as new in its frame. It is stricter than what synthesis believes
-// (texture/labels/fresh.h): what is half believed is renewed or kept, but says nothing about how well.
+// Trust below which a vertex is new surface. Stricter than in synthesis (texture/labels/fresh.h): values of
+// middling trust may be kept or renewed, and say nothing about quality.
 inline constexpr float kNewSurface = 0.5f;
 
 }  // namespace fluidtex::texture

@@ -1,6 +1,8 @@
 #include "texture/measure/patches.h"
 
-#include <Eigen/Dense>
+#include "texture/exemplar/principal_axes.h"
+
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
@@ -34,7 +36,7 @@ Matrix drawPatches(const Stack& stack, int width, int count, Dice& dice) {
   return patches;
 }
 
-// Principal components of rows, the strongest first: variances and, as columns, directions.
+// Principal components of rows, strongest first: variances and, as columns, directions.
 struct Components {
   Row mean;
   Eigen::VectorXd variance;
@@ -56,15 +58,13 @@ Components componentsOf(const Matrix& rows, Eigen::Index kept) {
   Eigen::MatrixXf basis(size, carried);
   for (float& entry : basis.reshaped()) entry = float(dice.normal());
   for (int i = 0; i < kIterations; ++i) {
-    const Eigen::HouseholderQR<Eigen::MatrixXf> orthogonal(basis);
-    basis = covariance * (orthogonal.householderQ() * Eigen::MatrixXf::Identity(size, carried));
+    basis = covariance * orthonormal(basis);
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXf> orthogonal(basis);
-  basis = orthogonal.householderQ() * Eigen::MatrixXf::Identity(size, carried);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXf> solver(basis.transpose() * covariance * basis);
+  basis = orthonormal(basis);
+  const PrincipalAxes within = principalAxes((basis.transpose() * covariance * basis).cast<double>());
   kept = std::min(kept, size);
-  result.variance = solver.eigenvalues().reverse().head(kept).cast<double>().cwiseMax(0.0);
-  result.direction = (basis * solver.eigenvectors().rowwise().reverse()).leftCols(kept);
+  result.variance = within.variance.head(kept);
+  result.direction = (basis * within.axis.cast<float>()).leftCols(kept);
   return result;
 }
 
@@ -107,8 +107,8 @@ std::vector<Stack> pyramidOf(Stack stack) {
   return levels;
 }
 
-// Directions: components, half whitened so that fine detail has a say beside mean colour, mixtures of three
-// of them, and the length of what no component explains.
+// Directions: components, half whitened so that fine detail counts beside mean colour; mixtures of three of
+// them; and the norm of the residual that no component explains.
 struct PatchJudge::Space {
   static constexpr int kKept = 64, kMixtures = 128;
   Row mean, scale;

@@ -1,4 +1,4 @@
-// Sets of patches compared: the distance that likeness stands on, and what of the exemplar patches look like.
+// Comparison of patch sets, for likeness and coverage.
 #pragma once
 
 #include "texture/measure/tiles.h"
@@ -10,14 +10,14 @@
 
 namespace fluidtex::texture {
 
-// The picture, and halves of it, halves of those, ... as long as the larger patches fit twice; at most three.
+// Pyramid of the pictures by halving, as long as the larger patches fit twice; at most three levels.
 std::vector<Stack> pyramidOf(Stack stack);
 
-// By level of the pyramid and width of the patches.
+// Keyed by pyramid level and width of the patches.
 using PatchDistances = std::map<std::pair<int, int>, double>;
 
-// The sliced Wasserstein distance of sets of patches to those of a reference [Rabin, Peyre, Delon, Bernot
-// 2011], on directions from the reference's own principal components.
+// Sliced Wasserstein distance of patch sets to those of a reference [Rabin, Peyre, Delon, Bernot 2011], along
+// directions from the reference's principal components.
 class PatchJudge {
  public:
   PatchJudge(const std::vector<Stack>& reference, int patches, Dice& dice);
@@ -30,16 +30,16 @@ class PatchJudge {
   std::map<std::pair<int, int>, std::shared_ptr<const Space>> m_spaces;
 };
 
-// Mean over levels and widths of distances over the mean of `own`, those that the exemplar has to itself.
+// Mean over levels and widths of the distances over the mean of `own`, the exemplar's distances to itself.
 double patchRatio(const PatchDistances& distances, const std::vector<PatchDistances>& own);
 
-// Which of 8 x 8 parts of an exemplar patches of nine texels look like, at eight turns of it.
+// Which of an exemplar's 8 x 8 parts patches of nine texels resemble, at eight rotations.
 class CoverageMap {
  public:
-  // picture: as of encodedPicture().
+  // picture: as from encodedPicture().
   CoverageMap(const Image& picture, Dice& dice);
 
-  // Effective number of parts: the exponential of the entropy of patches drawn from the pictures.
+  // Effective number of parts among patches drawn from the pictures: exponential of the entropy.
   double effectiveParts(const Stack& stack, Dice& dice) const;
 
  private:
@@ -47,15 +47,15 @@ class CoverageMap {
   std::shared_ptr<Internals> m_internals;
 };
 
-// Windows (#windows x dimension) in their first 20 principal components.
+// Windows reduced to 20 principal components: #windows x dimension.
 struct Reduced {
   int dimension = 0;
   std::vector<float> values;
 };
 Reduced reducedWindows(const std::vector<float>& windows, int dimension);
 
-// Share of the windows that have another, for which far(i, j), within a fifth of the root mean square length.
-// About `asked` of them, evenly spread, are asked.
+// Share of the windows that have another one with far(i, j) within a fifth of the rms length. Tested on about
+// `asked` of them, evenly spread.
 double shareWithTwin(const Reduced& windows, int asked,
                      const std::function<bool(std::size_t, std::size_t)>& far);
 

@@ -11,14 +11,14 @@ namespace fluidtex::texture {
 namespace {
 
 constexpr int kWidth = 9, kHalf = kWidth / 2;
-constexpr float kFar = 2.0f * kWidth;  // texels: nearer windows are no repetition
+constexpr float kFar = 2.0f * kWidth;  // texels: closer windows are no repetition
 constexpr float kBlur = 0.45f;         // texels, of the kernel that windows are read with
 constexpr float kSupport = 1.3f;
 constexpr float kLeastWeight = 1e-2f;  // of a texel that vertices are near to
 constexpr std::size_t kMost = 40000;   // windows
 constexpr int kAsked = 1000;
 
-// Vertices that lie together: as many as `most`, from the first on over its neighbours.
+// The first `most` vertices in breadth-first order: a connected region.
 std::vector<std::uint32_t> patchOf(const VertexGraph& graph, std::size_t most) {
   const std::size_t count = graph.first.size() - 1;
   std::vector<std::uint32_t> list;
@@ -39,7 +39,7 @@ std::vector<std::uint32_t> patchOf(const VertexGraph& graph, std::size_t most) {
   return list;
 }
 
-// The vertices around one, flat in its axes.
+// Vertices around one, flattened in its axes.
 class Neighbors {
  public:
   explicit Neighbors(const TileGround& ground)
@@ -71,7 +71,7 @@ class Neighbors {
   std::vector<std::pair<std::uint32_t, Vec2f>> m_list;
 };
 
-// A window from values strewn about it. False where a texel has none near.
+// A window from scattered values around it. False if a texel has none near.
 class Window {
  public:
   explicit Window(int channels) : m_channels(channels), m_values(std::size_t(kWidth * kWidth * channels)) {}

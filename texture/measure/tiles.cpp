@@ -14,7 +14,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr float kMidGrey = 0.5f;  // sRGB-encoded, behind what is see-through
-constexpr int kSlides = 3;        // onto the surface along the tile's normal
+constexpr int kSlides = 3;        // projections onto the surface along the tile's normal
 constexpr double kBend = 40.0;    // degrees a tile may bend
 constexpr double kReach = 1.6;    // spacings: farther from all vertices a texel is off the surface
 constexpr double kOff = 0.02;     // share of a tile's texels that may be off or face the other way
@@ -23,7 +23,7 @@ float distance2(const Vec3f& a, const Vec3f& b) {
   return (a - b).lengthSqr();
 }
 
-// The vertex that is nearest to x, going from neighbour to neighbour.
+// Vertex nearest to x, by descent from neighbour to neighbour.
 std::uint32_t nearest(const TileGround& ground, const Vec3f& x, std::uint32_t from) {
   const std::vector<Vec3f>& positions = ground.surface.positions;
   float best = distance2(positions[from], x);
@@ -69,7 +69,7 @@ class TileLayer {
  private:
   std::size_t at(int y, int x) const { return std::size_t(y) * m_size + x; }
 
-  // From the middle outwards, so that the search starts beside its goal. False where too much faces away.
+  // From the middle outwards, so that the search starts near its result. False if too much faces away.
   bool slide(const Vec3f& n, std::optional<std::uint32_t> center) {
     const int mid = m_size / 2, limit = int(kOff * double(m_place.size()));
     const float most = 3.0f * float(m_size) * float(m_ground.surface.spacing);
@@ -141,7 +141,7 @@ class TileLayer {
   std::vector<std::uint32_t> m_near;
 };
 
-// What values at a tile's vertices give at its texels.
+// Interpolates values at a tile's vertices to its texels.
 void readTile(const Tile& tile, const std::vector<float>& values, int channels, float* out) {
   for (const Tile::Reading& texel : tile.texels) {
     std::fill_n(out, channels, 0.0f);

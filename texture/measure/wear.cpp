@@ -11,7 +11,7 @@
 namespace fluidtex::texture {
 namespace {
 
-// Laid squeezed by this, drawn out to as much.
+// Stretch and compression that texture may have.
 constexpr double kShape = 1.4;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the flow wears out.
+// How much texture the flow wears out.
 #pragma once
 
 #include "texture/exemplar/image.h"
@@ -8,22 +8,22 @@
 
 namespace fluidtex::texture {
 
-// What the flow alone asks for in a frame, whatever the texture: by what `renewed` and `change` can be
-// judged.
+// Renewal and change that the flow itself requires in a frame, whatever the texture: the scale for `renewed`
+// and `change`.
 struct FlowWear {
-  // Share of the texture that the frame wears out, if none is to be squeezed or drawn out by more than 1.4:
-  // mean over the vertices of min(1, e / (2 log 1.4)), e being the greater principal strain (logarithmic) of
-  // the surface since the last frame.
+  // Share of the texture worn out in the frame, if none may be compressed or stretched by more than 1.4: mean
+  // over vertices of min(1, e / (2 log 1.4)), e the larger absolute principal strain (logarithmic) since the
+  // last frame.
   double worn = 0.0;
-  // `change` if all that is worn gives way over its whole life, evenly, to texture that has nothing to do
-  // with it: sqrt(2) times the deviation of the exemplar's luminance times the rms of the same share.
+  // `change` if worn texture fades evenly over its whole life to unrelated texture: sqrt(2) times the
+  // standard deviation of the exemplar's luminance times the rms of that share.
   double change = 0.0;
 };
 
-// Standard deviation of an exemplar's luminance, as it is seen. color: linear RGBA.
+// Standard deviation of an exemplar's luminance as seen. color: linear RGBA.
 double deviationOfLuminance(const Image& color);
 
-// Nothing where no vertex was there before. deviation: the exemplar's, as above.
+// Nothing if no vertex was there before. deviation: deviationOfLuminance() of the exemplar.
 std::optional<FlowWear> measureFlowWear(const TexturedSurface& surface, double deviation);
 
 }  // namespace fluidtex::texture

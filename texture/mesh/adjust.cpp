@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint32_t kNone = EditableMesh::kNone;
 
-// How large a gap an edge crosses: its own length, or the wider of the circles around its triangles. For
-// the four corners of a rectangle it does not matter which diagonal the mesh has.
+// Size of the gap that an edge crosses: its length, or the larger circumcircle of its triangles. Independent
+// of the diagonal chosen between four corners of a rectangle.
 float gap(const EditableMesh& mesh, std::uint32_t h, float ownLength) {
   float widest = ownLength;
   for (std::uint32_t side : {h, mesh.twin[h]}) {
@@ -38,7 +38,7 @@ bool longer(const Candidate& x, const Candidate& y) {
   return x.length != y.length ? x.length > y.length : x.halfEdge > y.halfEdge;
 }
 
-// Sorts, and drops those that only the number asks for beyond as many as it does.
+// Sorts, and drops candidates that are there for the number only, beyond as many as it needs.
 template <typename Before>
 void keepFirst(std::vector<Candidate>& candidates, double wanted, float limit, const Before& before) {
   constexpr double kSpare = 2.0;    // some are skipped, since something changed beside them
@@ -67,14 +67,14 @@ void keepFirst(std::vector<Candidate>& candidates, double wanted, float limit, c
 
 std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi, const AdjustOptions& options,
                                         const std::vector<std::uint32_t>* moved) {
-  // Mean edge lengths. Points that were even in the last frame get some margin, so that nothing flickers at
-  // the limits.
+  // Mean edge lengths. Points that were even in the last frame get a margin, so that nothing flickers at the
+  // limits.
   const float tooShort = options.settled ? 0.6f : 0.63f, tooLong = options.settled ? 1.8f : 1.7f;
   constexpr float kMaybeLong = 1.4f;     // shorter edges cross no gap
   constexpr std::size_t kAtOnce = 4096;  // of a sum
   const double alive = sumOf(
       mesh.vertexCount(), [&](std::uint32_t v) { return mesh.outgoing[v] != kNone ? 1.0 : 0.0; }, kAtOnce);
-  // Only what is beyond the slack: where a surface grows steadily, that is a little on every frame.
+  // Only what exceeds the slack: a steadily growing surface changes a little on every frame.
   const double tolerated = options.slack * options.points;
   double toRemove = std::max(0.0, alive - options.points - tolerated),
          toAdd = std::max(0.0, options.points - tolerated - alive);
@@ -113,7 +113,7 @@ std::vector<std::uint32_t> adjustNumber(EditableMesh& mesh, const LevelSet& phi,
       if (h < mesh.twin[h] && mesh.alive(h)) judge(h, found);
     });
   }
-  // No edge is in both: shortLimit < longLimit.
+  // No edge is in both, since shortLimit < longLimit.
   const auto firstLong = std::stable_partition(shortest.begin(), shortest.end(),
                                                [&](const Candidate& c) { return c.length < shortLimit; });
   Candidates longest(firstLong, shortest.end());

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint32_t kNone = EditableMesh::kNone;
 
-// For each part of the mesh the part of the iso-surface that it lies on, by the iso-surface's triangles in
-// the cells around the part's first vertex. kNone where there are none.
+// For each component of the mesh the component of the iso-surface that it lies on, found by the iso-surface's
+// triangles in the cells around its first vertex; kNone without any.
 std::vector<std::uint32_t> partsUnder(const EditableMesh& mesh, const Components& meshParts,
                                       const IsoSurface& surface, const Components& parts) {
   const std::size_t count = meshParts.parts.size();
@@ -64,9 +64,8 @@ std::vector<std::uint32_t> partsUnder(const EditableMesh& mesh, const Components
   return under;
 }
 
-// Whether each part of the mesh lies on a part of its own of the iso-surface, with the same characteristic
-// and about the same area, and none is left over. Since the mesh is projected without folds, it then is a
-// copy.
+// Whether the components of mesh and iso-surface correspond one to one, with equal characteristic and about
+// equal area. A mesh projected without folds then is a copy.
 bool sameParts(const EditableMesh& mesh, const Components& meshParts, const IsoSurface& surface,
                const Components& parts) {
   constexpr double kAreaRatio = 1.3;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kNone = EditableMesh::kNone;
 
-// Nearest vertex within half a cell, by a sort of all vertices into hashed cells.
+// Nearest vertex within half a cell; vertices are sorted into hashed cells.
 class VertexGrid {
  public:
   VertexGrid(const std::vector<Vec3f>& positions, float cell) : m_inverse(1.0f / cell) {
@@ -67,8 +67,8 @@ class VertexGrid {
   std::vector<Item> m_items;
 };
 
-// The half-edge whose triangle holds the foot of p, found by walking across edges from a vertex nearby;
-// `smallest` is the least of the three barycentric weights, that of the corner opposite to the edge.
+// The half-edge whose triangle contains the projection of p, found by walking across edges from a nearby
+// vertex. `smallest`: the least barycentric weight, that of the corner opposite to the edge.
 struct Place {
   std::uint32_t edge = kNone;
   float smallest = -1e30f;
@@ -94,14 +94,14 @@ Place locate(const EditableMesh& mesh, std::uint32_t start, const Vec3f& p) {
     if (w[out] > best.smallest) best = {corner[out], w[out]};
     if (w[out] >= 0.0f) break;
     const std::uint32_t across = mesh.twin[corner[out]];
-    if (across / 3 == came) break;  // back and forth over a crease: the point is nearest to that edge
+    if (across / 3 == came) break;  // back and forth over a crease: p is nearest to that edge
     came = h / 3;
     h = across;
   }
   return best;
 }
 
-// Adds p to the mesh inside the triangle, or on the edge, where it lies. kNone if that would fold the mesh.
+// Inserts p into the triangle or on the edge it lies in. kNone if that would fold the mesh.
 std::uint32_t insertPoint(EditableMesh& mesh, std::uint32_t start, const Vec3f& p, const Vec3f& n,
                           float minDistance, const std::vector<std::uint8_t>& keep) {
   constexpr float kOnEdge = 0.08f;  // barycentric: nearer to an edge than this the edge is split
@@ -130,7 +130,7 @@ std::uint32_t insertPoint(EditableMesh& mesh, std::uint32_t start, const Vec3f& 
   return kNone;
 }
 
-// How good a triangle is: 1 for an equilateral one, 0 without area.
+// Quality of a triangle: 1 equilateral, 0 degenerate.
 float shape(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   const float sum = (b - a).lengthSqr() + (c - b).lengthSqr() + (a - c).lengthSqr();
   return sum > 0.0f ? 3.4641016f * (b - a).cross(c - a).length() / sum : 0.0f;
@@ -168,7 +168,7 @@ bool removeVertex(EditableMesh& mesh, std::uint32_t v, std::vector<std::uint32_t
   return false;
 }
 
-// Removes the vertices whose entry in `keep` is 0, where possible, after [Turk92].
+// Removes the vertices with `keep` 0, where possible, after [Turk92].
 void removeVertices(EditableMesh& mesh, const Patches& patches, const std::vector<std::uint8_t>& keep) {
   constexpr int kRounds = 2;  // what is stuck may come free after its surroundings have gone
   struct Left {
@@ -198,8 +198,8 @@ void removeVertices(EditableMesh& mesh, const Patches& patches, const std::vecto
   }
 }
 
-// Moves each vertex of the old mesh to the point that it is for, where that folds nothing; owner: kNone where
-// it does.
+// Moves each old vertex to the point that it was assigned, where that folds nothing; sets owner to kNone
+// there.
 void moveToPoints(EditableMesh& mesh, const LevelSet& phi, const Patches& patches, const PointSet& points,
                   std::vector<std::uint32_t>& owner) {
   const auto move = [&](std::uint32_t v) {
@@ -228,8 +228,8 @@ void moveToPoints(EditableMesh& mesh, const LevelSet& phi, const Patches& patche
     for (std::uint32_t v : vertices) move(v);
 }
 
-// Brings the vertices of the iso-surface onto the level set's smooth interpolation while its edges are still
-// long: vertices that are closer to each other than they are to it could only get there all at once.
+// Projects the iso-surface's vertices onto the smooth level set while its edges are long: vertices closer to
+// each other than to it could only get there all at once.
 void settleOnSurface(EditableMesh& mesh, const LevelSet& phi) {
   std::vector<LevelSet::Projection> found(mesh.vertexCount());
   forEachIndex(mesh.vertexCount(),

@@ -1,4 +1,4 @@
-// Points connected into a mesh of a given topology [Turk92, mutual tessellation].
+// Connects points to a mesh of given topology: mutual tessellation [Turk92].
 #pragma once
 
 #include "texture/levelset/isosurface.h"
@@ -7,10 +7,9 @@
 
 namespace fluidtex::texture {
 
-// A mesh whose vertices are `points` and whose topology is that of `surface`: the points are brought into the
-// iso-surface's triangles, then the iso-surface's own vertices are removed one by one wherever that changes
-// no topology and folds nothing; the few that cannot be removed stay as further points. A point that finds no
-// place is left out. `spacing` in voxels, at scale 1.
+// A mesh with vertices `points` and the topology of `surface`: the points are inserted into the iso-surface's
+// triangles, then its own vertices are removed wherever that keeps the topology and folds nothing; the few
+// others stay as further points. Points that cannot be inserted are left out. spacing: voxels, at scale 1.
 EditableMesh connectPoints(const LevelSet& phi, const IsoSurface& surface, const PointSet& points,
                            float spacing);
 

@@ -176,7 +176,7 @@ void EditableMesh::append(const EditableMesh& part) {
 void EditableMesh::compact(std::size_t firstNew) {
   const std::size_t before = position.size();
   firstNew = std::min(firstNew, before);
-  // Where a new vertex goes: behind the one of lowest rank among its neighbours that came before it.
+  // A new vertex goes behind its neighbour of lowest rank among those before it.
   std::vector<std::uint32_t> rank(before - firstNew);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> added;  // rank, old vertex
   added.reserve(rank.size());
@@ -205,7 +205,7 @@ void EditableMesh::compact(std::size_t firstNew) {
   }
   for (; next != added.end(); ++next) take(next->second);
 
-  // A triangle goes where the first of its vertices is, in the order around that.
+  // A triangle goes with its first vertex, in the order around that.
   const std::size_t vertices = oldVertexOf.size();
   using HalfEdges = std::vector<std::uint32_t>;
   const HalfEdges oldTriangles = gathered<std::uint32_t>(vertices, [&](std::uint32_t v, HalfEdges& found) {
@@ -283,7 +283,7 @@ std::vector<Vec3I> trianglesOf(const EditableMesh& mesh) {
 }
 
 bool isClosedManifold(std::size_t vertices, const std::vector<Vec3I>& triangles) {
-  // Rings: around a vertex each triangle leads from one neighbour to the next.
+  // One-rings: around a vertex each triangle leads from one neighbour to the next.
   struct Step {
     std::uint32_t from, to;
   };

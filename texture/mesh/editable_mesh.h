@@ -1,23 +1,23 @@
-// A closed triangle mesh that can be changed edge by edge: half-edges in flat arrays.
+// Half-edge mesh in flat arrays: a closed triangle mesh that is edited edge by edge.
 #pragma once
 
 #include "texture/surface.h"
 
 namespace fluidtex::texture {
 
-// Half-edge h = 3 * triangle + corner runs from origin[h] to origin[next(h)]; twin[h] runs back, in the
-// neighbouring triangle. Every operation keeps the mesh closed, oriented and manifold, and keeps its
-// topology; none checks geometry.
+// Half-edge h = 3 * triangle + corner runs from origin[h] to origin[next(h)]; twin[h] is its opposite in the
+// neighbouring triangle. Every operation keeps the mesh closed, oriented and manifold, and its topology. None
+// checks geometry.
 struct EditableMesh {
   static constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
   std::vector<Vec3f> position;          // #V
   std::vector<Vec3f> normal;            // #V, unit, or zero where unknown
-  std::vector<float> scale;             // #V: edges are so many times as long there; empty: 1 everywhere
-  std::vector<std::uint32_t> outgoing;  // #V: one half-edge that starts there; kNone: the vertex is gone
-  std::vector<std::uint32_t> origin;    // #H; kNone: the triangle is gone
+  std::vector<float> scale;             // #V: factor on edge lengths; empty: 1
+  std::vector<std::uint32_t> outgoing;  // #V: one half-edge that starts there; kNone: removed vertex
+  std::vector<std::uint32_t> origin;    // #H; kNone: removed triangle
   std::vector<std::uint32_t> twin;      // #H
-  std::vector<std::uint32_t> free;      // triangles that are gone and may be used again
+  std::vector<std::uint32_t> free;      // removed triangles, for reuse
 
   static std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static std::uint32_t previous(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
@@ -45,28 +45,27 @@ struct EditableMesh {
   }
   bool connected(std::uint32_t a, std::uint32_t b) const;
 
-  // Whether turning the edge inside its two triangles gives an edge that does not exist yet, and leaves its
-  // ends three others.
+  // Whether the flipped edge does not exist yet, and both ends keep a valence of three.
   bool canFlip(std::uint32_t h) const;
-  // After it h starts at the old origin and runs to the old opposite of twin[h]; the new edge is next(h).
+  // Afterwards h runs from its origin to the old opposite of twin[h]; the new edge is next(h).
   void flip(std::uint32_t h);
-  // Both return the new vertex. It gets the scale of one of the old ones beside it.
+  // Return the new vertex. Its scale is that of an old neighbour.
   std::uint32_t splitEdge(std::uint32_t h, const Vec3f& at, const Vec3f& atNormal);
   std::uint32_t splitTriangle(std::uint32_t triangle, const Vec3f& at, const Vec3f& atNormal);
-  // The link condition: the ends have no common neighbours but the two opposite corners, and the mesh there
-  // is no tetrahedron.
+  // Link condition: the ends have no common neighbours but the two opposite corners, and the component is no
+  // tetrahedron.
   bool canCollapse(std::uint32_t h) const;
-  // Removes the origin of h; its triangles are handed to the target. The two that vanish are added to
-  // `freed`.
+  // Removes the origin of h and gives its triangles to the target. The two triangles that vanish are appended
+  // to `freed`.
   void collapse(std::uint32_t h, std::vector<std::uint32_t>& freed);
   void collapse(std::uint32_t h) { collapse(h, free); }
 
-  // The vertices of one or more whole components, and their triangles.
+  // Whole components: all their vertices, with their triangles.
   void removeComponent(const std::vector<std::uint32_t>& vertices);
   void append(const EditableMesh& part);
 
-  // Drops what is gone. Vertices from number `firstNew` on are moved next to their neighbours, the others
-  // keep their order; triangles follow their vertices: what is near on the surface is near in memory.
+  // Drops removed entries. Vertices from `firstNew` on are moved next to their neighbours, the others keep
+  // their order, and triangles follow their vertices: locality in memory.
   void compact(std::size_t firstNew);
 
  private:
@@ -78,16 +77,16 @@ struct EditableMesh {
   }
 };
 
-// The triangles must be closed, oriented and manifold.
+// Precondition: the triangles are closed, oriented and manifold.
 EditableMesh makeEditableMesh(std::vector<Vec3f> positions, const std::vector<Vec3I>& triangles);
 
-std::vector<Vec3I> trianglesOf(const EditableMesh& mesh);  // of a compact mesh
+std::vector<Vec3I> trianglesOf(const EditableMesh& mesh);  // precondition: compact
 
-// Whether every edge has exactly two triangles, seen in opposite directions, every vertex one ring around it,
-// and no two edges share both ends. O(#V + #T); for assertions and tests.
+// Whether every edge has exactly two triangles, of opposite orientation, every vertex a single one-ring, and
+// no two edges the same ends. O(#V + #T); for assertions and tests.
 bool isClosedManifold(std::size_t vertices, const std::vector<Vec3I>& triangles);
 
-// For each vertex the smallest number of a vertex connected with it.
+// #V: smallest vertex of each vertex's component.
 std::vector<std::uint32_t> components(std::size_t vertices, const std::vector<Vec3I>& triangles);
 
 }  // namespace fluidtex::texture

@@ -18,21 +18,21 @@ namespace {
 
 constexpr std::uint32_t kNone = EditableMesh::kNone;
 
-// Of a number of points that were even in the last frame, so much may be wrong.
+// Relative error of the number of points that is tolerated if they were even in the last frame.
 constexpr double kSettledSlack = 0.015;
 
-// Points that have just been connected: at random all of them have to move, else those that are new and what
-// is around them. `awake`: as for relax().
+// Relaxes newly connected points: all of them if random, else new ones and their surroundings. awake: as for
+// relax().
 void spreadOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options, float edge,
                std::vector<std::uint8_t>& awake) {
   constexpr int kAtOnce = 3;        // sweeps in the same patches
-  constexpr int kNumbered = 3;      // rounds that begin with putting the number right
+  constexpr int kNumbered = 3;      // rounds that start by adjusting the number of points
   constexpr float kPatch = 40.0f;   // its side in edges: what is worked on fits into the nearer cache
   constexpr float kShift = 0.382f;  // of the side, from round to round: what lay between patches comes inside
   const double slack = options.settled ? kSettledSlack : 0.001;
-  // Somewhat more than wakes a vertex in evenOut's own sweeps, whose steps are shorter.
+  // Above kWake of evenOut(), whose steps are shorter.
   const float wake = options.settled ? 0.06f : 0.0f;
-  // A fourth sweep for each three is evenOut's own, for what is then still out of balance.
+  // evenOut() adds a fourth sweep to each three, for what is still out of balance then.
   const int rounds = std::max(1, options.sweeps / (kAtOnce + 1));
   const float side = kPatch * edge;
   for (int round = 0; round < rounds; ++round) {
@@ -48,8 +48,7 @@ void spreadOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& optio
   flipToDelaunay(mesh);
 }
 
-// The vertices of the lists and those around them: only what has moved, and its neighbours, can be out of
-// balance.
+// The listed vertices and their neighbours: only these can be out of balance.
 std::vector<std::uint32_t> withNeighbors(const EditableMesh& mesh,
                                          std::initializer_list<const std::vector<std::uint32_t>*> lists) {
   std::vector<std::uint8_t> listed(mesh.vertexCount(), 0);
@@ -75,8 +74,8 @@ std::vector<std::uint32_t> withNeighbors(const EditableMesh& mesh,
 }  // namespace
 
 void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options) {
-  // In sweeps' pushes, mean edge lengths: a vertex at rest wakes above kWake, and moves until it is below
-  // kSleep. The gap between them is what keeps a liquid at rest from shimmering.
+  // Thresholds on a sweep's displacement, mean edge lengths: a vertex at rest wakes above kWake, and moves
+  // until it is below kSleep. This hysteresis keeps a liquid at rest from shimmering.
   constexpr float kWake = 0.02f, kSleep = 0.005f;
   constexpr int kMostSweeps = 52, kCounted = 20;
   const float edge = options.spacing * kEdgePerSpacing;
@@ -90,8 +89,8 @@ void evenOut(EditableMesh& mesh, const LevelSet& phi, const EvenOptions& options
   std::vector<std::uint32_t> active, changed;
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     changed.clear();
-    // The number is put right while much moves; later only what is out of all proportion changes: each of the
-    // two might undo the other for ever.
+    // The number is adjusted while many vertices move; later only extreme edges change, since adjustment and
+    // repulsion might undo each other forever.
     const bool everywhere = (options.settled && sweep < 4) || active.empty();
     if (everywhere || sweep % 5 == 0) {
       const double slack = options.settled && sweep <= kCounted ? kSettledSlack : 1.0;

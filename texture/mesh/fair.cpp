@@ -1,6 +1,5 @@
-// Constraints on positions, met one after the other, after Mueller, Heidelberger, Hennix, Ratcliff, "Position
-// based dynamics" (2007); smoothing without shrinking after Taubin, "A signal processing approach to fair
-// surface design" (1995).
+// Position based dynamics after Mueller, Heidelberger, Hennix, Ratcliff (2007); smoothing without shrinkage
+// after Taubin, "A signal processing approach to fair surface design" (1995).
 #include "texture/mesh/fair.h"
 
 #include "texture/mesh/mesh_faults.h"
@@ -16,7 +15,7 @@ using openvdb::Vec3d;
 
 constexpr std::uint32_t kNone = EditableMesh::kNone;
 
-// What faults are brought to: beyond the limits, so that they stay within them when their neighbours move.
+// Targets beyond the limits, so that faults stay within these when their neighbours move.
 constexpr double kOpen = 0.12, kBlunt = 0.42;
 
 Vec3d at(const EditableMesh& mesh, std::uint32_t v) {
@@ -30,7 +29,7 @@ class Fairer {
   void run() {
     const Faults left = attempt();
     if (left.none()) return;
-    // What splitting has only made a finer knot of is made coarse again, and gets one more try.
+    // A knot that splits have only refined is coarsened, and gets one more try.
     coarsen(around(left, kKnot));
     attempt();
   }
@@ -38,7 +37,7 @@ class Fairer {
  private:
   static constexpr int kKnot = 6;  // rings
 
-  // The faults that are left.
+  // Returns the faults that are left.
   Faults attempt() {
     constexpr int kRounds = 40, kSweeps = 40, kHopeless = 12;
     constexpr std::size_t kSplitsPerFault = 8, kSomeSplits = 64;
@@ -47,12 +46,12 @@ class Fairer {
     Faults faults = faultsOf(m_mesh);
     if (faults.none()) return faults;
     if (roundOffDrops(m_mesh, m_phi, around(faults, 0))) faults = faultsOf(m_mesh);
-    // Where there is less hope than that, as in noise, time and vertices must have an end.
+    // Where there is little hope, as in noise, time and number of vertices need a bound.
     m_splitsLeft = kSomeSplits + kSplitsPerFault * countOf(faults);
     std::size_t fewest = countOf(faults);
     int best = 0;
     for (int round = 0; round < kRounds && round - best <= kHopeless && !faults.none(); ++round) {
-      // What is crumpled comes apart when it shrinks; what is thin must not.
+      // Shrinking untangles what is crumpled; what is thin must not shrink.
       const std::vector<std::uint32_t> region = around(faults, 2);
       const bool refined = round > 1 && round % kRefined == 1;
       smooth(region, refined ? 10 : round == 0 ? 6 : 2, round == 1 ? kShrink : kKeep);
@@ -96,7 +95,7 @@ class Fairer {
     return result;
   }
 
-  // The vertices of the faults and so many rings about them.
+  // Vertices of the faults and so many rings around them.
   std::vector<std::uint32_t> around(const Faults& faults, int rings) {
     std::vector<std::uint32_t> result = faults.spikes;
     for (std::uint32_t h : faults.folds)
@@ -108,7 +107,7 @@ class Fairer {
     return result;
   }
 
-  // All that has moved so far, and what it may have put out of order.
+  // All vertices moved so far, and their neighbours.
   std::vector<std::uint32_t> touched() {
     std::sort(m_moved.begin(), m_moved.end());
     m_moved.erase(std::unique(m_moved.begin(), m_moved.end()), m_moved.end());
@@ -124,7 +123,7 @@ class Fairer {
     if (m_phi.scaled()) m_mesh.scale[v] = m_phi.scale(m_mesh.position[v]);
   }
 
-  // Each vertex goes towards the mean of its neighbours, and then by `second`.
+  // Taubin smoothing: each vertex moves towards the mean of its neighbours, and then by `second`.
   void smooth(const std::vector<std::uint32_t>& region, int passes, double second) {
     constexpr double kFirst = 0.5;
     std::vector<Vec3d> ways(region.size());
@@ -135,7 +134,7 @@ class Fairer {
     }
   }
 
-  // One step towards what is asked; edges are evened out on the way.
+  // One iteration of the constraints; edge lengths are evened out on the way.
   void open(const Faults& faults) {
     constexpr double kEven = 0.15;
     for (std::uint32_t v : around(faults, 1)) {
@@ -151,7 +150,7 @@ class Fairer {
     return (at(m_mesh, m_mesh.opposite(h)) - a).cross(at(m_mesh, m_mesh.target(h)) - a);
   }
 
-  // Turns the two triangles away from each other about their edge.
+  // Rotates the two triangles of an edge apart.
   void unfold(std::uint32_t h) {
     constexpr double kStep = 0.6;
     const std::uint32_t t = m_mesh.twin[h];
@@ -169,7 +168,7 @@ class Fairer {
     const Vec3d ec = hc / lc, ed = hd / ld;
     const double angle = std::acos(std::clamp(ec.dot(ed), -1.0, 1.0)), wanted = std::acos(-kOpen);
     if (angle >= wanted) return;
-    // Perpendicular to the height, away from the other one; where they coincide, inwards.
+    // Perpendicular to the height, away from the other one; inwards where both coincide.
     const auto away = [&](const Vec3d& own, const Vec3d& other, std::uint32_t side) {
       Vec3d w = own * own.dot(other) - other;
       if (w.lengthSqr() < 1e-12) w = inwards(side);
@@ -185,7 +184,7 @@ class Fairer {
     move(b, back);
   }
 
-  // Towards the mean of its neighbours, and them a little the other way.
+  // Moves a vertex towards the mean of its neighbours, and these slightly the other way.
   void blunt(std::uint32_t v) {
     constexpr double kStep = 0.5;
     const Ring ring = ringOf(m_mesh, v);
@@ -196,7 +195,7 @@ class Fairer {
     m_mesh.around(v, [&](std::uint32_t h) { move(m_mesh.target(h), way * (-0.5 / ring.count)); });
   }
 
-  // The largest turn at the edges of two triangles side by side, as the mesh is.
+  // Largest turn at the edges of two adjacent triangles.
   double worstTurn(std::uint32_t h) const {
     const std::uint32_t t = m_mesh.twin[h];
     double worst = turn(m_mesh, h);
@@ -206,7 +205,7 @@ class Fairer {
     return worst;
   }
 
-  // Removes edges of a region that are much shorter than those of the whole mesh.
+  // Collapses edges of a region that are much shorter than those of the whole mesh.
   void coarsen(const std::vector<std::uint32_t>& region) {
     constexpr double kShort = 0.6;
     double sum = 0.0, count = 0.0;
@@ -217,7 +216,7 @@ class Fairer {
     }
     const double least = kShort * sum / std::max(count, 1.0);
     for (std::uint32_t v : region) {
-      // Each vertex takes in its nearest neighbours, one after the other.
+      // Each vertex absorbs its nearest neighbours, one after the other.
       for (int n = 0; n < 8 && m_mesh.outgoing[v] != kNone; ++n) {
         std::uint32_t shortest = kNone;
         m_mesh.around(v, [&](std::uint32_t h) {
@@ -232,7 +231,7 @@ class Fairer {
     }
   }
 
-  // Removes edges that are much shorter than those around, and turns edges where that folds less.
+  // Collapses edges much shorter than those around, and flips edges where that reduces folding.
   void tidy(const Faults& faults) {
     constexpr double kShort = 0.15;  // of the longest mean edge at a neighbour
     for (std::uint32_t v : around(faults, 1)) {
@@ -272,8 +271,8 @@ class Fairer {
     return (at(m_mesh, m_mesh.target(h)) - at(m_mesh, m_mesh.origin[h])).lengthSqr();
   }
 
-  // More vertices where the turn is too much for those that there are: about a fold the longer of each
-  // triangle's two other edges is split, about a spike the longest edge.
+  // Splits where the turn needs more vertices: at a fold the longer of each triangle's two other edges, at a
+  // spike the longest edge.
   void refine(const Faults& faults) {
     std::vector<std::uint32_t> ends;
     for (std::uint32_t h : faults.folds) {
@@ -300,7 +299,7 @@ class Fairer {
     }
   }
 
-  // The same where that has not been enough: all edges around are split, the longest first.
+  // The same with all edges around split, longest first, where refine() was not enough.
   void refineAll(const Faults& faults) {
     constexpr double kLong = 0.7;  // of the mean edge at its ends
     std::vector<std::pair<double, std::uint32_t>> edges;

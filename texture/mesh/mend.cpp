@@ -1,5 +1,4 @@
-// Local hill climbing after Hoppe et al., "Mesh optimization" (1993), with what is asked of the mesh as its
-// energy.
+// Local hill climbing after Hoppe et al., "Mesh optimization" (1993), with the faults of triangles as energy.
 #include "texture/mesh/mend.h"
 
 #include "texture/loops/parallel.h"
@@ -22,7 +21,7 @@ struct Mender {
   // Voxels: the larger of voxel and spacing.
   float unitAt(const Vec3f& x) const { return std::max(1.0f, spacing * phi.scale(x)); }
 
-  // How bad a triangle is; 0 where it is as it should be.
+  // Badness of a triangle; 0 for one without faults.
   float badness(const Vec3f& a, const Vec3f& b, const Vec3f& c) const {
     constexpr float kFar = 0.4f;       // units
     constexpr float kSlim = 0.1325f;   // the square of the sine of a little more than 20 degrees
@@ -62,7 +61,7 @@ struct Mender {
     return badness(mesh.position[a], mesh.position[b], mesh.position[c]);
   }
   float badnessOf(std::uint32_t h) const { return badness(mesh.origin[h], mesh.target(h), mesh.opposite(h)); }
-  // Of the triangles around v, as if it were at `at`; without those that also touch `except`.
+  // Badness of the triangles around v if it were at `at`, without those that also touch `except`.
   float around(std::uint32_t v, const Vec3f& at, std::uint32_t except = kNone) const {
     float sum = 0.0f;
     mesh.around(v, [&](std::uint32_t h) {
@@ -129,7 +128,7 @@ struct Mender {
     return length > 0.0f ? gradient / length : otherwise;
   }
 
-  // Takes the best step at the triangle of h. Returns a vertex all of whose triangles may have changed.
+  // Applies the best step at the triangle of h. Returns a vertex all of whose triangles may have changed.
   std::uint32_t improve(std::uint32_t h) {
     Step best;
     std::uint32_t corner = h - h % 3;
@@ -166,7 +165,7 @@ struct Mender {
 }  // namespace
 
 void mend(EditableMesh& mesh, const LevelSet& phi, float spacing) {
-  // A triangle whose corners agree with each other so well follows the surface and need not be sampled.
+  // Triangles whose corner normals agree that well follow the surface and need not be sampled.
   constexpr float kSmooth = 0.9f;
   constexpr std::size_t kStepsPerTriangle = 12;
   Mender mender{mesh, phi, spacing};

@@ -1,4 +1,4 @@
-// The last repairs of a mesh on a level set, where the surface is too sharp or too thin for its points.
+// Repairs a mesh where the level set is too sharp or too thin for its points.
 #pragma once
 
 #include "texture/levelset/level_set.h"
@@ -6,9 +6,9 @@
 
 namespace fluidtex::texture {
 
-// Flips, collapses and splits edges and moves vertices at triangles that face inwards, lie far from the level
-// set, are slim or have edges of more than two spacings, one after the other, as long as that helps. Keeps
-// the mesh closed and manifold and its topology. `spacing` in voxels, at scale 1.
+// At triangles that face inwards, lie far from the level set, are slim or have edges longer than two
+// spacings: applies flips, collapses, splits and moves of vertices, the best one first, as long as they help.
+// Keeps the mesh closed and manifold and its topology. spacing: voxels, at scale 1.
 void mend(EditableMesh& mesh, const LevelSet& phi, float spacing);
 
 }  // namespace fluidtex::texture

@@ -1,15 +1,15 @@
-// Where a mesh is not fair: edges that fold, vertices that stick out.
+// Folds and spikes of a mesh.
 #pragma once
 
 #include "texture/mesh/editable_mesh.h"
 
 namespace fluidtex::texture {
 
-// The mesh's own normal at a vertex: mean of its triangles', weighted by area. Zero where they cancel out.
+// Area-weighted normal of the triangles around a vertex, unit; zero where they cancel.
 Vec3f meshNormal(const EditableMesh& mesh, std::uint32_t v);
 
-// The level set's normal that is stored, or the mesh's own where there is none or quite another one: on rims
-// and in films thinner than the mesh can follow.
+// The stored normal of the level set, or meshNormal() where it is zero or deviates much: on rims, and in
+// films thinner than the mesh can follow.
 Vec3f normalAt(const EditableMesh& mesh, std::uint32_t v);
 
 struct Ring {
@@ -19,23 +19,23 @@ struct Ring {
 };
 Ring ringOf(const EditableMesh& mesh, std::uint32_t v);
 
-// Cosine of the angle between the normals of the two triangles of an edge; -1 where one has no area.
+// Cosine of the angle between the normals of an edge's triangles; -1 where one is degenerate.
 double turn(const EditableMesh& mesh, std::uint32_t h);
 
-// A little less than what must not be (MeshStats::folded, spikes), since positions are rounded once more.
-inline constexpr double kFolded = 0.03;  // smaller turns are faults
-inline constexpr double kSpike = 0.48;   // mean edges from a vertex to its neighbours' mean, along its normal
+// Slightly stricter than MeshStats::folded and spikes, since positions are rounded once more.
+inline constexpr double kFolded = 0.03;  // edges of smaller turn() are folds
+inline constexpr double kSpike = 0.48;   // in mean edges: distance from the neighbours' mean along the normal
 
 bool sticksOut(const EditableMesh& mesh, std::uint32_t v);
 
 struct Faults {
-  std::vector<std::uint32_t> folds;   // half-edges, one of each two
+  std::vector<std::uint32_t> folds;   // one half-edge per edge
   std::vector<std::uint32_t> spikes;  // vertices
   bool none() const { return folds.empty() && spikes.empty(); }
 };
 
-// Those of the whole mesh, or at some vertices and at the edges from them to vertices of higher number.
-// Vertices that are gone have none.
+// Faults of the whole mesh, or at some vertices and at the edges from them to vertices of higher index.
+// Removed vertices have none.
 Faults faultsOf(const EditableMesh& mesh);
 Faults faultsAt(const EditableMesh& mesh, const std::vector<std::uint32_t>& vertices);
 

@@ -1,5 +1,4 @@
-// A mesh's vertices shared out among cubes of space, so that each cube's may be worked on by a thread of its
-// own.
+// Partition of a mesh's vertices into cubes of space, for parallel edits.
 #pragma once
 
 #include "texture/mesh/editable_mesh.h"
@@ -8,19 +7,18 @@
 
 namespace fluidtex::texture {
 
-// What may be done in one patch while others work in theirs: a vertex may be moved or collapsed whose whole
-// ring is the patch's own, and an edge flipped all four of whose corners are. Then nothing is read that
-// another patch writes: a triangle is changed by the patch that all of its corners belong to, the twin of a
-// half-edge by that of both its ends, and walking around a vertex reads no twin of an edge that lies opposite
-// to it.
+// Edits allowed in one patch while other threads edit others: moving or collapsing a vertex whose one-ring
+// the patch owns, and flipping an edge whose four corners it owns. Then no patch reads what another one
+// writes: a triangle is changed by the owner of all its corners, the twin of a half-edge by the owner of both
+// its ends, and a walk around a vertex reads no twin of an opposite edge.
 struct Patches {
-  std::vector<std::uint32_t> of;      // #V, or number of places
+  std::vector<std::uint32_t> of;      // #V, or one per position: the patch
   std::vector<std::uint32_t> first;   // #P + 1, into vertex
-  std::vector<std::uint32_t> vertex;  // patch by patch, in order of their number
+  std::vector<std::uint32_t> vertex;  // patch by patch, ascending
 
   std::size_t count() const { return first.size() - 1; }
   bool owns(std::uint32_t patch, std::uint32_t v) const { return of[v] == patch; }
-  // Whether v and all vertices around it are the patch's.
+  // Whether the patch owns v and its one-ring.
   bool ownsRing(const EditableMesh& mesh, std::uint32_t patch, std::uint32_t v) const {
     if (of[v] != patch) return false;
     bool all = true;
@@ -29,12 +27,12 @@ struct Patches {
   }
 };
 
-// Cubes of `side` with a corner at `corner`, in the units of the places.
+// Cubes of `side` with a corner at `corner`, in the units of `places`.
 Patches patchesOf(const std::vector<Vec3f>& places, float side, const Vec3f& corner = Vec3f(0.0f));
-// Vertices that are gone belong to none: `of` is kNone.
+// Removed vertices have the patch kNone.
 Patches patchesOf(const EditableMesh& mesh, float side, const Vec3f& corner = Vec3f(0.0f));
 
-// Calls body(patch) for every patch, at once.
+// Calls body(patch) for every patch, in parallel.
 template <typename Body>
 void forEachPatch(const Patches& patches, const Body& body) {
   tbb::parallel_for(std::size_t(0), patches.count(), [&](std::size_t patch) { body(std::uint32_t(patch)); });

@@ -1,4 +1,4 @@
-// Dart throwing on a surface after Cook, "Stochastic sampling in computer graphics" (1986), with a spatial
+// Dart throwing after Cook, "Stochastic sampling in computer graphics" (1986), on a surface, with a spatial
 // hash.
 #include "texture/mesh/points.h"
 
@@ -34,7 +34,7 @@ class GrowingGrid {
     m_items.push_back({p, index, head});
     head = std::uint32_t(m_items.size() - 1);
   }
-  // Whether hit(index) holds for a point nearer than the cell's size.
+  // Whether hit(index) holds for a point closer than the cell size.
   template <class Hit>
   bool anyWithin(const Vec3f& p, float radius, const Hit& hit) const {
     const int x = index3(p.x()), y = index3(p.y()), z = index3(p.z());
@@ -70,9 +70,8 @@ class GrowingGrid {
   std::vector<Item> m_items;
 };
 
-// The points so far, and whether one of them is in another's way. Where their scale varies there is a grid
-// for each octave of it; a scale is hardly another one within its own reach, so that the next octaves are
-// enough.
+// The points placed so far, for conflict tests. With a varying scale there is one grid per octave of it; the
+// scale hardly changes within a point's reach, so the adjacent octaves are enough.
 class Placed {
  public:
   Placed(const LevelSet& phi, float radius, std::size_t expected) : m_phi(phi) {
@@ -83,7 +82,7 @@ class Placed {
     for (double scale = kLeastScale; scale < 2.0 * kLargestScale; scale *= 2.0)
       m_grids.emplace_back(radius * float(scale), expected);
   }
-  // `radius` at scale 1; the smaller of the two points' scales counts.
+  // radius: at scale 1; the smaller scale of two points counts.
   bool near(const Vec3f& p, const Vec3f& n, float radius) const {
     constexpr float kSameSide =
         -0.3f;  // cosine of normals: across a right-angled crease points still see each other
@@ -127,10 +126,9 @@ class Placed {
   std::vector<float> m_scale;  // #P where it varies
 };
 
-// Offers points to be placed, cube of space by cube: offersOf(cube, offer) calls offer(position, normal) for
-// those in a cube. One is placed where no other stands in its way that was there before or was offered
-// earlier. What lies deep in a cube is placed while others are in theirs, and then what lies between the
-// cubes.
+// Places points cube by cube, in parallel: offersOf(cube, offer) calls offer(position, normal) for the
+// candidates of a cube. A candidate is placed unless it conflicts with a point placed before, or offered
+// earlier. First the interiors of all cubes, then what lies between them.
 template <class OffersOf>
 void placeAll(const LevelSet& phi, const Patches& cubes, float side, float radius, std::size_t expected,
               const OffersOf& offersOf, Placed& placed) {
@@ -167,7 +165,7 @@ void placeAll(const LevelSet& phi, const Patches& cubes, float side, float radiu
       placed.place(part.between.position[k], part.between.normal[k], radius);
 }
 
-// Calls offer(position, normal) for random points of triangle t, keyed by its cell and its number there.
+// Calls offer(position, normal) for random points of triangle t, keyed by its cell and its index there.
 template <class Offer>
 void throwDarts(const LevelSet& phi, const IsoSurface& surface, std::size_t t, std::uint64_t key,
                 float perArea, const Offer& offer) {
@@ -250,8 +248,8 @@ PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std:
   };
   const std::size_t seeded = points.position.size();
   placeAll(phi, cubes, side, dartRadius, perCube, dartsOf, placed);
-  // Darts hit the trilinear surface. Where that is farther from the smooth one than they are from each other,
-  // they could not get there one by one.
+  // Darts lie on the trilinear surface. Where it is farther from the smooth one than they are from each
+  // other, they could not get there one by one.
   forEachIndex(points.position.size() - seeded, [&](std::uint32_t k) {
     const std::size_t i = seeded + k;
     const LevelSet::Projection p = phi.project(points.position[i], reachFor(spacing));

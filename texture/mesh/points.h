@@ -1,4 +1,4 @@
-// Points spread over an iso-surface, before they are connected.
+// Spreads points over an iso-surface, before they are connected.
 #pragma once
 
 #include "texture/levelset/isosurface.h"
@@ -11,10 +11,10 @@ struct PointSet {
   std::vector<Vec3f> normal;  // unit, outward
 };
 
-// `seeds` (index space; near the zero set) brought onto the surface, without those nearer than half a spacing
-// to an earlier one; then fresh points at random by area wherever there is room for them: dart throwing,
-// keyed by the voxel and `key`, not by anything that changes from frame to frame. Points on opposite sides of
-// a thin sheet do not see each other. `spacing` in voxels, at scale 1.
+// Points on the surface. First `seeds` (index space; near the zero set), projected, without those closer than
+// half a spacing to an earlier one; then random ones wherever there is room, by dart throwing. Random numbers
+// are keyed by voxel and `key`, not by frame, so that a liquid at rest keeps its points. Points on opposite
+// sides of a thin sheet do not see each other. spacing: voxels, at scale 1.
 PointSet spreadPoints(const LevelSet& phi, const IsoSurface& surface, const std::vector<Vec3f>& seeds,
                       float spacing, std::uint64_t key);
 

@@ -1,5 +1,4 @@
-// The way a surface is prepared: level set -> iso-surface (topology) -> points -> mesh -> even mesh, level by
-// level.
+// Steps: level set -> iso-surface (topology) -> points -> mesh -> even mesh, level by level.
 #include "texture/mesh/prepare.h"
 
 #include "random/random.h"
@@ -20,7 +19,7 @@
 namespace fluidtex::texture {
 namespace {
 
-// One vertex per square of spacing, and no component with fewer than a tetrahedron has. `spacing` in voxels.
+// One vertex per square of spacing, and at least a tetrahedron's per component. spacing: voxels.
 double pointsFor(const LevelSet& phi, const IsoSurface& surface, const Components& components,
                  float spacing) {
   std::vector<double> squares;  // of the scale, by component
@@ -47,8 +46,8 @@ std::vector<Vec3f> toIndex(const std::vector<Vec3f>& positions, const openvdb::m
   return result;
 }
 
-// Whether neither the points nor the surface under them nor their scale have moved since the last frame: then
-// everything stays as it is. Points in index space.
+// Whether points, surface and scale are unchanged since the last frame: then points and mesh are kept as they
+// are. Points in index space.
 bool atRest(const LevelSet& phi, const std::vector<Vec3f>& previous, const std::vector<Vec3f>& now,
             const std::vector<float>& scale) {
   constexpr float kStill = 1e-3f;      // voxels
@@ -93,7 +92,7 @@ SurfaceMesh toWorld(const EditableMesh& mesh, const LevelSet& phi, const openvdb
   return result;
 }
 
-// The last frame's mesh as it was, on a surface that has not moved.
+// The last frame's mesh, unchanged.
 SurfaceMesh kept(const LevelSet& phi, const Seeds& seeds, const openvdb::math::Transform& transform,
                  double spacing) {
   EditableMesh mesh = makeEditableMesh(toIndex(seeds.previous, transform), seeds.triangles);
@@ -107,7 +106,7 @@ SurfaceMesh kept(const LevelSet& phi, const Seeds& seeds, const openvdb::math::T
   return result;
 }
 
-// What all levels of a frame stand on.
+// Shared by all levels of a frame.
 struct Ground {
   const openvdb::math::Transform& transform;
   double spacing;  // metres, of the finest level
@@ -152,7 +151,7 @@ SurfaceMesh evened(const Ground& ground, EditableMesh mesh, int level, const Eve
   return result;
 }
 
-// A level from points at random.
+// A level from random points.
 SurfaceMesh scatteredLevel(const Ground& ground, int level, const SurfaceOptions& options) {
   const EvenOptions even = evenOptions(ground, level, options);
   return evened(ground, connected(ground, {}, level, even.spacing, options), level, even);
@@ -184,7 +183,7 @@ double spacingForPoints(const openvdb::FloatGrid& phi, int points, const PointSc
   LevelSet field(phi);
   const IsoSurface surface = isoSurface(field);
   double spacing = std::sqrt(squares(field, surface) / points);  // voxels
-  if (scale && spacing > 0.0) {  // how far the scale is followed depends a little on the spacing
+  if (scale && spacing > 0.0) {  // gradient limiting depends slightly on the spacing
     layScale(field, phi.transform(), scale, float(spacing));
     spacing = std::sqrt(squares(field, surface) / points);
   }

@@ -1,6 +1,5 @@
-// As repulsion.cpp, with each vertex seeing where its neighbours have gone already (Gauss-Seidel instead of
-// Jacobi): that takes half as many sweeps, and in a patch that fits into the cache each of them half the
-// time.
+// As repulsion.cpp, but Gauss-Seidel instead of Jacobi: half as many sweeps, and in a patch that fits into
+// the cache each takes half the time.
 #include "texture/mesh/relax.h"
 
 #include "texture/loops/lanes.h"
@@ -13,7 +12,7 @@
 namespace fluidtex::texture {
 namespace {
 
-// The vertices around one, in order.
+// One-ring of a vertex, in order.
 struct Ring {
   static constexpr int kMost = 16;
   int size = 0;
@@ -22,7 +21,7 @@ struct Ring {
   alignas(32) float nx[kMost + 8], ny[kMost + 8], nz[kMost + 8];
   alignas(32) float scale[kMost + 8];
 
-  // False if there are too many, or another patch's are among them.
+  // False if it is too large, or not all of it belongs to the patch.
   bool gather(const EditableMesh& mesh, const Patches& patches, std::uint32_t patch, std::uint32_t v) {
     size = 0;
     const std::uint32_t start = mesh.outgoing[v];
@@ -56,7 +55,7 @@ Float8 squareRoot8(const Float8& v) {
   return root;
 }
 
-// Where the ring drives its centre, before any step length. `range`: at scale 1.
+// Displacement of the centre by its ring, for a step length of 1. range: at scale 1.
 Vec3f push(const Ring& ring, const Vec3f& at, float ownScale, float range) {
   Float8 sx{}, sy{}, sz{};
   for (int k = 0; k < ring.size; k += 8) {
@@ -65,7 +64,7 @@ Vec3f push(const Ring& ring, const Vec3f& at, float ownScale, float range) {
     const Float8 d2 = dx * dx + dy * dy + dz * dz;
     Float8 weight = range * 0.5f * (ownScale + load8(ring.scale + k)) / squareRoot8(d2) - 1.0f;
     weight = (d2 > 0.0f) & (weight > 0.0f) ? weight : Float8{};
-    // Behind the ring's last vertex stands its first once more.
+    // The ring is closed: its last vertex is followed by its first.
     if (ring.size - k < 8) weight[ring.size - k] = 0.0f;
     sx += weight * dx;
     sy += weight * dy;
@@ -74,13 +73,13 @@ Vec3f push(const Ring& ring, const Vec3f& at, float ownScale, float range) {
   return Vec3f(sum8(sx), sum8(sy), sum8(sz));
 }
 
-// What the triangles around a vertex at p would be like.
+// The triangles around a vertex, if it were at p.
 struct Fan {
   bool outward = true;  // all of them
-  // Cotangents of the k-th triangle's angles at the ring's vertices k + 1 and k.
+  // Cotangents of the k-th triangle's angles at ring vertices k + 1 and k.
   alignas(32) float next[Ring::kMost], own[Ring::kMost];
 
-  // Whether at each edge from the centre the two opposite angles sum to at most pi.
+  // Whether opposite angles at each edge from the centre sum to at most pi.
   bool delaunay(int size) const {
     float before = own[size - 1];
     bool all = true;
@@ -124,11 +123,11 @@ void look(const Ring& ring, const Vec3f& p, const Vec3f& n, Fan& fan) {
 
 void relax(EditableMesh& mesh, const LevelSet& phi, const Patches& patches, float edge, int sweeps,
            float wake, std::vector<std::uint8_t>& awake) {
-  // Of the distance that would undo the overlap: more than twice what repulsion that moves all at once bears.
-  // At 0.9 points no longer come to rest, and from 0.6 on more of those beside a crease find another place on
-  // the next frame.
+  // Share of the displacement that would remove the overlap: more than twice what is stable for a Jacobi
+  // sweep. At 0.9 points no longer come to rest; from 0.6 on, more of those beside a crease move on the next
+  // frame.
   constexpr float kStep = 0.5f;
-  constexpr float kStill = 0.005f;  // mean edge lengths: less is not worth a move
+  constexpr float kStill = 0.005f;  // mean edge lengths: shorter moves are dropped
   forEachPatch(patches, [&](std::uint32_t patch) {
     Ring ring;
     Fan fan;

@@ -1,4 +1,4 @@
-// Repulsion of a mesh's vertices one after the other, patch by patch: for points that are far out of balance.
+// Gauss-Seidel repulsion of a mesh's vertices, patch by patch, for points far out of balance.
 #pragma once
 
 #include "texture/levelset/level_set.h"
@@ -6,10 +6,10 @@
 
 namespace fluidtex::texture {
 
-// Moves every vertex whose ring lies in its patch away from its neighbours along the level set [Turk91],
-// `sweeps` times, where that folds no triangle, and keeps the edges inside the patches Delaunay. `edge`:
-// voxels, the mean length of the even mesh's edges, at scale 1. `awake`: #V, is in balance or moves; a vertex
-// at rest stays where it is until it would move by more than `wake`, mean edge lengths there.
+// `sweeps` times, moves every vertex whose one-ring its patch owns away from its neighbours along the level
+// set [Turk91], where that folds no triangle, and keeps edges inside patches Delaunay. edge: voxels, mean
+// edge length of the even mesh at scale 1. awake: #V, in and out: 1 if out of balance. A vertex at rest wakes
+// only for a move of more than `wake`, mean edge lengths.
 void relax(EditableMesh& mesh, const LevelSet& phi, const Patches& patches, float edge, int sweeps,
            float wake, std::vector<std::uint8_t>& awake);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kNone = EditableMesh::kNone;
 
-// Whether the angles opposite to an edge sum to more than pi, by more than rounding.
+// Whether the angles opposite to an edge sum to more than pi, with a tolerance for rounding.
 bool violatesDelaunay(const EditableMesh& mesh, std::uint32_t h) {
   constexpr float kSlack = 1e-4f;
   const std::uint32_t t = mesh.twin[h];
@@ -40,13 +40,12 @@ bool flipFolds(const EditableMesh& mesh, std::uint32_t h) {
   return now < kFacing && !mayFace(now, std::min(facingOf(mesh, a, b, c), facingOf(mesh, b, a, d)));
 }
 
-// Flipping ends by itself on a plane; on a coarsely sampled surface it might go round in a circle.
+// Flipping terminates on a plane; on a coarsely sampled surface it might cycle.
 std::size_t flipBudget(std::size_t halfEdges) {
   return 10 * halfEdges;
 }
 
-// Flips the edges on the stack that have to be, and then whatever that asks for, among those that are
-// `allowed`.
+// Flips edges on the stack that violate Delaunay, and those that this affects, among the `allowed` ones.
 template <typename Allowed>
 void settle(EditableMesh& mesh, std::vector<std::uint32_t>& stack, std::size_t& budget,
             const Allowed& allowed) {
@@ -111,7 +110,7 @@ float worstFacing(const EditableMesh& mesh, std::uint32_t v, std::uint32_t excep
 void flipToDelaunay(EditableMesh& mesh, const std::vector<std::uint32_t>* dirty) {
   std::vector<std::uint32_t> stack;
   std::size_t budget = flipBudget(mesh.halfEdgeCount());
-  // Most edges are right as they are, and that is found out in parallel.
+  // Most edges need no flip, which is found out in parallel.
   using Edges = std::vector<std::uint32_t>;
   Edges wrong;
   if (dirty && dirty->size() < mesh.vertexCount() / 4) {

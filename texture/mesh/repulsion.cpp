@@ -9,7 +9,7 @@
 
 namespace fluidtex::texture {
 
-// Where repulsion drives a vertex in one sweep, tangent to the surface.
+// Displacement of a vertex in one sweep, tangent to the surface.
 Vec3f Repulsion::push(std::uint32_t v) const {
   constexpr float kStep = 0.2f;  // of the distance that would undo the overlap: stable for six neighbours
   const float own = m_mesh.scaleAt(v);
@@ -28,7 +28,7 @@ Vec3f Repulsion::push(std::uint32_t v) const {
 }
 
 void Repulsion::sweep(std::vector<std::uint32_t>& active, float wake, float sleep) {
-  // Of the last sweep's move: long waves of density level out in half as many sweeps.
+  // Share of the last displacement: halves the number of sweeps that long waves of density take to level out.
   constexpr float kMomentum = 0.5f;
   m_last.resize(m_mesh.vertexCount(), Vec3f(0.0f));
   // Where the movers go; then where they were.
@@ -46,7 +46,7 @@ void Repulsion::sweep(std::vector<std::uint32_t>& active, float wake, float slee
       const float size = move.length();
       if (size > longest) move *= longest / size;
       const LevelSet::Projection p = m_phi.slide(from + move, reachFor(edge));
-      // At a crease a push moves nothing: such vertices are at rest as well.
+      // At a crease a displacement may move nothing: such vertices are at rest as well.
       awake[v] = p.known && (p.position - from).lengthSqr() > asleep * asleep;
       m_position[i] = p.position;
       m_normal[i] = p.normal;
@@ -74,14 +74,14 @@ void Repulsion::sweep(std::vector<std::uint32_t>& active, float wake, float slee
                  active.end());
 }
 
-// Takes back moves until no triangle is folded that was not before. Ends: at worst all moves are taken back.
-// Those whose move was taken back go to sleep. Whether there were any.
+// Reverts moves until no triangle is folded that was not before. Terminates: at worst all are reverted.
+// Reverted vertices fall asleep. Returns whether there were any.
 bool Repulsion::revertFolds(const std::vector<std::uint32_t>& movers) {
   m_undo.resize(m_mesh.vertexCount(), 0);
   const auto raise = [&](std::uint32_t v) {
     std::atomic_ref<std::uint8_t>(m_undo[v]).store(1, std::memory_order_relaxed);
   };
-  // Each triangle is looked at by the first of its corners that moves.
+  // Each triangle is checked by the first of its corners that moves.
   const auto inspect = [&](std::uint32_t v) {
     m_mesh.around(v, [&](std::uint32_t h) {
       const std::uint32_t b = m_mesh.target(h), c = m_mesh.opposite(h);
@@ -107,7 +107,7 @@ bool Repulsion::revertFolds(const std::vector<std::uint32_t>& movers) {
       if (m_phi.scaled()) m_mesh.scale[v] = m_phi.scale(m_mesh.position[v]);
       m_undo[v] = 2;
     }
-    // Its neighbours may be in the way now.
+    // Its neighbours may fold now.
     for (std::uint32_t i : reverted) {
       const std::uint32_t v = movers[i];
       m_mesh.around(v, [&](std::uint32_t h) {

@@ -6,24 +6,24 @@
 
 namespace fluidtex::texture {
 
-// Neighbours repel up to so many mean edge lengths: beyond it a Delaunay flip turns edges, and no force may
-// jump there.
+// Range of repulsion, mean edge lengths: beyond it Delaunay flips change neighbours, and the force must not
+// jump.
 inline constexpr float kRepulsionRange = 1.25f;
-inline constexpr float kLongestMove = 0.25f;  // in one sweep, mean edge lengths
+inline constexpr float kLongestMove = 0.25f;  // per sweep, mean edge lengths
 
-// Moves vertices away from their neighbours, sweep by sweep. What it works on stays outside: `mesh` may
-// change between sweeps.
+// Jacobi repulsion of a mesh's vertices, sweep by sweep. Keeps references; the mesh may change between
+// sweeps.
 class Repulsion {
  public:
-  // `edge`: voxels, the mean length of the even mesh's edges, at scale 1.
+  // edge: voxels, mean edge length of the even mesh at scale 1.
   Repulsion(EditableMesh& mesh, const LevelSet& phi, float edge) : m_mesh(mesh), m_phi(phi), m_edge(edge) {}
 
   // #V: out of balance, moving.
   std::vector<std::uint8_t> awake;
 
-  // One sweep: the vertices in `active` that are awake, or whose push is larger than `wake`, move at once,
-  // where that folds no triangle. Leaves in `active` those that moved by more than `sleep`; the others go to
-  // sleep where they were. Both in mean edge lengths there.
+  // One sweep: vertices in `active` that are awake, or whose displacement exceeds `wake`, move at once, where
+  // that folds no triangle. `active` becomes the list of those that moved by more than `sleep`; the others
+  // fall asleep. Thresholds in local mean edge lengths.
   void sweep(std::vector<std::uint32_t>& active, float wake, float sleep);
 
  private:

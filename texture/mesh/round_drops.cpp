@@ -7,7 +7,7 @@ namespace {
 
 using openvdb::Vec3d;
 
-// On the unit sphere, seen from outside counter-clockwise.
+// On the unit sphere, counter-clockwise seen from outside.
 EditableMesh unitBall() {
   std::vector<Vec3f> unit{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
   std::vector<Vec3I> triangles;
@@ -31,7 +31,7 @@ EditableMesh unitBall() {
   return ball;
 }
 
-// The vertices connected with `start`; nothing if they are as many as a ball's, or more.
+// Component of `start`; nothing if it has at least as many vertices as a ball.
 std::vector<std::uint32_t> smallComponent(const EditableMesh& mesh, std::uint32_t start) {
   std::vector<std::uint32_t> found{start};
   for (std::size_t next = 0; next < found.size(); ++next) {

@@ -1,4 +1,4 @@
-// Drops of a handful of vertices, which cannot look like drops.
+// Replaces drops of too few vertices by balls.
 #pragma once
 
 #include "texture/levelset/level_set.h"
@@ -6,11 +6,11 @@
 
 namespace fluidtex::texture {
 
-inline constexpr std::size_t kBallVertices = 18;  // an octahedron's and those in the middle of its edges
+inline constexpr std::size_t kBallVertices = 18;  // an octahedron's vertices and edge midpoints
 
-// Components without handles that have fewer vertices than kBallVertices and one in `among` (vertices that
-// are gone do not count) become balls of so many, about the same middle and of the same mean radius. Whether
-// there were any.
+// Components of genus 0 with fewer than kBallVertices vertices, one of them in `among` (removed vertices are
+// ignored), become balls of kBallVertices with the same centre and mean radius. Returns whether there were
+// any.
 bool roundOffDrops(EditableMesh& mesh, const LevelSet& phi, const std::vector<std::uint32_t>& among);
 
 }  // namespace fluidtex::texture

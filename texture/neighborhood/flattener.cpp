@@ -1,13 +1,13 @@
-// What exemplar pixels lie over in a flattened piece.
+// Rasterisation of a flattened piece.
 #include "texture/neighborhood/flattener.h"
 
 namespace fluidtex::texture {
 
 void Flattener::fromTriangles(int window, PixelSource* pixels) const {
   constexpr double kOnEdge =
-      1e-7;  // a pixel on an edge belongs to either triangle; weights are cut off at zero
+      1e-7;  // tolerance: a pixel on an edge belongs to either triangle; weights are clamped at zero
   const int radius = window / 2;
-  const double limit = m_reach - 0.5 + 1e-6;  // where the neighbourhood is whole this is the radius
+  const double limit = m_reach - 0.5 + 1e-6;  // for a complete neighbourhood this is the radius
   forEachTriangle([&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const Complexd p[3] = {m_placed[a].l, m_placed[b].l, m_placed[c].l};
     const auto [left, right] = std::minmax({p[0].real(), p[1].real(), p[2].real()});
@@ -40,7 +40,7 @@ void Flattener::fromTriangles(int window, PixelSource* pixels) const {
   });
 }
 
-// The three nearest members, each the more the nearer it is.
+// From the three nearest members, nearer ones weigh more.
 void Flattener::fromNearest(int window, PixelSource* pixels) const {
   constexpr double kFarthest = 1.6;  // pixels
   const int radius = window / 2;

@@ -1,6 +1,5 @@
-// Pieces of a surface laid flat around a vertex, one after the other. Flattening is by parallel transport of
-// the centre's frame; [Kwatra07 sec. V-A] flattens by following the orientation field instead, which it
-// reports to be unstable near the field's singularities.
+// Flattens pieces of a surface around a vertex, by parallel transport of the centre's frame. [Kwatra07 sec.
+// V-A] follows the orientation field instead, and reports that to be unstable near singularities.
 #pragma once
 
 #include "texture/loops/complex.h"
@@ -17,7 +16,7 @@ namespace fluidtex::texture {
 
 using Complexd = std::complex<double>;
 
-// Flattens one neighbourhood after the other; arrays over all vertices are reused, told apart by a stamp.
+// Flattens one neighbourhood after the other. Arrays over all vertices are reused, by a stamp.
 class Flattener {
  public:
   explicit Flattener(const MeshView& view)
@@ -29,32 +28,33 @@ class Flattener {
     Complexd turn;
   };
 
-  // Flattens all within `half` spacings of the centre. Afterwards placed() holds the piece, in spacings, and
-  // reach() how far it can be trusted.
+  // Flattens everything within `half` spacings of the centre. Then placed() holds the piece, in spacings, and
+  // reach() the distance up to which it is valid.
   void flatten(std::uint32_t center, double half) {
     m_half = half;
     place(center);
-    relax();  // once: more make edges little better
+    relax();  // one sweep: more hardly improve edges
     findReach();
   }
 
   const std::vector<Placed>& placed() const { return m_placed; }
   double reach() const { return m_reach; }
 
-  // Fills the window's pixels from the flattened triangles; where only some vertices are members, from the
-  // nearest of those. `pixels`: window^2, as they come from their constructor.
+  // Fills the pixels of a window from the flattened triangles, or from the nearest members where the view has
+  // members. pixels: window^2, default-constructed.
   void rasterize(int window, PixelSource* pixels) const {
     m_view.members ? fromNearest(window, pixels) : fromTriangles(window, pixels);
   }
 
  private:
-  // Vertices are placed this far beyond the window, so that the pixels at its edge find their triangles.
+  // Spacings. Vertices are placed this far beyond the window, so that pixels at its edge find their
+  // triangles.
   static constexpr double kMargin = 0.7;
-  // Areas of flattened triangles over their areas in space outside [1 / kMaxAreaChange, kMaxAreaChange] end a
-  // neighbourhood; kAreaSlack, pixels^2, forgives slivers, whose ratio says nothing.
+  // A flattened triangle whose area over its area in space is outside [1 / kMaxAreaChange, kMaxAreaChange]
+  // ends the neighbourhood. kAreaSlack, pixels^2: tolerance for slivers, whose ratio is meaningless.
   static constexpr double kMaxAreaChange = 3.0;
   static constexpr double kAreaSlack = 0.02;
-  // No neighbourhood becomes smaller than its first ring.
+  // Spacings: a neighbourhood has at least its one-ring.
   static constexpr double kLeastReach = 1.5;
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
@@ -63,12 +63,12 @@ class Flattener {
   void fromTriangles(int window, PixelSource* pixels) const;
   void fromNearest(int window, PixelSource* pixels) const;
 
-  // The turn of a vertex as its neighbour over edge h has it; h is the vertex's own.
+  // Turn of a vertex as predicted by its neighbour over half-edge h; h is the vertex's own.
   Complexd turnThrough(const Placed& neighbor, std::uint32_t h) const {
     return product(neighbor.turn, std::conj(Complexd(m_view.connection.rotation[h])));
   }
 
-  // Averages what the placed neighbours with a slot below `limit` predict. False if there are none.
+  // Mean of the predictions by placed neighbours with a slot below `limit`. False if there are none.
   bool predict(std::uint32_t v, std::uint32_t limit, Placed& result) const {
     const VertexGraph& graph = m_view.graph;
     Complexd turnSum(0.0), lSum(0.0), edgeSum(0.0);
@@ -122,7 +122,7 @@ class Flattener {
     for (std::size_t i = 1; i < m_placed.size(); ++i) predict(m_placed[i].vertex, kNone, m_placed[i]);
   }
 
-  // Calls body(a, b, c) with the slots of every flattened triangle, once each, clockwise in (l1, l2).
+  // Calls body(a, b, c) once with the slots of each flattened triangle, clockwise in (l1, l2).
   template <typename Body>
   void forEachTriangle(const Body& body) const {
     for (std::uint32_t i = 0; i < m_placed.size(); ++i) {

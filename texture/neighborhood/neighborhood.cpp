@@ -17,7 +17,7 @@
 namespace fluidtex::texture {
 namespace {
 
-// Reach, in pixels, of the small neighbourhoods that fill the gaps between shrunk ones.
+// Pixels: reach of the small neighbourhoods that fill gaps between shrunk ones.
 constexpr double kFillerReach = 4.5;
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
@@ -62,13 +62,13 @@ std::vector<std::uint32_t> selectCenters(const MeshView& view, float radius,
       }
     }
   }
-  std::sort(centers.begin(), centers.end());  // neighbours in memory are near each other on most meshes
+  std::sort(centers.begin(), centers.end());  // locality: neighbours in memory are mostly near in space
   return centers;
 }
 
 namespace {
 
-// One a thread; their arrays over all vertices are worth keeping from one call to the next.
+// One per thread; their arrays over all vertices are kept between calls.
 using Flatteners = tbb::enumerable_thread_specific<Flattener>;
 
 Flatteners makeFlatteners(const MeshView& view) {
@@ -145,8 +145,8 @@ Neighborhoods coverSurface(const MeshView& view, int window, const std::vector<s
   Neighborhoods result =
       build(view, flatteners, window, selectCenters(view, 0.25f * float(window), wanted), pixels);
   const std::size_t count = view.mesh.positions.size();
-  // A shrunk neighbourhood may not reach all that its centre was to cover; the second radius makes every
-  // vertex its own. Where those are needed nothing wide can be flattened, so that nothing wide is tried.
+  // A shrunk neighbourhood may leave vertices of its centre uncovered; radius 0 makes every remaining vertex
+  // a centre. Nothing wide can be flattened there, so nothing wide is tried.
   for (const float radius : {1.0f, 0.0f}) {
     std::vector<std::uint8_t> open = wanted.empty() ? std::vector<std::uint8_t>(count, 1) : wanted;
     for (const std::uint32_t v : result.vertex) open[v] = 0;

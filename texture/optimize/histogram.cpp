@@ -1,6 +1,6 @@
 // Kopf, Fu, Cohen-Or, Deussen, Lischinski, Wong: Solid Texture Synthesis from 2D Exemplars (2007), sec. 4.3.
-// There the histogram of the result is updated value by value; here it is taken once an iteration, so that
-// the order of vertices does not matter.
+// There the histogram is updated after every voxel; here it is taken once an iteration, so that the result
+// does not depend on the order of vertices.
 #include "texture/optimize/histogram.h"
 
 #include "texture/loops/parallel.h"
@@ -21,8 +21,7 @@ Bins binsOf(const HistogramTarget& target, const Float8& value) {
   return bins;
 }
 
-// Counts in chunks of fixed size, so that sums are the same on any number of threads (they are whole numbers
-// besides).
+// Counted in chunks of fixed size; integer sums do not depend on the number of threads.
 template <typename BinsAt>
 Histogram shares(std::size_t count, int channels, const BinsAt& binsAt) {
   constexpr std::size_t kChunk = 4096;
@@ -100,7 +99,7 @@ Histogram histogramOf(const HistogramTarget& target, const Values& values, int c
 
 Histogram expectedHistogram(const HistogramTarget& target, const TexelImage& image, const Demand& demand) {
   if (demand.empty()) return target.exemplar;
-  // Rows are summed each on its own, then in order: the same on any number of threads.
+  // Summed by row, then over rows in order: independent of the number of threads.
   std::vector<Histogram> rows(std::size_t(image.height));
   tbb::parallel_for(0, image.height, [&](int y) {
     for (int x = 0; x < image.width; ++x) {

@@ -1,5 +1,5 @@
-// Histogram weights [Kopf07]: texels whose values the surface has too many of already count less in the
-// average, so that all of the exemplar's values keep their share.
+// Histogram weights [Kopf07 sec. 4.3]: texels whose values the surface has too many of count less in the
+// average, so that the surface keeps the exemplar's histogram.
 #pragma once
 
 #include "texture/exemplar/texel_image.h"
@@ -13,37 +13,38 @@ namespace fluidtex::texture {
 
 inline constexpr int kHistogramBins = 16;
 
-// The share of each bin, for every channel; bins divide the range of the exemplar's channel evenly, values
-// beyond it count for the bins at its ends. A channel's shares sum to 1.
+// Share of each bin, per channel; a channel's shares sum to 1. Bins divide the exemplar's range of values
+// evenly; values beyond it fall into the end bins.
 struct Histogram {
   std::array<std::array<float, kHistogramBins>, kMaxChannels> share{};
 };
 
-// The bin of each channel.
+// Bin of each channel.
 using Bins = std::array<std::uint8_t, kMaxChannels>;
 
 struct HistogramTarget {
   Float8 low{}, scale{};  // bin = clamp((value - low) * scale)
   Histogram exemplar;
-  // How much a channel counts: 1; of matched maps, whose amplitude is a matter of choice, its variance in
-  // mean colour channels', 1 at most.
+  // Weight per channel: 1, or for matched maps, whose amplitude is arbitrary, their variance over the mean of
+  // the colour channels', 1 at most.
   std::array<float, kMaxChannels> counts{};
-  std::vector<Bins> bins;  // of every texel of image.data
+  std::vector<Bins> bins;  // per texel of image.data
 };
 
 HistogramTarget makeHistogramTarget(const TexelImage& image);
 Histogram histogramOf(const HistogramTarget& target, const Values& values, int channels);
 
-// The exemplar's own, each texel counted as often as it is asked for; target.exemplar where nothing is
-// guided.
+// The histogram that the surface should have: the exemplar's, each texel weighted by the demand for it. It is
+// target.exemplar where the surface is unguided.
 Histogram expectedHistogram(const HistogramTarget& target, const TexelImage& image, const Demand& demand);
 
-// For texel i of image.data: 1 / (1 + strength * excess), where excess sums over the channels by how much the
-// surface's share of the texel's bin exceeds the expected one, in mean shares (1 / kHistogramBins), times
-// what the channel counts. The guidance map is left out. Refers to the target.
+// Weight of texel i of image.data: 1 / (1 + strength * excess). The excess sums, over the channels but the
+// guidance map, how much the surface's share of the texel's bin exceeds the expected one, in units of the
+// mean share 1 / kHistogramBins, times the channel's weight. Keeps a reference to the target.
 class HistogramWeights {
  public:
-  // reads: about how many will be asked for; if fewer than there are texels, each is found when it is.
+  // reads: expected number of look-ups. If it is less than the number of texels, weights are computed on
+  // demand.
   HistogramWeights(const HistogramTarget& target, const Histogram& expected, const Histogram& surface,
                    const TexelImage& image, double strength, std::size_t reads);
   float operator[](std::size_t i) const { return m_all.empty() ? of(m_bins[i]) : m_all[i]; }

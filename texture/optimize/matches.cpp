@@ -1,5 +1,4 @@
-// Candidates from neighbours [Ashikhmin01] and at random, from lists of similar windows [Tong02], from a tree
-// [Kwatra05].
+// Candidates: propagation and random [Ashikhmin01], k-coherence [Tong02], tree search [Kwatra05].
 #include "texture/optimize/matches.h"
 
 #include "random/random.h"
@@ -19,22 +18,22 @@ namespace {
 
 constexpr int kMaxLinks = 8;
 constexpr int kMaxSimilar = 4;
-constexpr int kTreeCandidates = 8;  // of the tree's windows, by descriptor, that are compared in full
+constexpr int kTreeCandidates = 8;  // nearest by descriptor, compared in full
 constexpr int kRandomCandidates = 2;
-// Windows are improved in batches, so that later ones see the matches and the usage that earlier ones leave.
+// Windows are improved in batches, so that later ones see the matches and the usage of earlier ones.
 constexpr std::uint64_t kBatches = 8;
 constexpr float kFar = std::numeric_limits<float>::max();
 
-// One neighbourhood's values, gathered once for all its candidates.
+// A neighbourhood's values, gathered once for all candidates.
 struct Gathered {
   Values value;
-  std::array<std::span<const Vec2f>, kMostWays> offset;  // by way
-  std::array<std::vector<Vec2f>, kMostWays> turned;      // those of the ways but the first
+  std::array<std::span<const Vec2f>, kMostWays> offset;  // by symmetry variant
+  std::array<std::vector<Vec2f>, kMostWays> turned;      // storage of the variants but upright
   std::span<const float> falloff;
   float mass = 0.0f;
 };
 
-// Where a window may be matched.
+// Centre and symmetry variant of a match.
 struct Place {
   Vec2f center;
   Way way = 0;
@@ -57,9 +56,9 @@ void gather(const Windows& windows, std::size_t p, const Values& value, Gathered
   result.mass = windows.mass[p];
 }
 
-// D_p / m_p at a match, or something above `bound`.
+// D_p / m_p of a match. Early termination: some value above `bound` once the sum passes it.
 float distanceAt(const TexelImage& image, const Gathered& gathered, const Place& match, float bound = kFar) {
-  constexpr std::size_t kBlockSize = 24;  // entries between two looks at the bound; the heaviest come first
+  constexpr std::size_t kBlockSize = 24;  // entries per check of the bound; the heaviest come first
   const float limit = bound < kFar ? bound * gathered.mass : kFar;
   const std::span<const Vec2f> offset = gathered.offset[match.way];
   const std::size_t count = gathered.value.size();
@@ -78,7 +77,7 @@ float distanceAt(const TexelImage& image, const Gathered& gathered, const Place&
   return total / gathered.mass;
 }
 
-// What the threads keep while they search.
+// Per-thread workspace.
 struct Searcher {
   explicit Searcher(const SearchTable* table) {
     if (table) query.emplace_back(*table);
@@ -87,7 +86,7 @@ struct Searcher {
   Gathered gathered;
 };
 
-// The tree's windows nearest to neighbourhood p, laid in one way.
+// The tree's best windows for neighbourhood p in one symmetry variant.
 int searchWindows(const Windows& windows, std::size_t p, const Pass& pass, const Values& value, int channels,
                   Way way, WindowQuery& query, std::span<Match> found) {
   fillQuery(windows, p, value, query, channels, way);
@@ -234,7 +233,7 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
                         : nearestWay(ways, seenFrom(layOf(windows.way[q]), std::conj(n.turn[entry]))));
             }
             if (useTree) {
-              // As many of each way as of one where there is no other.
+              // As many candidates per variant as an exemplar with one variant gets.
               Match found[kTreeCandidates];
               for (int w = 0; w < wayCount; ++w) {
                 const Way way = wayAt(ways, w);
@@ -260,7 +259,7 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
             offer(nearest.center + Vec2f((2.0f * random(2) - 1.0f) * near, (2.0f * random(3) - 1.0f) * near),
                   nearest.way);
             next[b] = best;
-            windows.distance[p] = bestDistance;  // nobody else reads it
+            windows.distance[p] = bestDistance;  // read by no other window in this batch
           }
         });
     for (std::size_t b = 0; b < batch.size(); ++b) {

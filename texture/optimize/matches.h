@@ -1,4 +1,4 @@
-// The E-step: the exemplar window that each neighbourhood is matched with.
+// E-step: finds the best matching exemplar window for each neighbourhood.
 #pragma once
 
 #include "texture/labels/guidance.h"
@@ -9,39 +9,39 @@
 
 namespace fluidtex::texture {
 
-// Windows of a pass with their neighbourhoods and what they are matched with.
+// Windows of a pass: their neighbourhoods (#P, with #N entries in total) and matches.
 struct Windows {
   Neighborhoods neighborhoods;
-  PixelNeighborhoods pixels;  // empty without a tree
+  PixelNeighborhoods pixels;  // empty where the pass searches no tree
   WindowLinks links;
   std::vector<float> falloff;   // #N: g
   std::vector<float> mass;      // #P: sum of g
-  std::vector<Vec2f> match;     // #P: texel at the centre
-  std::vector<Way> way;         // #P: how the exemplar lies there
-  Ways ways;                    // the exemplar's
+  std::vector<Vec2f> match;     // #P: texel at the window's centre
+  std::vector<Way> way;         // #P: symmetry variant of the match
+  Ways ways;                    // of the exemplar
   std::vector<float> distance;  // #P: D_p / m_p
   Demand demand;
 
-  // What the match of neighbourhood p puts at an offset (pixels).
+  // Texel that the match of neighbourhood p predicts at an offset, in pixels.
   Vec2f texelAt(std::size_t p, const Vec2f& offset) const { return match[p] + laid(way[p], offset); }
 };
 
 Windows makeWindows(const Level& level, const Pass& pass);
 
-// Fills query.pixels and query.mask with neighbourhood p as the exemplar has it that lies like that;
-// makeWindows() must have had a pass with a tree.
+// Fills query.pixels and query.mask with neighbourhood p, turned into the symmetry variant `way`. Requires
+// that makeWindows() was given a pass with a table and probes > 0.
 void fillQuery(const Windows& windows, std::size_t p, const Values& value, WindowQuery& query, int channels,
                Way way = 0);
 
-// Distances of the present matches.
+// Updates the distances of the present matches.
 void measureMatches(const TexelImage& image, const Values& value, Windows& windows);
 
-// The first matches, where there are none to start from: the tree's best.
+// Initial matches from the tree, where there are no labels to start from.
 void findFirstMatches(const Level& level, const Pass& pass, const Values& value, Windows& windows);
 
-// Offers every window the matches of its neighbours, shifted; windows alike to these; the tree's, turned in
-// all ways; and random ones. Takes the best that is nearer than the present one; parts of the exemplar used
-// more than the mean count as farther (`usage`).
+// One E-step. Candidates of a window: propagation from neighbouring windows, k-coherence (windows similar to
+// the best so far), the tree's best in every symmetry variant, and random ones. Takes the best of those that
+// lower the window's distance; parts of the exemplar used more than the mean are penalised (`usage`).
 void improveMatches(const Level& level, const Pass& pass, int iteration, double usage, const Values& value,
                     Windows& windows);
 

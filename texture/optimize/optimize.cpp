@@ -14,7 +14,7 @@
 namespace fluidtex::texture {
 namespace {
 
-// phi of the header.
+// phi of optimize.h.
 struct RobustNorm {
   double exponent = 2.0, mean = 1.0;
   static constexpr double kFloor = 0.01;
@@ -27,7 +27,7 @@ struct RobustNorm {
   }
 };
 
-// One pass's working state.
+// Working state of one pass.
 struct Run {
   const Level& level;
   const Pass& pass;
@@ -36,11 +36,11 @@ struct Run {
   Windows windows;
   Overlaps byVertex;
   RobustNorm norm;
-  std::vector<float> held;  // f_k, in the energy's units; empty without constraint
+  std::vector<float> held;  // f_k in units of the energy; empty without constraint
   Histogram expected;
 
   bool free(std::uint32_t v) const { return level.wanted.empty() || level.wanted[v]; }
-  Float8 texel(std::uint32_t i) const {  // what overlap i says about its vertex
+  Float8 texel(std::uint32_t i) const {  // prediction of overlap i for its vertex
     const Vec2f at = windows.texelAt(byVertex.window[i], windows.neighborhoods.offset[byVertex.entry[i]]);
     return level.image.sampleInside(at[0], at[1]);
   }
@@ -57,14 +57,14 @@ double energy(const Run& run) {
          });
 }
 
-// True but for rounding: of the sums, and of colours by about 1e-5.
+// True up to rounding, of the sums, and of colours by about 1e-5.
 [[maybe_unused]] bool neverRose(const EnergyTrace& trace, const std::vector<float>& mass) {
   const double whole = sumOf(mass.size(), [&](std::size_t p) { return mass[p]; });
   return trace.back() <= trace[trace.size() - 2] * (1.0 + 1e-6) + 1e-10 * whole;
 }
 
-// The M-step. `room`: by how much the reweighted average may lie above the plain one in the majorising
-// quadratic, beyond what the plain one gains over the present values.
+// M-step. `room`: by how much the reweighted average may exceed the plain one in the majorising quadratic,
+// beyond what the plain one gains over the present values.
 void average(Run& run, double room) {
   const std::size_t count = run.state.value.size();
   const bool reweigh = run.options.histogram > 0.0;
@@ -107,7 +107,7 @@ void average(Run& run, double room) {
     plain[v] = sum / weight;
     if (reweigh && weightedWeight > 0.0f) reweighed[v] = weightedSum / weightedWeight;
   });
-  // What guidance wants is given; only the other channels are looked for.
+  // The guidance channel is given; only the others are unknowns.
   holdGuidance(run.level.image, run.level.view.mesh, plain);
   if (reweigh) holdGuidance(run.level.image, run.level.view.mesh, reweighed);
   if (!reweigh) {
@@ -121,7 +121,7 @@ void average(Run& run, double room) {
       return double(total[v]) * double(sum8(d * d));
     });
   };
-  // A little is kept back for rounding.
+  // A small margin for rounding.
   const double gain = 0.999 * (distanceFrom(run.state.value) + std::max(room, 0.0)),
                cost = distanceFrom(reweighed);
   const auto share = float(cost > gain ? std::sqrt(gain / cost) : 1.0);
@@ -130,8 +130,8 @@ void average(Run& run, double room) {
   });
 }
 
-// Every vertex takes, of the windows that overlap it, the texel that is near the average and near a window's
-// centre.
+// Every vertex copies a texel from one of the windows that overlap it: close to the average, and close to the
+// window's centre.
 void copyCores(Run& run) {
   const auto core = float(run.options.core);
   forEachIndex(run.state.value.size(), [&](std::uint32_t v) {
@@ -145,7 +145,7 @@ void copyCores(Run& run) {
         const Float8 d = run.texel(i) - run.state.value[v];
         score += sum8(d * d);
       } else {
-        score = edge;  // only to say where a vertex comes from: the nearest window
+        score = edge;  // only for the label: the window with the nearest centre
       }
       if (score < best) best = score, chosen = i;
     }
@@ -187,8 +187,7 @@ EnergyTrace optimize(const Level& level, const Pass& pass, const SynthesisOption
                       double(windows.distance.size());
   run.norm.mean = std::max(mean, 1e-12);
   if (!level.constraint.value.empty()) {
-    // At the mean distance a window weighs 1: the mean weight of all windows together is that of the
-    // fall-offs.
+    // At the mean distance phi' is 1, so that the mean total weight of windows is that of the fall-offs.
     const double together = sumOf(windows.mass.size(), [&](std::size_t p) { return windows.mass[p]; });
     std::size_t covered = 0;
     for (std::size_t v = 0; v < count; ++v) covered += run.byVertex.first[v + 1] > run.byVertex.first[v];

@@ -13,7 +13,7 @@
 namespace fluidtex::texture {
 namespace {
 
-// Later frames start near their best: instead of the tree they search windows like the best so far.
+// On later frames, which start near a minimum, k-coherence replaces the tree search.
 constexpr int kSimilar = 4;
 constexpr int kSeamSweeps = 8;
 constexpr float kStretchCost = 1.0f;

@@ -1,4 +1,4 @@
-// What the first and the later frames share: tables by level and window, and the passes of one level.
+// Shared by first and later frames: tables by level and window, and the passes of one level.
 #pragma once
 
 #include "texture/labels/seams.h"
@@ -21,7 +21,7 @@ struct SearchTables {
 
 using Progress = std::function<void(double)>;
 
-// A level's mesh with graph and connection.
+// A level's mesh with its graph and connection. Keeps a reference to the mesh.
 struct PreparedMesh {
   explicit PreparedMesh(const SurfaceMesh& surface);
   MeshView view() const { return {mesh, graph, connection}; }
@@ -31,35 +31,37 @@ struct PreparedMesh {
   Connection connection;
 };
 
-// Channels whose jumps are seen: all but the guidance map and the gradient's, which is the last.
+// Channel weights of seam costs: 1, but 0 for the guidance map and for the gradient channel, which is the
+// last.
 Float8 seamChannels(const Synthesizer& synthesizer);
 
 SeamModel seamModel(const Synthesizer& synthesizer, const MeshView& view, std::size_t level);
 
-// Windows that fit a level's exemplar, without repetition, each with its place in the options.
+// Window widths that fit a level's exemplar, without repetition, each with its index in options.windows.
 std::vector<std::pair<int, std::size_t>> windowsOf(const Synthesizer& synthesizer, int level);
 
-// The vertices that are searched: all, which is empty, but for those of droplets.
+// #V, 1 where textures are searched: all but droplets. Empty: everywhere.
 std::vector<std::uint8_t> searched(const Synthesizer& synthesizer, const VertexGraph& graph);
 
-// Keys random numbers of a pass.
+// Key of a pass's random numbers.
 std::uint64_t keyOf(const Synthesizer& synthesizer, int frame, int level, int window);
 
 struct PassPlan {
-  int index = 0;  // of the level
+  int index = 0;  // pyramid level
   int frame = 0;
-  const std::vector<int>& iterations;  // by window; the last one stands for those that follow
-  int factor = 1;                      // of the iterations
-  bool tree = true;                    // search the tree of windows; else those like the best so far
-  std::size_t begin = 0, end = 1000;   // of the windows that fit, the widest first
+  const std::vector<int>& iterations;  // per window of the options; the last holds for those that follow
+  int factor = 1;                      // on the iterations
+  bool tree = true;                    // candidates from the tree; else from k-coherence
+  std::size_t begin = 0, end = 1000;   // range of the windows that fit, widest first
 };
 
-// One pass a window, the widest first. Adds what it did to stats.
+// One pass per window width, widest first. Adds to stats; progress is called with 0..1.
 void runPasses(Synthesizer& synthesizer, const Level& level, const PassPlan& plan, State& state,
                SynthesisStats& stats, const Progress& progress);
 
-// From label fields to the fewest and least visible seams: vertex by vertex, then by expansion. `data`:
-// weight of the difference from state.average.
+// Moves seams to where they show least: first vertex by vertex (straightenSeams), then by alpha expansion
+// (expandLabels). data: weight of the data term, the difference from state.average. free: #V, 1 where labels
+// may change, empty for all. alternative: labels offered besides the neighbours', or null.
 void joinLabels(const SeamModel& seams, const State& state, float data, const std::vector<std::uint8_t>& free,
                 const Labels* alternative, std::uint64_t seed, Labels& labels);
 

@@ -15,7 +15,7 @@ Synthesizer makeSynthesizer(Exemplar exemplar, const SynthesisOptions& options, 
       std::move(exemplar), options, std::make_shared<SearchTables>(), std::move(cache), {}};
   synthesizer.around = lightnessAround(synthesizer.exemplar.color, synthesizer.exemplar.toroidal);
   const int colors = synthesizer.exemplar.colorChannels;
-  // Carried colours have no feature channels: the paper's method matches by colour alone, and guidance.
+  // kwatra07 has no feature channels: it matches by colour and guidance alone.
   if (options.method == Method::kwatra07) {
     for (Image& image : synthesizer.exemplar.match) {
       const int channels = colors + (synthesizer.exemplar.guided ? 1 : 0);

@@ -1,4 +1,4 @@
-// Values averaged over the surface.
+// Diffusion of values over the surface.
 #pragma once
 
 #include "texture/loops/parallel.h"
@@ -9,8 +9,8 @@
 namespace fluidtex::texture {
 
 // `sweeps` times, each vertex takes the mean of its own value (#V) and its neighbours': a window of standard
-// deviation about 0.65 sqrt(sweeps) edges. brought(value, h) is a neighbour's value as it is seen across
-// half-edge h.
+// deviation about 0.65 sqrt(sweeps) edges. brought(value, h): a neighbour's value, transported over half-edge
+// h.
 template <typename Value, typename Brought>
 std::vector<Value> averaged(const VertexGraph& graph, std::vector<Value> value, int sweeps,
                             const Brought& brought) {

@@ -6,7 +6,7 @@
 namespace fluidtex::texture {
 namespace {
 
-// Averages over so many edges' reach, so that the grid behind the normals is not seen.
+// Sweeps of averaging, so that the grid behind the normals is not seen.
 constexpr int kSweeps = 4;
 
 }  // namespace
@@ -15,8 +15,8 @@ std::vector<float> meanCurvature(const SurfaceMesh& mesh) {
   const VertexGraph graph = buildVertexGraph(mesh);
   const std::vector<Vec3f>&x = mesh.positions, &n = mesh.normals;
   std::vector<float> curvature(x.size(), 0.0f), next(x.size()), area(x.size(), 0.0f);
-  // Half the divergence of the normal, which is linear over each triangle; of a vertex, the mean over its
-  // triangles by area.
+  // Half the divergence of the normal, which is linear over each triangle; at a vertex the area-weighted mean
+  // over its triangles.
   for (const Vec3I& t : mesh.triangles) {
     const Vec3f across = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
     const float twice = across.length();

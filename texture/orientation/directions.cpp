@@ -12,18 +12,17 @@
 namespace fluidtex::texture {
 namespace {
 
-// Of a unit vector, as long as the square of its tangent part: where the surface nearly faces it, it says
-// little.
+// Tangent part of a unit vector, with the square of its length: low confidence where the surface nearly faces
+// it.
 Vec3f tangentPart(const Vec3f& x, const Vec3f& n) {
   const Vec3f tangent = x - n * n.dot(x);
   return tangent * tangent.length();
 }
 
-// A line in the tangent plane as twice its angle (N = 2 of tangent_field.h), as long as the surface bends
-// more along it than across, 1/m.
+// Principal direction of larger absolute curvature as a line (N = 2 of tangent_field.h); its length is the
+// difference of the absolute curvatures, 1/m.
 Complexf bendAt(const SurfaceMesh& mesh, const VertexGraph& graph, std::uint32_t v, const Vec3f& axis) {
-  // Least squares for the shape operator [a b; b c], which takes edges to the changes of the normal along
-  // them.
+  // Least squares for the shape operator [a b; b c], which maps edges to differences of the normal.
   const Vec3f &x = mesh.positions[v], &n = mesh.normals[v];
   const Vec3f across = rowAxis(axis, n);
   double xx = 0.0, xy = 0.0, yy = 0.0, px = 0.0, qy = 0.0, mixed = 0.0;
@@ -43,7 +42,8 @@ Complexf bendAt(const SurfaceMesh& mesh, const VertexGraph& graph, std::uint32_t
   const openvdb::Vec3d s = normal.inverse() * openvdb::Vec3d(px, mixed, qy);
   const double mean = 0.5 * (s[0] + s[2]);
   const std::complex<double> difference(0.5 * (s[0] - s[2]), s[1]);
-  // Bends of mean +- |difference|: the larger in magnitude is along +difference where the mean is positive.
+  // Principal curvatures are mean +- |difference|; the larger in magnitude is along +difference where the
+  // mean is positive.
   const double length = std::abs(difference);
   if (!(length > 0.0)) return {};
   const double excess = std::abs(mean + length) - std::abs(mean - length);
@@ -75,7 +75,7 @@ std::vector<Vec3f> alongFlow(const SurfaceMesh& mesh, const std::vector<Vec3f>& 
 
 std::vector<Vec3f> alongBend(const SurfaceMesh& mesh) {
   constexpr int kAverages = 2;
-  // Radii of more spacings than this count for less than half.
+  // Spacings: radii larger than this have less than half of the confidence.
   constexpr float kFarRadius = 20.0f;
   const VertexGraph graph = buildVertexGraph(mesh);
   const std::vector<Vec3f> axes = referenceVectors(mesh.normals);

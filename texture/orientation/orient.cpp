@@ -1,9 +1,9 @@
-// Smooth unit tangent fields: averages in polar maps as in [Kwatra07 sec. IV] and Zhang, Mischaikow, Turk:
-// Vector Field Design on Surfaces (2004), here as linear systems in the connection's Laplacian, which reach
-// further than sweeps. At the coarsest level inverse iteration goes for the smoothest field of all (Knoeppel
-// et al.: Globally Optimal Direction Fields, 2013), set to unit length after each step (Viertel, Osting: An
-// Approach to Quad Meshing Based on Harmonic Cross-Valued Maps, 2019): plain diffusion of a unit field holds
-// on to pairs of opposite singularities, this lets them meet and vanish.
+// Smooth unit tangent fields in polar maps as in [Kwatra07 sec. IV] and Zhang, Mischaikow, Turk: Vector Field
+// Design on Surfaces (2004); here by linear systems in the connection Laplacian, which reach further than
+// sweeps. At the coarsest level, inverse iteration finds the globally smoothest field (Knoeppel et al.:
+// Globally Optimal Direction Fields, 2013), set to unit length after each step (Viertel, Osting: An Approach
+// to Quad Meshing Based on Harmonic Cross-Valued Maps, 2019). Plain diffusion of a unit field keeps pairs of
+// opposite singularities; this lets them meet and cancel.
 #include "texture/orientation/orient.h"
 
 #include "random/random.h"
@@ -21,28 +21,27 @@
 namespace fluidtex::texture {
 namespace {
 
-// Steps of inverse iteration at the coarsest level, and of diffusion at unit length after it, each as far as
-// so many averages over neighbours reach.
+// At the coarsest level: steps of inverse iteration, then of diffusion at unit length, each reaching as far
+// as so many averages over neighbours.
 constexpr int kSolves = 10, kBursts = 10, kSweepsPerBurst = 20;
-// The next solve goes on from where one ends.
+// Loose, since each solve starts from the last.
 constexpr double kTolerance = 1e-4;
 constexpr int kDiffusionSteps = 100;
-// Relative to a vertex's own weight in the Laplacian: keeps the singular case finite.
+// Relative to a vertex's weight in the Laplacian: regularises the singular case.
 constexpr float kShift = 1e-6f;
-// Noise on the starting directions, relative to their length: a symmetric start may hold nothing of the
+// Noise on the initial directions, relative to their length: a symmetric start may be orthogonal to the
 // smoothest field.
 constexpr float kStartNoise = 1.0f;
-// Carried directions that are not believed at all still decide where there are no others within some thirty
-// vertices.
+// Transported directions of no trust still decide where there are no others within some thirty vertices.
 constexpr float kLeastHold = 1e-3f;
 
-// A field in progress, as in tangent_field.h: values against axes.
+// A field as in tangent_field.h: complex values with respect to axes.
 struct Field {
   std::vector<Vec3f> axes;
   std::vector<Complexf> values;
 };
 
-// A vector, tangent at n, in the axes of d.
+// Components of a vector, tangent at n, in the axes of d.
 Complexf inAxes(const Vec3f& x, const Vec3f& d, const Vec3f& n) {
   return {x.dot(d), x.dot(rowAxis(d, n))};
 }
@@ -51,7 +50,7 @@ Vec3f fromAxes(const Complexf& x, const Vec3f& d, const Vec3f& n) {
   return d * x.real() + rowAxis(d, n) * x.imag();
 }
 
-// The direction nearest to the vertex's axis of those that a value stands for.
+// Of the N directions that a value stands for, the nearest to the vertex's axis.
 Complexf nearestRoot(const Complexf& value, int symmetry) {
   return std::polar(1.0f, std::arg(value) / float(symmetry));
 }
@@ -64,7 +63,7 @@ void writeOrientation(const Field& field, int symmetry, SurfaceMesh& mesh) {
   });
 }
 
-// What a linear system in the Laplacian is held to.
+// Soft constraint of a linear system in the Laplacian.
 struct Held {
   std::vector<float> hold;
   std::vector<Complexf> right;  // hold * value
@@ -78,7 +77,7 @@ float degree(const VertexGraph& graph, std::uint32_t v) {
   return float(graph.first[v + 1] - graph.first[v]);
 }
 
-// Holds the field to values as so many averages over neighbours do: one implicit step of diffusion.
+// Constraint to `values` that equals so many sweeps of averages: one implicit step of diffusion.
 void holdToValues(const VertexGraph& graph, const std::vector<Complexf>& values, int sweeps, Held& held) {
   forEachIndex(values.size(), [&](std::uint32_t v) {
     const float weight = (degree(graph, v) + 1.0f) / float(sweeps);
@@ -87,7 +86,7 @@ void holdToValues(const VertexGraph& graph, const std::vector<Complexf>& values,
   });
 }
 
-// What is wished of the mesh's vertices; nothing where there is no wish.
+// A wish evaluated on the mesh; empty without one.
 template <class Value>
 std::vector<Value> asked(const std::function<std::vector<Value>(const SurfaceMesh&)>& wish,
                          const SurfaceMesh& mesh) {
@@ -98,7 +97,7 @@ std::vector<Value> asked(const std::function<std::vector<Value>(const SurfaceMes
   return values;
 }
 
-// `share`: how many vertices of level 0 one of this mesh stands for. False where nothing is wished.
+// share: number of level 0 vertices that a vertex of this mesh stands for. False if there are no wishes.
 bool holdToWishes(const SurfaceMesh& mesh, const VertexGraph& graph, const std::vector<Vec3f>& axes,
                   const std::vector<Vec3f>& directions, double share, int symmetry, Held& held) {
   constexpr float kLeast = 1e-3f, kMost = 0.999f;
@@ -121,9 +120,8 @@ double shareOf(const SurfaceMesh& mesh, const Surface& surface) {
   return ratio * ratio;
 }
 
-// Of the equal directions each vertex takes the one nearest to what is wished there or else to what a
-// neighbour has taken: where the field has no singularities inside, it is then continuous as a field of
-// arrows too.
+// Combing: of the N equal directions each vertex takes the nearest to the wish there, else to a neighbour's
+// choice. Away from singularities the field is then continuous as a vector field too.
 void comb(const SurfaceMesh& mesh, const VertexGraph& graph, const Connection& connection,
           const std::vector<Vec3f>& directions, int symmetry, Field& field) {
   constexpr float kSaysEnough = 0.1f;
@@ -132,7 +130,7 @@ void comb(const SurfaceMesh& mesh, const VertexGraph& graph, const Connection& c
   std::vector<std::uint8_t> known(count, 0);
   std::vector<std::uint32_t> queue;
   const auto choose = [&](std::uint32_t v, const Complexf& near) {
-    // Seen from `near` as the axis, the nearest root is the one wanted.
+    // With `near` as the axis, the nearest root is the one nearest to it.
     const Complexf unit = near / std::abs(near);
     const Complexf value = product(field.values[v], std::conj(power(unit, symmetry)));
     chosen[v] = product(nearestRoot(value, symmetry), unit);
@@ -154,7 +152,7 @@ void comb(const SurfaceMesh& mesh, const VertexGraph& graph, const Connection& c
       }
     }
   }
-  // Each vertex's axis becomes its arrow, so that the nearest root is the arrow.
+  // Each vertex's axis becomes its direction, so that the nearest root is that direction.
   forEachIndex(count, [&](std::uint32_t v) {
     field.axes[v] =
         tangentUnit(fromAxes(chosen[v], field.axes[v], mesh.normals[v]), mesh.normals[v], field.axes[v]);
@@ -187,7 +185,7 @@ void orientCoarsest(Surface& surface, const OrientOptions& options, const Orient
       solveField(smooth, wished.hold, right, options.coarseSweeps / kSolves, kTolerance, field.values);
     }
   }
-  // At unit length the field settles: the linear systems above let it be short near singularities.
+  // Diffusion at unit length, since the linear systems above let the field be short near singularities.
   for (int burst = 0; burst < kBursts; ++burst) {
     normalise(field.values);
     Held held = wished;
@@ -199,8 +197,8 @@ void orientCoarsest(Surface& surface, const OrientOptions& options, const Orient
   writeOrientation(field, options.symmetry, mesh);
 }
 
-// The field of one level as seen from the vertices of another: a mean over the near vertices whose normals
-// agree, so that nothing passes through a thin sheet. The axes are those of the nearest of them.
+// Transfers the field of one level to the vertices of another: mean over near vertices whose normals agree,
+// so that nothing passes through a thin sheet. The axes are those of the nearest one.
 Field handOver(const SurfaceMesh& from, const SurfaceMesh& to, int symmetry) {
   constexpr float kAgreeingNormals = 0.3f;
   const double reachOfOne = 2.0 * std::max(from.spacing, to.spacing);  // where the scale is 1
@@ -233,7 +231,7 @@ Field handOver(const SurfaceMesh& from, const SurfaceMesh& to, int symmetry) {
   return field;
 }
 
-// Diffuses a field that comes from a coarser level.
+// Diffuses a field transferred from a coarser level.
 void orientFiner(std::size_t level, Surface& surface, const OrientOptions& options,
                  const OrientWishes& wishes) {
   SurfaceMesh& mesh = surface.levels[level];
@@ -251,12 +249,12 @@ void orientFiner(std::size_t level, Surface& surface, const OrientOptions& optio
   writeOrientation(field, options.symmetry, mesh);
 }
 
-// Pairs of opposite singularities that are near each other let go of the carried field around them, so that
-// they meet: held to it they would stay for as long as the texture does.
+// Releases the constraint around pairs of opposite singularities close to each other, so that they cancel;
+// otherwise they would stay as long as the texture does.
 void freePairs(const SurfaceMesh& mesh, const std::vector<Singularity>& all, Held& held) {
   constexpr float kNear = 8.0f;    // spacings
-  constexpr float kBeyond = 2.0f;  // spacings further than they are from each other, around their middle
-  constexpr float kLeft = 0.02f;   // of the hold
+  constexpr float kBeyond = 2.0f;  // spacings beyond their distance, around their midpoint
+  constexpr float kLeft = 0.02f;   // on the constraint
   struct Pair {
     float distance2;
     std::uint32_t a, b;
@@ -287,7 +285,7 @@ void freePairs(const SurfaceMesh& mesh, const std::vector<Singularity>& all, Hel
   }
 }
 
-// The carried vectors are the axes, and what the field is held to, each as much as it is trusted.
+// Later frames: the transported vectors are the axes, and the constraint, weighted by trust.
 void orientCarried(Surface& surface, const Carried& carried, const OrientOptions& options,
                    const OrientWishes& wishes) {
   constexpr float kMost = 0.999f;
@@ -304,7 +302,7 @@ void orientCarried(Surface& surface, const Carried& carried, const OrientOptions
   forEachIndex(count, [&](std::uint32_t v) {
     const float trust = std::clamp(carried.trust[v], 0.0f, 1.0f);
     const float share = std::clamp(float(options.carriedWeight) * trust, kLeastHold, kMost);
-    // Where turning costs more, what was carried counts the less: a singularity that came in moves on.
+    // Where turning costs more, transported directions count less: a singularity that came in moves on.
     const float stiffness = smooth.stiffness.empty() ? 1.0f : std::max(1.0f, smooth.stiffness[v]);
     held.hold[v] = degree(graph, v) * share / ((1.0f - share) * stiffness);
     held.right[v] = held.hold[v];

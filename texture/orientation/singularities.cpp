@@ -23,19 +23,19 @@ std::vector<Singularity> singularities(const SurfaceMesh& mesh, const VertexGrap
   constexpr double kRounding = 1e-4;  // a triangle without area has an angle of 0
   std::vector<int> turns(mesh.triangles.size());
   forEachIndex(mesh.triangles.size(), [&](std::uint32_t t) {
-    // Against the field as axes, each edge's rotation is the turn of the field along it; what is left of
-    // their sum once the curvature of the triangle is taken off is a number of full turns. The curvature is
-    // the sum of its angles in the polar maps less pi: on a drop of four vertices pi a triangle, which the
-    // product of the three rotations could not tell from -pi.
+    // With the field as axes, the rotation of an edge is the turn of the field along it. The sum around a
+    // triangle less the triangle's curvature is a whole number of turns. The curvature is the sum of its
+    // angles in the polar maps less pi: on a drop of four vertices it is pi per triangle, which the product
+    // of the three rotations could not tell from -pi.
     double sum = 0.0, curvature = -std::numbers::pi;
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t from = mesh.triangles[t][i], to = mesh.triangles[t][(i + 1) % 3],
                           last = mesh.triangles[t][(i + 2) % 3];
-      // Read from the edge's end with the smaller index, so that both its triangles see the same half turn.
+      // Read from the end of smaller index, so that both triangles of the edge see the same half turn.
       const std::uint32_t low = std::min(from, to), high = std::max(from, to);
       const double turn = std::arg(power(connection.rotation[edgeTo(low, high)], symmetry));
       sum += low == to ? turn : -turn;
-      // From the edge that comes first counter-clockwise; 0 to a full turn.
+      // From the edge that comes first counter-clockwise; in [0, 2 pi).
       const double angle =
           std::arg(conjugateProduct(connection.edge[edgeTo(from, last)], connection.edge[edgeTo(from, to)]));
       curvature += angle < -kRounding ? angle + 2.0 * std::numbers::pi : angle;

@@ -1,5 +1,5 @@
-// Polar maps after Zhang, Mischaikow, Turk: Vector Field Design on Surfaces (2004), with the connection that
-// they induce between neighbouring vertices (as in Knoeppel et al. 2013, sec. 3).
+// Polar maps after Zhang, Mischaikow, Turk: Vector Field Design on Surfaces (2004), and the connection that
+// they induce (as in Knoeppel et al. 2013, sec. 3).
 #include "texture/orientation/tangent.h"
 
 #include "texture/loops/complex.h"
@@ -26,8 +26,8 @@ struct Corner {
   std::uint32_t from, to;
 };
 
-// Orders the corners around a vertex so that each begins where the one before it ends. False if they do not
-// close to one ring.
+// Orders the corners around a vertex, each beginning where the last ends. False if they do not close to one
+// ring.
 bool chain(std::span<Corner> corners) {
   const std::size_t count = corners.size();
   if (count < 3) return false;
@@ -47,16 +47,15 @@ double angleBetween(const openvdb::Vec3d& a, const openvdb::Vec3d& b) {
 
 using Complexd = std::complex<double>;
 
-// Working space of polarDirections, kept from vertex to vertex.
+// Workspace of polarDirections().
 struct Fan {
   std::vector<openvdb::Vec3d> edges;
   std::vector<double> angles;  // from each edge to the next one around
 };
 
-// The directions of the edges around one vertex in its polar map, unit. Angles between neighbouring edges are
-// the face angles scaled to sum to 2 pi. The turn of the whole fan against d is the one that agrees best with
-// the edges' projections on the tangent plane; taking it from all edges rather than from one keeps the map
-// calm when the mesh changes.
+// Unit directions of the edges around a vertex in its polar map. Angles between neighbouring edges are the
+// face angles scaled to sum to 2 pi. The rotation of the whole fan against d is the one that fits the edges'
+// projections on the tangent plane best; fitting all edges keeps the map stable when the mesh changes.
 void polarDirections(const SurfaceMesh& mesh, std::uint32_t v, std::span<const std::uint32_t> ring,
                      const Vec3f& axis, Fan& fan, std::span<Complexf> directions) {
   const std::size_t count = ring.size();
@@ -69,7 +68,7 @@ void polarDirections(const SurfaceMesh& mesh, std::uint32_t v, std::span<const s
     fan.angles[i] = angleBetween(fan.edges[i], fan.edges[(i + 1) % count]);
     theta += fan.angles[i];
   }
-  if (!(theta > 0.0)) {  // triangles without area have no angles: spread the edges evenly
+  if (!(theta > 0.0)) {  // degenerate triangles have no angles: spread the edges evenly
     std::fill(fan.angles.begin(), fan.angles.end(), 1.0);
     theta = double(count);
   }

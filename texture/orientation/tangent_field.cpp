@@ -9,7 +9,7 @@
 namespace fluidtex::texture {
 namespace {
 
-// The sum's order, and with it its last digits, depends on this.
+// Fixes the order of summation, and so the last digits.
 constexpr std::size_t kTermsAtOnce = 1024;
 
 double dot(const std::vector<Complexf>& a, const std::vector<Complexf>& b) {

@@ -8,10 +8,11 @@
 #include "texture/search/pca.h"
 
 #include "random/random.h"
+#include "texture/exemplar/principal_axes.h"
 #include "texture/loops/lanes.h"
 
 #include <tbb/parallel_for.h>
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -20,15 +21,15 @@ namespace fluidtex::texture {
 namespace {
 
 constexpr int kSamples = 1536;
-constexpr int kOversampling = 8;  // columns more than components, as the source advises
+constexpr int kOversampling = 8;  // extra columns, as advised there
 constexpr int kIterations = 3;
-constexpr int kRowsAtOnce = 128;  // of a product, one task each
+constexpr int kRowsAtOnce = 128;  // rows of a product per task
 
 using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Eigen::Index;
 using Eigen::MatrixXf;
 
-// body(first, count) for the blocks of rows.
+// body(first, count) for each block of rows.
 template <class Body>
 void overRows(Index rows, const Body& body) {
   const Index blocks = (rows + kRowsAtOnce - 1) / kRowsAtOnce;
@@ -38,7 +39,7 @@ void overRows(Index rows, const Body& body) {
   });
 }
 
-// The sampled windows, one a row, still without weight and with their mean.
+// The sampled windows, one per row, unweighted, with their mean.
 RowMatrix sampleWindows(const Image& image, int window, std::uint64_t seed) {
   const Index columns = image.width - window + 1, all = columns * (image.height - window + 1);
   const Index count = std::min<Index>(kSamples, all);
@@ -46,8 +47,7 @@ RowMatrix sampleWindows(const Image& image, int window, std::uint64_t seed) {
   RowMatrix windows(count, rowSize * window);
   overRows(count, [&](Index first, Index n) {
     for (Index s = first; s < first + n; ++s) {
-      // Stratified: one at random in each of `count` stretches of equal length, so no part of the image is
-      // missed.
+      // Stratified: one at random in each of `count` equal intervals, so that no part of the image is missed.
       const Index low = s * all / count, high = (s + 1) * all / count;
       const Index at = low + Index(randomBelow(seed, std::uint64_t(s), std::uint64_t(high - low)));
       for (int y = 0; y < window; ++y)
@@ -65,11 +65,6 @@ MatrixXf gaussianMatrix(Index rows, Index columns, std::uint64_t seed) {
     matrix.data()[i] = float(radius * std::cos(2.0 * M_PI * randomUnit(seed, 2 * std::uint64_t(i) + 1)));
   }
   return matrix;
-}
-
-MatrixXf orthonormal(const MatrixXf& matrix) {
-  const Eigen::HouseholderQR<MatrixXf> qr(matrix);
-  return qr.householderQ() * MatrixXf::Identity(matrix.rows(), matrix.cols());
 }
 
 MatrixXf product(const RowMatrix& a, const MatrixXf& b) {
@@ -119,16 +114,15 @@ WindowBasis windowBasis(const Image& image, int window, std::span<const float> w
   for (int iteration = 0; iteration < kIterations; ++iteration)
     q = orthonormal(transposedProduct(windows, product(windows, q)));
   const MatrixXf inside = product(windows, q);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes((inside.transpose() * inside).cast<double>());
+  const PrincipalAxes axes = principalAxes((inside.transpose() * inside).cast<double>());
 
-  // Eigenvalues ascend; directions that rounding alone has made are left out.
+  // Directions due to rounding alone are left out.
   basis.component.assign(std::size_t(n) * kDescriptorSize, 0.0f);
   Eigen::Map<RowMatrix> component(basis.component.data(), n, kDescriptorSize);
-  const double least = 1e-10 * std::max(axes.eigenvalues()[rank - 1], 0.0);
+  const double least = 1e-10 * axes.variance[0];
   for (Index k = 0; k < std::min<Index>(kDescriptorSize, rank); ++k)
-    if (axes.eigenvalues()[rank - 1 - k] > least)
-      component.col(k) =
-          scale.transpose().cwiseProduct(q * axes.eigenvectors().col(rank - 1 - k).cast<float>());
+    if (axes.variance[k] > least)
+      component.col(k) = scale.transpose().cwiseProduct(q * axes.axis.col(k).cast<float>());
 
   basis.offset.assign(kDescriptorSize, 0.0f);
   std::vector<float> offset(kDescriptorSize);
@@ -178,7 +172,7 @@ std::vector<float> describeAll(const WindowBasis& basis, const Image& image, int
                                 kDescriptorSize, columns);
     result.colwise() = -offset;
     for (int y = 0; y < window; ++y) {
-      // Neighbouring windows overlap, and so do the columns of this matrix: it is the image's row itself.
+      // Neighbouring windows overlap, and so do the columns of this matrix: it is a view of the image's row.
       const Eigen::Map<const MatrixXf, 0, Eigen::OuterStride<>> windows(
           image.at(0, j * stride + y), rowSize, columns,
           Eigen::OuterStride<>(Index(stride) * image.channels));

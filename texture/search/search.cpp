@@ -18,8 +18,8 @@ namespace fluidtex::texture {
 namespace {
 
 constexpr int kLeaves = 256;
-constexpr int kWindowsPerLeaf = 32;         // at least: small exemplars get fewer leaves
-constexpr std::int64_t kCenters = 1 << 17;  // more centres than these are thinned by the stride
+constexpr int kWindowsPerLeaf = 32;         // at least, so that small exemplars get fewer leaves
+constexpr std::int64_t kCenters = 1 << 17;  // more centres are thinned by the stride
 constexpr int kSimilarProbes = 2;
 
 int wrapped(int i, int n) {
@@ -27,7 +27,7 @@ int wrapped(int i, int n) {
   return i < 0 ? i + n : i;
 }
 
-// A window's row in floats, filled up to whole registers.
+// Floats in a row of a window, padded to whole registers.
 std::size_t paddedRow(const SearchTable& table) {
   return (std::size_t(table.window * table.channels) + 7) / 8 * 8;
 }
@@ -45,7 +45,7 @@ Image padded(const Image& match, int margin) {
   Image result{match.width + 2 * margin, match.height + 2 * margin, match.channels, {}};
   const std::size_t size =
       std::size_t(result.width) * std::size_t(result.height) * std::size_t(result.channels);
-  // Rows of windows are read in whole registers, so a few floats are read beyond the last pixel.
+  // Rows of windows are read in whole registers, a few floats beyond the last pixel.
   result.data.reserve(size + 8);
   for (int y = 0; y < result.height; ++y)
     for (int x = 0; x < result.width; ++x) {
@@ -56,14 +56,15 @@ Image padded(const Image& match, int margin) {
   return result;
 }
 
-// Distance in steps of a king, across the edges where toroidal.
+// Chebyshev distance, wrapped where toroidal.
 int apart(const SearchTable& table, Vec2i a, Vec2i b) {
   int x = std::abs(a[0] - b[0]), y = std::abs(a[1] - b[1]);
   if (table.toroidal) x = std::min(x, table.width - x), y = std::min(y, table.height - y);
   return std::max(x, y);
 }
 
-// The k windows most like centre `self`, in search.best, none within `least` of itself or of a better one.
+// The k windows most similar to centre `self`, in search.best, none within `least` pixels of it or of a
+// better one.
 void findSimilar(const SearchTable& table, const float* descriptor, std::uint32_t self, int least,
                  TreeSearch& search) {
   std::vector<Found>& best = search.best;
@@ -92,8 +93,8 @@ void addSimilar(SearchTable& table, std::span<const float> descriptors) {
     TreeSearch search;
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       findSimilar(table, descriptors.data() + i * kDescriptorSize, std::uint32_t(i), least, search);
-      // Where the leaves hold fewer, the list ends with the centre itself: a candidate that costs nothing
-      // new.
+      // Where the leaves hold fewer, the list is filled with the centre itself, a candidate without extra
+      // cost.
       for (std::size_t k = 0; k < count; ++k)
         table.similar[i * count + k] =
             treeCenter(table, k < search.best.size() ? search.best[k].index : std::uint32_t(i));
@@ -200,7 +201,7 @@ std::span<const float> describeQuery(const SearchTable& table, WindowQuery& quer
   const auto at = [&](std::size_t i, std::size_t c) {
     return i / std::size_t(table.window) * stride + i % std::size_t(table.window) * channels + c;
   };
-  // A pixel known in part is a mixture of what it is and what fills it.
+  // A partly masked pixel is a mixture of its value and the filling.
   const auto fill = [&](std::size_t i, std::size_t c, float missing) {
     const float m = std::clamp(query.mask[i], 0.0f, 1.0f);
     query.filled[i * channels + c] = m * query.rows[at(i, c)] + (1.0f - m) * missing;
@@ -232,7 +233,7 @@ float windowDistance(const SearchTable& table, const WindowQuery& query, Vec2i c
   const float* corner = table.padded.at(center[0] - half + table.margin, center[1] - half + table.margin);
   const std::size_t imageRow = std::size_t(table.padded.width) * std::size_t(table.channels);
   Float8 even{}, odd{};
-  // From the middle row outwards, since the fall-off makes that the quickest way above the bound.
+  // From the middle row outwards: the fall-off makes the sum pass the bound soonest that way.
   for (int i = 0; i < table.window; ++i) {
     const std::size_t y = std::size_t(i % 2 == 1 ? half - (i + 1) / 2 : half + i / 2);
     const float *image = corner + y * imageRow, *row = query.rows.data() + y * size,
@@ -295,11 +296,11 @@ Match nearestWindow(const SearchTable& table, WindowQuery& query, std::span<cons
 
   searchWindowTree(table.tree, describeQuery(table, query).data(), probes, keep, query.search);
   for (const Found& found : query.search.best) {
-    // Distances of descriptors are lower bounds, and ascend.
+    // Descriptor distances ascend and are lower bounds.
     if (!query.anyMissing && found.distance > best.distance) break;
     compare(treeCenter(table, found.index));
   }
-  // The descriptors' error and the stride leave the best window within a step of many of those found.
+  // Because of the descriptors' error and the stride, the best window often lies one step from those found.
   const Vec2i middle = best.center;
   const int reach = std::max(1, table.stride / 2);
   for (int y = -reach; y <= reach; ++y)

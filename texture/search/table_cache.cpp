@@ -3,8 +3,8 @@
 namespace fluidtex::texture {
 namespace {
 
-// Visits every part of a table in the one order that both directions share; padded is left out, and so are
-// coarse codes, which are the upper bits of the fine ones.
+// Visits every part of a table, in one order for reading and writing. `padded` is left out, and so are coarse
+// codes, which are the upper bits of the fine ones.
 template <typename Table, typename Visit>
 void eachPart(Table& table, const Visit& visit) {
   visit(table.window), visit(table.channels), visit(table.toroidal);

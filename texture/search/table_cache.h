@@ -1,4 +1,4 @@
-// Search tables kept from run to run: what an exemplar costs before its first window is matched is paid once.
+// Search tables kept between runs, so that they are built once per exemplar.
 #pragma once
 
 #include "texture/exemplar/kept.h"
@@ -6,7 +6,7 @@
 
 namespace fluidtex::texture {
 
-// buildSearchTable(), or what an earlier call with the same pixels and settings has left in `folder`.
+// buildSearchTable(), or its result of an earlier call with the same pixels and settings, from `folder`.
 // `padded` of the result is empty.
 SearchTable cachedSearchTable(const Image& match, bool toroidal, int window, std::uint64_t seed, int similar,
                               const CacheFolder& folder);

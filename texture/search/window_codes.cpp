@@ -6,12 +6,12 @@ namespace fluidtex::texture {
 namespace {
 
 constexpr float kMost = 32767.0f;
-// What is asked for may lie a little beyond what there is.
+// Margin of the range, since queries may lie slightly outside.
 constexpr float kRoom = 1.1f;
 
 std::int16_t codeOf(const WindowCodes& codes, std::size_t k, float value) {
   const float at = (value - codes.low[k]) / codes.step + 0.5f;
-  return at > 0.0f ? std::int16_t(std::min(at, kMost)) : std::int16_t(0);  // 0 of what is not a number
+  return at > 0.0f ? std::int16_t(std::min(at, kMost)) : std::int16_t(0);  // 0 for NaN
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Descriptors in whole numbers: how far one is from many others is found out with the upper seven bits of
-// each component, sixteen windows at once; with all fifteen bits for the few that are near.
+// Quantised descriptors. Distances are first computed from the upper seven bits of each component, for
+// sixteen windows at once, then from all fifteen bits for the few that are near.
 #pragma once
 
 #include "texture/loops/lanes.h"
@@ -15,34 +15,35 @@ namespace fluidtex::texture {
 inline constexpr std::size_t kCodeBlock = 16;
 
 struct WindowCodes {
-  // Component k is low[k] + step * fine; one step for all, so that distances keep their proportions.
+  // Component k is low[k] + step * fine. One step for all components, so that distances keep their
+  // proportions.
   std::array<float, kDescriptorSize> low{};
   float step = 1.0f;
   std::vector<std::int16_t> fine;  // #n x kDescriptorSize, 0 .. 32767
-  // fine >> 8 in blocks of kCodeBlock windows: pairs of components side by side, windows next, pairs last.
+  // fine >> 8 in blocks of kCodeBlock windows; pairs of components are adjacent, then windows, then pairs.
   // Empty until makeCoarse().
   std::vector<std::int8_t> coarse;
   std::size_t count() const { return fine.size() / kDescriptorSize; }
 };
 
-// The scale that descriptors (#n x kDescriptorSize) are brought to; holds none yet.
+// The quantisation of descriptors (#n x kDescriptorSize), without codes yet.
 WindowCodes codesFor(std::span<const float> descriptors);
 
-// Adds a descriptor; components beyond the scale's ends count as these.
+// Adds a descriptor, clamped to the range.
 void addCode(WindowCodes& codes, const float* descriptor);
 
-// Fills codes.coarse from codes.fine, whose count is a multiple of kCodeBlock.
+// Fills codes.coarse from codes.fine. Precondition: their count is a multiple of kCodeBlock.
 void makeCoarse(WindowCodes& codes);
 
-// A descriptor that others are compared with.
+// A quantised query.
 struct CodedQuery {
   CodedQuery(const WindowCodes& codes, const float* descriptor);
   std::array<std::int16_t, kDescriptorSize> fine;
   std::array<std::array<std::int8_t, 2>, kDescriptorSize / 2> coarse;
-  float unit;  // a squared step
+  float unit;  // step squared
 };
 
-// Squared distances of the windows of a block by their upper bits, in such steps, cut off at 32767.
+// Squared distances of a block's windows from the upper bits, in squared coarse steps, saturated at 32767.
 inline Short16 coarseDistances(const WindowCodes& codes, std::size_t block, const CodedQuery& query) {
   const std::int8_t* at = codes.coarse.data() + block * kCodeBlock * kDescriptorSize;
 #ifdef __AVX2__
@@ -69,7 +70,7 @@ inline Short16 coarseDistances(const WindowCodes& codes, std::size_t block, cons
 #endif
 }
 
-// The squared distance of one window, in the descriptors' own units.
+// Squared distance of one window, in units of the descriptors.
 inline float fineDistance(const WindowCodes& codes, std::size_t window, const CodedQuery& query) {
   const std::int16_t* at = codes.fine.data() + window * kDescriptorSize;
   Float8 sum{};

@@ -1,6 +1,5 @@
-// Clustering by Lloyd's k-means from starts chosen as in D. Arthur, S. Vassilvitskii, "k-means++: the
-// advantages of careful seeding", 2007. Means are learnt from a sample, then all descriptors are sorted into
-// them.
+// Lloyd's k-means with the seeding of D. Arthur, S. Vassilvitskii, "k-means++: the advantages of careful
+// seeding", 2007. Means are found on a sample, then all descriptors are assigned to them.
 
 #include "texture/search/window_tree.h"
 
@@ -17,9 +16,9 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr std::size_t kSamples = 4096;  // means are learnt from at most as many
+constexpr std::size_t kSamples = 4096;  // largest sample
 constexpr int kSweeps = 8;
-constexpr float kFar = 1e15f;  // fills lanes that hold nothing; its square is still finite
+constexpr float kFar = 1e15f;  // fills unused lanes; its square is still finite
 constexpr float kNoBound = std::numeric_limits<float>::infinity();
 
 using Indices = std::vector<std::uint32_t>;
@@ -39,7 +38,7 @@ std::size_t blocksOf(const MeanBlocks& means) {
   return means.size() / (kMeanBlock * kDescriptorSize);
 }
 
-// Squared distances of a block's means.
+// Squared distances to the means of a block.
 Float8 blockDistances(const MeanBlocks& means, std::size_t block, const float* descriptor) {
   const float* values = means.data() + block * kMeanBlock * kDescriptorSize;
   Float8 even{}, odd{};
@@ -63,8 +62,8 @@ std::uint32_t nearestOf(const MeanBlocks& means, const float* descriptor) {
   return best.index;
 }
 
-// `count` starts: the first at random, each further one with a probability that grows with its squared
-// distance from those before.
+// k-means++: the first start at random, each further one with a probability that grows with its squared
+// distance from the earlier ones.
 MeanBlocks starts(std::span<const float> descriptors, const Indices& sample, int count, std::uint64_t seed) {
   MeanBlocks means = emptyBlocks(std::size_t(count));
   std::vector<float> distance(sample.size(), kNoBound);
@@ -105,7 +104,7 @@ MeanBlocks kMeans(std::span<const float> descriptors, const Indices& members, in
       ++share[mean];
     }
     for (int m = 0; m < count; ++m) {
-      if (share[std::size_t(m)] == 0) continue;  // stays where it is
+      if (share[std::size_t(m)] == 0) continue;  // an empty cluster keeps its mean
       double* total = sum.data() + std::size_t(m) * kDescriptorSize;
       for (int k = 0; k < kDescriptorSize; ++k) total[k] /= share[std::size_t(m)];
       setLane(means, std::size_t(m), total);
@@ -114,7 +113,7 @@ MeanBlocks kMeans(std::span<const float> descriptors, const Indices& members, in
   return means;
 }
 
-// For each of `members`, which mean is nearest.
+// Nearest mean of each of `members`.
 Indices nearestMeans(const MeanBlocks& means, std::span<const float> descriptors, const Indices& members) {
   Indices result(members.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, members.size(), 1024), [&](const auto& range) {
@@ -124,7 +123,7 @@ Indices nearestMeans(const MeanBlocks& means, std::span<const float> descriptors
   return result;
 }
 
-// The members of each of `count` clusters, in the order of `members`.
+// Members of each of `count` clusters, in the order of `members`.
 std::vector<Indices> clusters(std::span<const float> descriptors, const Indices& members, int count,
                               std::uint64_t seed) {
   std::vector<Indices> result(std::size_t(std::max(count, 1)));
@@ -151,7 +150,7 @@ void appendLeaf(WindowTree& tree, std::span<const float> descriptors, const Indi
     tree.index.push_back(i);
     addCode(tree.codes, descriptors.data() + i * std::size_t(kDescriptorSize));
   }
-  // Unused places get the corner of the range that is farthest from one of the members.
+  // Padding gets the corner of the range farthest from one of the members.
   const std::vector<std::int16_t>& fine = tree.codes.fine;
   std::array<std::int16_t, kDescriptorSize> far;
   for (std::size_t k = 0; k < kDescriptorSize; ++k)
@@ -163,10 +162,10 @@ void appendLeaf(WindowTree& tree, std::span<const float> descriptors, const Indi
   tree.firstBlock.push_back(std::uint32_t(tree.index.size() / kCodeBlock));
 }
 
-// A coarse distance that at least `count` windows do not exceed, and not many more: of the windows in groups
-// the nearest ones are counted.
+// A coarse distance that at least `count` windows do not exceed, and few more: found by counting the nearest
+// of each group of windows.
 std::int16_t coarseBound(const std::vector<Short16>& distance, std::size_t count) {
-  constexpr std::size_t kGroups = 16;  // times the lanes
+  constexpr std::size_t kGroups = 16;  // per lane
   constexpr int kMost = 32767;
   const std::size_t each = std::max<std::size_t>(1, (distance.size() + kGroups - 1) / kGroups);
   std::array<Short16, kGroups> nearest;
@@ -199,7 +198,7 @@ WindowTree buildWindowTree(std::span<const float> descriptors, int leaves, std::
       clusters(descriptors, all, int(std::lround(std::sqrt(double(leaves)))), seed);
   std::vector<std::vector<Indices>> leavesOf(branches.size());
   tbb::parallel_for(std::size_t(0), branches.size(), [&](std::size_t b) {
-    // Leaves of like size: a branch is cut into as many as its share.
+    // Leaves of similar size: a branch is split in proportion to its members.
     const double share = double(leaves) * double(branches[b].size()) / double(all.size());
     leavesOf[b] =
         clusters(descriptors, branches[b], std::max(1, int(std::lround(share))), randomBits(seed, b + 1));
@@ -211,8 +210,8 @@ WindowTree buildWindowTree(std::span<const float> descriptors, int leaves, std::
   MeanBlocks means = emptyBlocks(mean.size());
   for (std::size_t m = 0; m < mean.size(); ++m) setLane(means, m, mean[m].data());
 
-  // Across the branches' borders another leaf's mean may be nearer. With every descriptor in the leaf of the
-  // nearest mean, a query that equals one is found by the first probe.
+  // The nearest mean may belong to another branch. With every descriptor in the leaf of its nearest mean, a
+  // query that equals one finds it with the first probe.
   std::vector<Indices> members(mean.size());
   const Indices nearest = nearestMeans(means, descriptors, all);
   for (std::size_t i = 0; i < all.size(); ++i) members[nearest[i]].push_back(std::uint32_t(i));
@@ -242,7 +241,7 @@ void nearestLeaves(const WindowTree& tree, const float* descriptor, int probes, 
       const Float8 these = load8(distance.data() + i);
       least = these < least ? these : least;
     }
-    Found best{least[0], std::uint32_t(probe)};  // stays where distances are not numbers
+    Found best{least[0], std::uint32_t(probe)};  // kept where distances are NaN
     for (std::size_t lane = 1; lane < kMeanBlock; ++lane)
       best.distance = std::min(best.distance, least[lane]);
     for (std::size_t i = 0; i < distance.size(); i += kMeanBlock)
@@ -257,7 +256,7 @@ void nearestLeaves(const WindowTree& tree, const float* descriptor, int probes, 
 
 void searchWindowTree(const WindowTree& tree, const float* descriptor, int probes, int count,
                       TreeSearch& search) {
-  constexpr std::size_t kSpare = 4;  // as many more than asked for are looked at closely
+  constexpr std::size_t kSpare = 4;  // extra candidates for the fine distance
   search.best.clear();
   if (count < 1) return;
   nearestLeaves(tree, descriptor, probes, search);
@@ -268,7 +267,7 @@ void searchWindowTree(const WindowTree& tree, const float* descriptor, int probe
       search.coarse.push_back(coarseDistances(tree.codes, b, query));
   const std::int16_t bound = coarseBound(search.coarse, std::size_t(count) + kSpare);
 
-  // Asked for early, since they lie anywhere in memory.
+  // Prefetched, since they are scattered in memory.
   search.near.clear();
   std::size_t at = 0;
   for (const Found& leaf : search.leaf)

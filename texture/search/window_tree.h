@@ -9,16 +9,16 @@
 
 namespace fluidtex::texture {
 
-// Means of the leaves, eight side by side, one component after the other.
+// Leaf means in blocks of eight, component by component.
 inline constexpr std::size_t kMeanBlock = 8;
-using MeanBlocks = std::vector<float>;  // kMeanBlock x kDescriptorSize a block
+using MeanBlocks = std::vector<float>;  // kMeanBlock x kDescriptorSize per block
 
 inline constexpr std::uint32_t kNoWindow = 0xffffffffu;
 
 struct WindowTree {
   std::vector<std::uint32_t> firstBlock;  // #leaves + 1
-  // kCodeBlock a block: which descriptor; kNoWindow where a leaf's last block holds none, only codes that are
-  // far from the others.
+  // kCodeBlock per block: index of the descriptor; kNoWindow for padding in a leaf's last block, whose codes
+  // are far from all others.
   std::vector<std::uint32_t> index;
   WindowCodes codes;  // in the order of index
   MeanBlocks leafMean;
@@ -28,13 +28,13 @@ struct WindowTree {
 struct Found {
   float distance;       // squared
   std::uint32_t index;  // of the descriptor
-  // Nearer first, ties by index.
+  // Ascending distance, ties by index.
   friend bool operator<(const Found& a, const Found& b) {
     return a.distance < b.distance || (a.distance == b.distance && a.index < b.index);
   }
 };
 
-// Working memory of a search.
+// Workspace of a search.
 struct TreeSearch {
   std::vector<Found> leaf, best;
   std::vector<float> meanDistance;
@@ -42,17 +42,17 @@ struct TreeSearch {
   std::vector<std::uint32_t> near;
 };
 
-// descriptors: #n x kDescriptorSize, n >= 1. About `leaves` leaves, fewer where n is small; none is empty,
-// and each descriptor is in the leaf whose mean is nearest to it.
+// descriptors: #n x kDescriptorSize, n >= 1. About `leaves` leaves, fewer where n is small. No leaf is empty,
+// and each descriptor is in the leaf of its nearest mean.
 WindowTree buildWindowTree(std::span<const float> descriptors, int leaves, std::uint64_t seed);
 
-// Leaves the `count` nearest descriptors of the `probes` leaves whose means are nearest in search.best,
-// ascending; by their codes, that is: of two that are as near but for a hundredth of the range of all, the
-// farther one may be taken. What is beyond that range counts as at its end.
+// Writes to search.best, in ascending order, the `count` nearest descriptors in the `probes` leaves of
+// nearest means. By their codes: of two whose distances differ by less than a hundredth of the range, the
+// farther may be taken. Values beyond the range are clamped.
 void searchWindowTree(const WindowTree& tree, const float* descriptor, int probes, int count,
                       TreeSearch& search);
 
-// Keeps `best` ascending and at most `count` long.
+// Inserts into `best`, which stays ascending and at most `count` long.
 inline void insertFound(std::vector<Found>& best, std::size_t count, const Found& found) {
   if (best.size() < count)
     best.push_back(found);
@@ -63,10 +63,10 @@ inline void insertFound(std::vector<Found>& best, std::size_t count, const Found
   best[i] = found;
 }
 
-// Fills search.leaf with the `probes` leaves whose means are nearest, best first.
+// Writes the `probes` leaves of nearest means to search.leaf, best first.
 void nearestLeaves(const WindowTree& tree, const float* descriptor, int probes, TreeSearch& search);
 
-// Calls offer(Found) for all descriptors in the `probes` leaves whose means are nearest, best leaf first.
+// Calls offer(Found) for all descriptors in the `probes` leaves of nearest means, best leaf first.
 template <class Offer>
 void visitNearest(const WindowTree& tree, const float* descriptor, int probes, TreeSearch& search,
                   const Offer& offer) {

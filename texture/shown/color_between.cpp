@@ -11,11 +11,11 @@
 namespace fluidtex::texture {
 namespace {
 
-// Neighbours of one piece lie about a texel apart; those of texture that is squeezed further than this are
-// taken for a joint.
+// Neighbours within a patch are about a texel apart; texture compressed further than this is taken for a
+// seam.
 constexpr float kOnePiece = 3.0f;  // texels
 
-// Brings q within half an exemplar of `near`.
+// Wraps q to within half an exemplar of `near`.
 Vec2f unwrapped(const Vec2f& q, const Vec2f& near, const TexturedSurface& surface) {
   const Vec2f size(float(surface.exemplarWidth), float(surface.exemplarHeight));
   Vec2f result = q;
@@ -23,7 +23,7 @@ Vec2f unwrapped(const Vec2f& q, const Vec2f& near, const TexturedSurface& surfac
   return result;
 }
 
-// The place between three, if they belong to one piece.
+// Interpolated coordinate, if the three belong to one patch.
 std::optional<Vec2f> placeBetween(const std::vector<Vec2f>& places, const Vec3I& corner, const Vec3f& weights,
                                   bool toroidal, const TexturedSurface& surface) {
   std::array<Vec2f, 3> q;
@@ -68,7 +68,7 @@ std::optional<Vec4f> colorBetween(const Detail& detail, const TexturedSurface& s
                       weight, detail.halvings);
   };
   if (fading == 0) return shown(*now, *now, 0.0f);
-  // A corner that fades from nothing has no former place.
+  // A corner that fades from nothing has no former coordinate.
   if (fading < 3) return std::nullopt;
   const auto former = placeBetween(surface.fading.coordinate, corner, weights, detail.toroidal, surface);
   if (!former) return std::nullopt;

@@ -1,5 +1,5 @@
-// Colours between the vertices of a textured surface, so that a picture's detail does not end where the
-// points' spacing does.
+// Colours inside the triangles of a textured surface, so that detail does not end at the spacing of the
+// points.
 #pragma once
 
 #include "texture/exemplar/exemplar.h"
@@ -8,7 +8,7 @@
 
 namespace fluidtex::texture {
 
-// The exemplar's picture in any resolution, ready to be looked up between vertices.
+// The exemplar's picture in any resolution, prepared for look-up.
 struct Detail {
   Image color;   // linear RGBA, straight alpha
   Image around;  // lightnessAround(color), over as much of the picture as of the exemplar
@@ -20,10 +20,10 @@ struct Detail {
 // Throws std::invalid_argument if the colours are not RGBA or there are none.
 Detail makeDetail(Image color, bool toroidal, int exemplarWidth);
 
-// What the surface shows inside a triangle, at barycentric weights: the picture at the exemplar coordinate
-// there, mixed with that at the former place while it fades, as at vertices (shown_color.h). Nothing where
-// the corners do not belong to one piece, or the surface has no coordinates: a joint is as wide as a
-// triangle, and has its vertices' colours. Straight alpha.
+// Colour at barycentric weights in a triangle, straight alpha: the picture at the interpolated exemplar
+// coordinate, cross-faded with the former coordinate as at vertices (shown_color.h). Nothing where the
+// corners belong to different patches, or the surface has no coordinates: there the vertices' colours are
+// interpolated.
 std::optional<Vec4f> colorBetween(const Detail& detail, const TexturedSurface& surface,
                                   std::uint32_t triangle, const Vec3f& weights);
 

@@ -1,6 +1,5 @@
-// Further maps of an exemplar (height, roughness, its colours in another resolution): numbers that lie over
-// the same picture, looked up by the exemplar coordinates that synthesis has found. They can be applied to
-// any surface that has those, whenever.
+// Further maps of an exemplar (height, roughness, colours in another resolution), looked up by exemplar
+// coordinates. Applicable to any surface that has these, at any time.
 #pragma once
 
 #include "texture/exemplar/load_map.h"
@@ -10,15 +9,14 @@
 
 namespace fluidtex::texture {
 
-// Fills surface.maps under these names, whatever the map's size: where a vertex still shows its former place
-// too, with both, mixed by what is left of it. Throws std::invalid_argument if the map is empty or the
-// surface does not know the size of its exemplar.
+// Fills surface.maps[name] from a map of any size, cross-faded as colours are. Throws std::invalid_argument
+// if the map is empty or the surface does not know the size of its exemplar.
 void lookUpMap(const std::string& name, const Image& map, bool toroidal, TexturedSurface& surface);
 
-// What the map holds: lookUpMap() or, of vectors, lookUpVectors() (texture/shown/vector_maps.h).
+// lookUpMap(), or for vectors lookUpVectors() (texture/shown/vector_maps.h).
 void lookUp(const std::string& name, const ExemplarMap& map, bool toroidal, TexturedSurface& surface);
 
-// Looks surface.color up anew, in colours of any size. Throws as lookUpMap().
+// Looks surface.color up again, in a colour image of any size. Throws as lookUpMap().
 void lookUpColor(const Image& color, bool toroidal, TexturedSurface& surface);
 
 }  // namespace fluidtex::texture

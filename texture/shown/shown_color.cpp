@@ -11,15 +11,15 @@
 namespace fluidtex::texture {
 namespace {
 
-// Differences of lightness, squared, below which two places count as equally bright.
+// Squared differences of lightness below this count as none.
 constexpr float kSame = 1e-3f;
 
-// How bright the eye finds a premultiplied colour.
+// Lightness of a premultiplied colour.
 float lightness(const float* rgb) {
   return encodeSrgb(luminance(rgb));
 }
 
-// What is shown at a place, premultiplied, and the mean lightness around it.
+// Premultiplied colour at a coordinate, and the mean lightness around it.
 struct Reading {
   Vec4f color;
   float mean = 0.0f;
@@ -54,7 +54,7 @@ Vec4f shownColor(const Image& color, const Image& around, bool toroidal, const V
   const float wanted =
       std::clamp(now.mean + weight * (old.mean - now.mean) + a * (one - now.mean) + b * (other - old.mean),
                  std::min(one, other), std::max(one, other));
-  // The colour on the way from one to the other that is as bright; where both are, the way's own share.
+  // The colour of that lightness on the line between both; by the weight where they are equally bright.
   const float from = decodeSrgb(other), way = decodeSrgb(one) - from;
   const float along = way != 0.0f ? (decodeSrgb(wanted) - from) / way : 0.0f;
   const float differ = (one - other) * (one - other);

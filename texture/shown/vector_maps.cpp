@@ -27,13 +27,13 @@ Vec3f directionAt(const Vec3f& n, const TexelGradient& gradient, const Vec3f& st
   return along * length + n * stored.z();
 }
 
-// 0 cannot be written in whole numbers: the middle of 8 bits is off by 1/255 in each part.
+// Integers cannot represent 0: the middle of 8 bits is off by 1/255 in each component.
 Vec3f unitOrZero(Vec3f v) {
   constexpr float kNothing = 0.02f;
   return v.normalize(kNothing) ? v : Vec3f(0.0f);
 }
 
-// Of a surface's coordinates, in its vertices' own axes, made rows in space.
+// Gradients estimated from the coordinates in the vertices' axes, as rows in world space.
 std::vector<TexelGradient> shownGradients(const TexturedSurface& surface, const VertexGraph& graph,
                                           bool toroidal) {
   const std::vector<std::optional<Jacobian>> fitted = fittedGradients({surface, graph, toroidal});

@@ -233,11 +233,11 @@ TEST_CASE("pressure: liquid that grows swells out of its surface, and its veloci
   PressureOptions options = precise();
   const Projection without = scene.projected(options);
   CHECK(without.expansion.component[0] == nullptr);
-  options.growth = FloatGrid::create(0.0f);
+  options.divergence = FloatGrid::create(0.0f);
   const double volume = std::pow(scene.h, 3);
   double sum = 0.0;
   for (const auto& [cell, rate] : {std::pair(Coord(12, 12, 2), 3.0f), {Coord(20, 20, 10), 1.0f}}) {
-    options.growth->tree().setValueOn(cell, rate);
+    options.divergence->tree().setValueOn(cell, rate);
     sum += rate * volume;
   }
   const Projection with = grown.projected(options);
@@ -259,7 +259,7 @@ TEST_CASE("pressure: liquid that grows swells out of its surface, and its veloci
     }
     out *= grown.h * grown.h;
     outflow += out;
-    largest = std::max(largest, std::abs(out - options.growth->tree().getValue(c) * volume));
+    largest = std::max(largest, std::abs(out - options.divergence->tree().getValue(c) * volume));
   }
   CHECK_THAT(outflow, WithinRel(sum, 0.02));
   CHECK(largest < 0.02 * sum);

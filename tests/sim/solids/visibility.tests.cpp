@@ -73,19 +73,19 @@ TEST_CASE("visibility: a level set goes on linearly behind a wall, and does not 
   Stencil values;
   for (int at = 0; at < VisibleCells::kCount; ++at) values[at] = 5.0f + float(at / kUp);
   for (int at = 3 * kUp; at < VisibleCells::kCount; ++at) values[at] = -100.0f;
-  goOnBehind(values, visible, 0.55f);
+  extrapolateBehind(values, visible, 0.55f);
   CHECK(values[VisibleCells::kMiddle + kUp] == 8.0f);
   CHECK(values[VisibleCells::kMiddle + 2 * kUp] == 9.0f);
   for (int at = 0; at < VisibleCells::kCount; ++at) values[at] = 2.5f - float(at / kUp);
-  goOnBehind(values, visible, 0.55f);  // 2.5, 1.5, 0.5 to the middle
+  extrapolateBehind(values, visible, 0.55f);  // 2.5, 1.5, 0.5 to the middle
   CHECK(values[VisibleCells::kMiddle + kUp] == 0.5f);
   // Liquid that the wall cuts, and liquid that has let go of it.
   for (int at = 0; at < VisibleCells::kCount; ++at) values[at] = -0.5f + 0.2f * float(at / kUp - 2);
-  goOnBehind(values, visible, 0.55f);
+  extrapolateBehind(values, visible, 0.55f);
   CHECK(values[VisibleCells::kMiddle + kUp] == Approx(-0.3f));
   CHECK(values[VisibleCells::kMiddle + 2 * kUp] == Approx(-0.1f));
   for (int at = 0; at < VisibleCells::kCount; ++at) values[at] = float(at / kUp) - 2.1f;
-  goOnBehind(values, visible, 0.55f);
+  extrapolateBehind(values, visible, 0.55f);
   CHECK(values[VisibleCells::kMiddle + kUp] == Approx(0.9f));
 }
 

@@ -1,6 +1,7 @@
 #include "sim/volume/regained_surface.h"
 
 #include "sim/surface/level_set.h"
+#include "sim/volume/deficit_grid.h"
 #include "sim/volume/volume_deficit.h"
 #include "tests/sim/step/solver_scenes.h"
 

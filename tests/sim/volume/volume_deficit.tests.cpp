@@ -1,6 +1,7 @@
 #include "sim/volume/volume_deficit.h"
 
 #include "sim/surface/level_set.h"
+#include "sim/volume/deficit_grid.h"
 #include "tests/sim/velocity/velocity_field.h"
 
 #include <catch2/catch.hpp>
@@ -140,7 +141,7 @@ TEST_CASE("owed volume: liquid grows by what it owes, by half a cell at once at 
   const auto deficit = FloatGrid::create(0.0f);
   deficit->tree().setValueOn(Coord(1, 2, 3), 0.1f);
   deficit->tree().setValueOn(Coord(1, 2, 4), -3.0f);
-  const auto growth = growthOf(*deficit, 0.25);
+  const auto growth = targetDivergence(*deficit, 0.25);
   CHECK(growth->tree().getValue(Coord(1, 2, 3)) == Approx(0.4));
   CHECK(growth->tree().getValue(Coord(1, 2, 4)) == Approx(-2.0));
 }

@@ -1,0 +1,32 @@
+// The implicit part of a step: viscosity, then pressure, each for all of the liquid.
+#pragma once
+
+#include "sim/options.h"
+#include "sim/pressure/pressure.h"
+#include "sim/solids/solids.h"
+#include "sim/step/liquid.h"
+#include "sim/viscosity/viscosity.h"
+
+namespace fluidtex::sim {
+
+struct StepReport {
+  PressureReport pressure;
+  ViscosityReport viscosity;
+  bool heatConverged = true;
+};
+
+// Viscosity acts for `kick` seconds, as gravity does.
+// viscosity: Pa s at cell centres, null for Options::viscosity everywhere. report: its solves are filled in.
+// False where a solve does not converge.
+bool applyViscosityFor(Liquid& liquid, const SolidField& solid, double kick, const Options& options,
+                       const FloatGrid* viscosity, StepReport& report);
+
+// Projects the velocity over dt seconds, extrapolates it, constrains it at solids and opens gaps where liquid
+// separates from them.
+// kick: how long forces act in this, s. viscous: whether viscosity acts, so that liquid can stick to walls.
+// driven: whether the acceleration is wanted. arrived: the velocity before viscosity, no grids where there
+// was none. report: may be null. False where the solve does not converge or a velocity is not finite.
+bool applyPressure(Liquid& liquid, const SolidField& solid, double dt, double kick, const Options& options,
+                   bool viscous, bool driven, Velocity arrived, StepReport* report);
+
+}  // namespace fluidtex::sim

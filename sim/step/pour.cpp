@@ -1,0 +1,94 @@
+#include "sim/step/pour.h"
+
+#include "sim/flows/move_surface.h"
+#include "sim/grid/leaf_table.h"
+#include "sim/heat/heat.h"
+#include "sim/step/liquid_fields.h"
+#include "sim/surface/level_set.h"
+#include "sim/surface/settle_surface.h"
+
+#include <tbb/parallel_for.h>
+
+namespace fluidtex::sim {
+
+void pour(Liquid& liquid, const ShapeDistance& body, const std::function<double(const Vec3d&)>& surface,
+          const Vec3d& velocity, double temperature, const SolidField& solid) {
+  unite(*liquid.phi, body, solid.domain, surface);
+  const Velocity before = liquid.velocity;
+  liquid.velocity = velocityFor(*liquid.phi, solid);
+  if (liquid.temperature) {
+    liquid.temperature = makeTemperature(*liquid.temperature, liquid.velocity.component[0]->constTree());
+    heatBody(*liquid.temperature, body, temperature);
+  }
+  const double h = voxelSize(liquid);
+  for (int a = 0; a < 3; ++a) {
+    FloatGrid& grid = *liquid.velocity.component[a];
+    const auto leaves = leavesOf(grid.tree());
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      FloatLeaf& leaf = *leaves[n];
+      float scratch[kLeafSize];
+      const float* was = leafValues(before.component[a]->constTree(), leaf.origin(), scratch);
+      for (auto it = leaf.beginValueOn(); it; ++it) {
+        // Faces of the body's cells: within half a cell of it.
+        const bool inBody = body(grid.indexToWorld(it.getCoord())) < 0.5 * h;
+        it.setValue(inBody ? static_cast<float>(velocity[a]) : was[it.pos()]);
+      }
+    });
+  }
+}
+
+void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& after) {
+  const float h = static_cast<float>(voxelSize(liquid));
+  MaskGrid left;
+  for (const Coord& origin : wetLeaves(*liquid.phi, after.domain)) {
+    float beforeScratch[kLeafSize], afterScratch[kLeafSize];
+    const float* was = leafValues(before.phi->constTree(), origin, beforeScratch);
+    const float* is = leafValues(after.phi->constTree(), origin, afterScratch);
+    for (int i = 0; i < kLeafSize; ++i) {
+      if (was[i] < h && is[i] > was[i]) left.tree().setValueOn(origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7));
+    }
+  }
+  cutSolids(*liquid.phi, *before.phi, left);
+}
+
+bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options, StepReport* report,
+            const RunningFlows& flows) {
+  FloatGrid& phi = *liquid.phi;
+  applyFlows(phi, liquid.markers, flows);
+  settleSurface(phi, solid);
+  liquid.markers =
+      seedMarkers(phi, *solid.phi, markerSeed(options.seed, liquid.steps), solid.visibility.get());
+
+  const Velocity before = liquid.velocity;
+  liquid.velocity = velocityFor(phi, solid);
+  for (int a = 0; a < 3; ++a) {
+    const auto leaves = leavesOf(liquid.velocity.component[a]->tree());
+    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+      float scratch[kLeafSize];
+      const float* was = leafValues(before.component[a]->constTree(), leaves[n]->origin(), scratch);
+      for (auto it = leaves[n]->beginValueOn(); it; ++it) it.setValue(was[it.pos()]);
+    });
+  }
+  if (isEmpty(liquid)) return true;
+  addGravity(liquid.velocity, options.gravity * kick);
+  liquid.leapfrogOffset += kick;
+  const SolidField around = withFlows(solid, flows, phi, before, options.gravity, 0.0);
+  if (liquid.temperature) {
+    liquid.temperature = makeTemperature(*liquid.temperature, liquid.velocity.component[0]->constTree());
+    setSourceTemperature(*liquid.temperature, flows);
+    extendTemperature(*liquid.temperature, phi, *solid.phi, kTemperatureLayers);
+  }
+  // Viscosity acts as long as gravity does.
+  const FloatGrid::Ptr viscosity =
+      liquid.temperature ? viscosityOf(*liquid.temperature, options.heat.law, options.viscosity) : nullptr;
+  StepReport solves;
+  const bool converged = applyViscosityFor(liquid, around, kick, options, viscosity.get(), solves);
+  if (report != nullptr) *report = solves;
+  if (!converged) return false;
+  const double dt = 1.0 / options.frameRate;
+  const bool viscous = liquid.temperature != nullptr ||
+                       !isNegligible(options.viscosity, dt, options.density, voxelSize(liquid));
+  return applyPressure(liquid, around, dt, kick, options, viscous, false, {}, report);
+}
+
+}  // namespace fluidtex::sim
