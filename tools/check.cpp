@@ -5,14 +5,14 @@
 #include "sim/motion/motion.h"
 #include "sim/solids/domain.h"
 #include "texture/exemplar/exemplar.h"
-#include "tools/check_relief.h"
-#include "tools/color_between.h"
+#include "tools/base/console.h"
+#include "tools/base/errors.h"
+#include "tools/base/work.h"
 #include "tools/common_options.h"
-#include "tools/console.h"
-#include "tools/errors.h"
-#include "tools/image_notes.h"
-#include "tools/memory_plan.h"
-#include "tools/work.h"
+#include "tools/frames/check_relief.h"
+#include "tools/frames/color_between.h"
+#include "tools/frames/image_notes.h"
+#include "tools/frames/memory_plan.h"
 
 #include <fmt/core.h>
 

@@ -6,7 +6,7 @@
 #include "sim/shapes/pose.h"
 #include "sim/shapes/shape_distance.h"
 #include "sim/solids/domain.h"
-#include "tools/errors.h"
+#include "tools/base/errors.h"
 
 #include <fmt/core.h>
 

@@ -1,15 +1,15 @@
 // fluidtex compare SCENE: the paper's variants side by side [Kwatra07 sec. VII, figures 7A and 11A].
 #include "render/frame_name.h"
 #include "render/render.h"
-#include "tools/atomic_file.h"
+#include "tools/base/atomic_file.h"
+#include "tools/base/console.h"
+#include "tools/base/errors.h"
 #include "tools/common_options.h"
-#include "tools/compare_table.h"
-#include "tools/console.h"
-#include "tools/contact_sheet.h"
-#include "tools/errors.h"
 #include "tools/measure.h"
-#include "tools/out_folder.h"
+#include "tools/output/compare_table.h"
+#include "tools/output/contact_sheet.h"
 #include "tools/run.h"
+#include "tools/run_folder/out_folder.h"
 
 #include <fmt/core.h>
 

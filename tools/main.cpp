@@ -1,9 +1,9 @@
 // The fluidtex program: one small file per subcommand.
+#include "tools/base/console.h"
+#include "tools/base/errors.h"
+#include "tools/base/keep_memory.h"
+#include "tools/base/work.h"
 #include "tools/commands.h"
-#include "tools/console.h"
-#include "tools/errors.h"
-#include "tools/keep_memory.h"
-#include "tools/work.h"
 
 #include <openvdb/openvdb.h>
 #include <spdlog/sinks/null_sink.h>

@@ -6,14 +6,14 @@
 #include "texture/measure/measure.h"
 #include "texture/measure/pieces.h"
 #include "texture/measure/wear.h"
-#include "tools/atomic_file.h"
+#include "tools/base/atomic_file.h"
+#include "tools/base/console.h"
+#include "tools/base/errors.h"
 #include "tools/commands.h"
-#include "tools/console.h"
-#include "tools/errors.h"
-#include "tools/finished_run.h"
-#include "tools/out_folder.h"
-#include "tools/ply.h"
-#include "tools/read_ply.h"
+#include "tools/output/ply.h"
+#include "tools/output/read_ply.h"
+#include "tools/run_folder/finished_run.h"
+#include "tools/run_folder/out_folder.h"
 
 #include <fmt/core.h>
 

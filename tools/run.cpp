@@ -1,13 +1,13 @@
 // fluidtex run SCENE: simulate, texture, render and write, frame by frame, in memory.
 #include "tools/run.h"
 
+#include "tools/base/errors.h"
+#include "tools/base/stop_signal.h"
+#include "tools/base/work.h"
 #include "tools/common_options.h"
-#include "tools/errors.h"
-#include "tools/frame_loop.h"
-#include "tools/memory_plan.h"
-#include "tools/out_folder.h"
-#include "tools/stop_signal.h"
-#include "tools/work.h"
+#include "tools/frames/frame_loop.h"
+#include "tools/frames/memory_plan.h"
+#include "tools/run_folder/out_folder.h"
 
 #include <fmt/core.h>
 #include <spdlog/sinks/basic_file_sink.h>

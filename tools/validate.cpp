@@ -1,13 +1,13 @@
 // fluidtex validate [NAME...]: the reference tests, each figure beside its bar and what others measured.
 #include "tests/validation/case.h"
-#include "tools/atomic_file.h"
+#include "tools/base/atomic_file.h"
+#include "tools/base/console.h"
+#include "tools/base/errors.h"
+#include "tools/base/work.h"
 #include "tools/commands.h"
-#include "tools/console.h"
-#include "tools/errors.h"
-#include "tools/plot.h"
-#include "tools/progress.h"
+#include "tools/frames/progress.h"
+#include "tools/output/plot.h"
 #include "tools/validation_page.h"
-#include "tools/work.h"
 
 #include <fmt/core.h>
 #include <tbb/global_control.h>

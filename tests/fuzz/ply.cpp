@@ -1,8 +1,8 @@
 // The surface of a finished run.
-#include "tools/ply.h"
+#include "tools/output/ply.h"
 #include "tests/fuzz/reader.h"
-#include "tools/errors.h"
-#include "tools/read_ply.h"
+#include "tools/base/errors.h"
+#include "tools/output/read_ply.h"
 
 using namespace fluidtex;
 

@@ -1,6 +1,6 @@
 // The report of a finished run, in a folder that has its exemplar and a surface.
 #include "tests/fuzz/reader.h"
-#include "tools/finished_run.h"
+#include "tools/run_folder/finished_run.h"
 
 using namespace fluidtex;
 

@@ -1,5 +1,5 @@
 // The surface that a run goes on from.
-#include "tools/state.h"
+#include "tools/run_folder/state.h"
 #include "tests/fuzz/reader.h"
 
 using namespace fluidtex;

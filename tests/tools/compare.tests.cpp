@@ -1,7 +1,7 @@
 // fluidtex compare: the pictures side by side, the table, and the command as a whole.
 #include "tests/tools/program.h"
-#include "tools/compare_table.h"
-#include "tools/contact_sheet.h"
+#include "tools/output/compare_table.h"
+#include "tools/output/contact_sheet.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // The benchmarks: Google Benchmark's program, with ratios to the peers at the end. See
 // docs/results/benchmarks.md.
+#include "tools/base/keep_memory.h"
 #include "tools/benchmarks/measure.h"
-#include "tools/keep_memory.h"
 
 int main(int argc, char** argv) {
   using namespace fluidtex::benchmarks;

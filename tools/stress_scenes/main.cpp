@@ -1,5 +1,5 @@
 // fluidtex_stress: random scenes, and what must hold in all of them. See tools/stress.
-#include "tools/progress.h"
+#include "tools/frames/progress.h"
 #include "tools/stress_scenes/in_own_process.h"
 #include "tools/stress_scenes/random_scene.h"
 #include "tools/stress_scenes/smallest.h"

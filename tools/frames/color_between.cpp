@@ -1,0 +1,37 @@
+#include "tools/frames/color_between.h"
+
+#include "texture/exemplar/read_image.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+namespace fluidtex::tools {
+
+std::optional<texture::Detail> detailOf(const texture::Options& options) {
+  const texture::ExemplarOptions& exemplar = options.exemplar;
+  if (exemplar.between == texture::Between::points ||
+      options.synthesis.method != texture::Method::coordinates ||
+      options.laterFrames == texture::LaterFrames::advect)
+    return std::nullopt;
+  texture::Image own = texture::readImage(exemplar.file);
+  const int width = own.width, height = own.height;
+  if (exemplar.between == texture::Between::exemplar)
+    return texture::makeDetail(std::move(own), exemplar.toroidal, width);
+  texture::Image finer = texture::readImage(exemplar.betweenFile);
+  if (std::abs(double(finer.width) / width * height - finer.height) > 1.0)
+    throw texture::ExemplarError(fmt::format(
+        "{} has {} x {} pixels, and its exemplar {} {} x {}; the same picture has the same shape.",
+        exemplar.betweenFile.string(), finer.width, finer.height, exemplar.file.string(), width, height));
+  return texture::makeDetail(std::move(finer), exemplar.toroidal, width);
+}
+
+render::ColorBetween colorBetween(const std::optional<texture::Detail>& detail,
+                                  const texture::TexturedSurface& surface) {
+  if (!detail) return {};
+  return [&](std::uint32_t triangle, const texture::Vec3f& weights) {
+    return texture::colorBetween(*detail, surface, triangle, weights);
+  };
+}
+
+}  // namespace fluidtex::tools

@@ -1,0 +1,312 @@
+#include "tools/frames/frame_loop.h"
+
+#include "pipeline/texture_frame.h"
+#include "render/frame_name.h"
+#include "render/render.h"
+#include "sim/motion/motion.h"
+#include "tools/base/atomic_file.h"
+#include "tools/base/console.h"
+#include "tools/base/errors.h"
+#include "tools/base/fingerprint.h"
+#include "tools/base/work.h"
+#include "tools/frames/check_relief.h"
+#include "tools/frames/color_between.h"
+#include "tools/frames/image_notes.h"
+#include "tools/frames/onto_mesh.h"
+#include "tools/frames/progress.h"
+#include "tools/frames/visible_solids.h"
+#include "tools/output/ply.h"
+#include "tools/run_folder/cache_folder.h"
+#include "tools/run_folder/earlier_frames.h"
+#include "tools/run_folder/earlier_run.h"
+#include "tools/run_folder/input_files.h"
+#include "tools/run_folder/journal.h"
+#include "tools/run_folder/report.h"
+#include "tools/run_folder/state.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+namespace fluidtex::tools {
+namespace fs = std::filesystem;
+namespace {
+
+// Adds the wall time of its own life to a stage.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : m_seconds(seconds) {}
+  ~Stopwatch() {
+    m_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& m_seconds;
+  std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
+};
+
+// A finished frame: the motion, the surface that came out, what it took.
+struct FrameResult {
+  sim::Frame motion;
+  pipeline::TexturedFrame textured;
+  StageSeconds seconds;
+};
+
+const char* nameOf(pipeline::Stage stage) {
+  switch (stage) {
+    case pipeline::Stage::prepare:
+      return "prepare";
+    case pipeline::Stage::transport:
+      return "transport";
+    case pipeline::Stage::synthesize:
+      return "synthesize";
+  }
+  return "";
+}
+
+class FrameLoop {
+ public:
+  FrameLoop(const scenes::Scene& scene, const RunOptions& options, const std::atomic<bool>& stop)
+      : m_scene(scene),
+        m_options(options),
+        m_stop(stop),
+        m_last(options.lastFrame > 0 ? options.lastFrame : scene.frames),
+        m_inputs(contentsOf(scene)),
+        m_detail(options.render ? detailOf(scene.texture) : std::nullopt),
+        m_texturing(pipeline::makeTexturing(scene, kept())),
+        m_solids(scene.sim),
+        m_reportFile(options.out) {
+    if (options.render) checkRelief(scene.render.bump, m_texturing.synthesizer.exemplar);
+    m_surface.spacing = scene.texture.spacing;
+    m_report.scene = Json::parse(scene.resolved);
+    m_report.seed = scene.seed;
+    m_report.threads = options.threads;
+    m_report.inputs = m_inputs;
+  }
+
+  void run() {
+    if (!m_options.resume || !continueFromState()) {
+      nowAt(kOnMotion);
+      m_motion = sim::makeMotion(m_scene.sim, m_scene.motion);
+      clearEarlierRun(m_options.out, m_scene.name);
+    }
+    tellWarnings();
+    for (const std::string& note : imageNotes(colorPictures(m_scene.texture.exemplar))) warn(note);
+    const int first = sim::stateOf(*m_motion).frame + 1;
+    spdlog::info("{}: frames {} to {}, {} threads", m_scene.name, first, m_last, m_options.threads);
+    Progress progress(first, m_last, m_options.quiet);
+    m_progress = &progress;
+    try {
+      for (int frame = first; frame <= m_last; ++frame) oneFrame();
+    } catch (...) {
+      tellSoFar();
+      throw;
+    }
+    m_progress = nullptr;
+    finish();
+  }
+
+ private:
+  void warn(const std::string& warning) const {
+    spdlog::warn("{}", warning);
+    if (!m_options.quiet) say("warning: {}\n", warning);
+  }
+
+  // Those of the motion that have come up since the last call.
+  void tellWarnings() {
+    const std::vector<std::string> all = sim::warningsOf(*m_motion);
+    for (; m_warningsTold < all.size(); ++m_warningsTold) warn(all[m_warningsTold]);
+  }
+
+  texture::CacheFolder kept() const {
+    return {cacheFolder(), [this](const std::string& warning) { warn(warning); }};
+  }
+
+  void oneFrame() {
+    FrameResult result = computeFrame();
+    sim::Frame& motion = result.motion;
+    StageSeconds& seconds = result.seconds;
+    const pipeline::TexturedFrame& textured = result.textured;
+    m_surface = std::move(result.textured.surface);
+    Json record = frameRecord(motion, m_surface, textured.singularities, textured.synthesis);
+    const std::size_t substeps = motion.substeps.size();
+    motion.substeps.clear();  // their grids would stay in memory while the picture is drawn
+    if (motion.index >= m_options.firstFrame) writeResults(motion.index, motion.time, seconds);
+    nowAt(kOnFrameFiles, motion.index);
+    {
+      Stopwatch watch(seconds.write);
+      recordCost(record, seconds);
+      saveState(sim::stateOf(*m_motion), m_surface, toJson(reportOf(record)), m_options.out / "state");
+    }
+    recordCost(record, seconds);
+    addToJournal(m_options.out, {lineOfFrame(record)});
+    m_report.frames.push_back(std::move(record));
+    m_reportFile.frameDone(m_report);
+    const std::string summary = fmt::format(
+        "{} substeps, {:.4g} m3, {} points; simulate {:.2f} s, prepare {:.2f}, transport {:.2f}, synthesize "
+        "{:.2f}, render {:.2f}, write {:.2f}",
+        substeps, motion.stats.volume, m_surface.positions.size(), seconds.simulate, seconds.prepare,
+        seconds.transport, seconds.synthesize, seconds.render, seconds.write);
+    const sim::FrameStats& stats = motion.stats;
+    spdlog::debug(
+        "frame {}: {} liquid cells, shortest substep {:.3g} s, {} pressure iterations, residual {:.2g}; "
+        "energy {:.5g} to {:.5g} in {} iterations, {:.1f}% renewed",
+        motion.index, stats.cells, stats.dtMin, stats.pressureIterations, stats.pressureResidual,
+        textured.synthesis.energyStart, textured.synthesis.energyEnd, textured.synthesis.iterations,
+        100.0 * textured.synthesis.renewed);
+    spdlog::info("frame {}: {}", motion.index, summary);
+    m_progress->frameDone(motion.index, summary);
+  }
+
+  FrameResult computeFrame() {
+    FrameResult result;
+    StageSeconds& seconds = result.seconds;
+    {
+      Stopwatch watch(seconds.simulate);
+      nowAt(kOnMotion, sim::stateOf(*m_motion).frame + 1);
+      result.motion = sim::nextFrame(*m_motion, reporter("simulate"));
+    }
+    tellWarnings();
+    const int frame = result.motion.index;
+    const auto progress = [&](pipeline::Stage stage, double part) {
+      nowAt(stage == pipeline::Stage::synthesize ? kOnTexture : kOnSurface, frame);
+      reporter(nameOf(stage))(part);
+    };
+    result.textured = pipeline::textureFrame(m_texturing, m_surface, result.motion, {progress});
+    seconds.prepare = result.textured.seconds.prepare;
+    seconds.transport = result.textured.seconds.transport;
+    seconds.synthesize = result.textured.seconds.synthesize;
+    const double spacing = result.textured.surface.spacing;
+    if (spacing != m_surface.spacing)
+      spdlog::info("texture: one point every {:.4g} m, {}", spacing,
+                   result.textured.foreseenSpacing ? "for the surface that the liquid is going to have"
+                                                   : "by the first surface");
+    return result;
+  }
+
+  // The picture and the surfaces of the frame that m_surface is of, and lines of the journal that tell of
+  // them.
+  void writeResults(int frame, double time, StageSeconds& seconds) {
+    const std::string name = render::frameName(frame);
+    if (m_options.render) {
+      nowAt(kOnPicture, frame);
+      render::Picture picture;
+      {
+        Stopwatch watch(seconds.render);
+        const double progress = m_scene.frames > 1 ? double(frame - 1) / (m_scene.frames - 1) : 0.0;
+        picture = render::render(m_surface, m_solids.at(time), m_scene.render,
+                                 {m_scene.sim.size, progress, frame, colorBetween(m_detail, m_surface),
+                                  m_detail && m_detail->seeThrough},
+                                 reporter("render"));
+      }
+      Stopwatch watch(seconds.write);
+      writeAtomically(m_options.out / "frames" / (name + ".png"),
+                      [&](const fs::path& file) { writePng(picture, file); });
+    }
+    nowAt(kOnFrameFiles, frame);
+    Stopwatch watch(seconds.write);
+    writeAtomically(m_options.out / "surface" / (name + ".ply"),
+                    [&](const fs::path& file) { writePly(m_surface, file); });
+    if (putsOnto()) {
+      const texture::TexturedSurface other =
+          ontoMesh(m_surface, m_scene.onto, frame, m_texturing.orientation.options.symmetry);
+      writeAtomically(m_options.out / "onto" / (name + ".ply"),
+                      [&](const fs::path& file) { writePly(other, file); });
+    }
+    std::vector<JournalLine> lines;
+    for (const std::string& file : resultsOf(frame, m_options.render, putsOnto()))
+      lines.push_back(lineOfFile(file, fingerprintOf(m_options.out / file)));
+    addToJournal(m_options.out, lines);
+  }
+
+  bool putsOnto() const { return !m_scene.onto.files.empty(); }
+
+  // The report of one frame.
+  Report reportOf(const Json& record) const {
+    return {m_report.scene, m_report.seed, m_report.threads, m_report.inputs, {record}};
+  }
+
+  // So that run.json has every frame that is done, however the run ends but by a kill. What ends it is worse
+  // than what may go wrong here.
+  void tellSoFar() {
+    try {
+      m_reportFile.write(m_report);
+    } catch (const std::exception&) {
+    }
+  }
+
+  void finish() {
+    m_reportFile.write(m_report);
+    if (m_options.render && m_last >= m_options.firstFrame) writeVideo();
+    if (!m_options.quiet) say("done: {}\n", m_options.out.string());
+  }
+
+  void writeVideo() {
+    try {
+      writeAtomically(m_options.out / (m_scene.name + ".mp4"), [&](const fs::path& file) {
+        render::writeVideo(m_options.out / "frames", m_options.firstFrame, m_last, m_scene.sim.frameRate,
+                           file);
+      });
+    } catch (const std::runtime_error&) {
+      // Ctrl-C reaches the encoder too, which then fails.
+      if (m_stop) throw Interrupted();
+      throw;
+    }
+  }
+
+  // False where there is nothing to go on from.
+  bool continueFromState() {
+    std::optional<EarlierFrames> earlier = earlierFrames(m_scene, m_options, m_report, m_last);
+    if (!earlier) return false;
+    m_report.frames = std::move(earlier->records);
+    m_motion = sim::makeMotion(m_scene.sim, m_scene.motion, std::move(earlier->solver));
+    m_surface = std::move(earlier->surface);
+    if (earlier->writeLastAgain) {
+      StageSeconds seconds;
+      writeResults(sim::stateOf(*m_motion).frame, m_report.frames.back().at("time").get<double>(), seconds);
+    }
+    m_reportFile.write(m_report);
+    return true;
+  }
+
+  std::function<void(double)> reporter(const char* stage) {
+    return [this, stage](double part) {
+      if (m_stop) throw Interrupted();
+      // None while files of an earlier run are made again.
+      if (m_progress == nullptr) return;
+      m_progress->update(sim::stateOf(*m_motion).frame + (std::string_view(stage) == "simulate" ? 1 : 0),
+                         stage, part);
+    };
+  }
+
+  const scenes::Scene& m_scene;
+  const RunOptions& m_options;
+  const std::atomic<bool>& m_stop;
+  int m_last;
+  Json m_inputs;  // known before anything is read of them
+  // What pictures show between the points, where it is not their colours.
+  std::optional<texture::Detail> m_detail;
+  pipeline::Texturing m_texturing;
+  std::optional<sim::Motion> m_motion;
+  std::size_t m_warningsTold = 0;
+  texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
+  VisibleSolids m_solids;
+  Report m_report;
+  ReportFile m_reportFile;
+  Progress* m_progress = nullptr;
+};
+
+}  // namespace
+
+void runScene(const scenes::Scene& scene, const RunOptions& options, const std::atomic<bool>& stop) {
+  FrameLoop(scene, options, stop).run();
+}
+
+}  // namespace fluidtex::tools

@@ -1,0 +1,55 @@
+#include "tools/run_folder/earlier_run.h"
+
+#include "render/frame_name.h"
+#include "tools/base/atomic_file.h"
+#include "tools/run_folder/state.h"
+
+namespace fluidtex::tools {
+namespace fs = std::filesystem;
+namespace {
+
+void removeFrames(const fs::path& folder, const char* extension) {
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(folder, missing))
+    if (entry.path().extension() == extension && render::frameNumber(entry.path().stem().string()))
+      fs::remove(entry.path());
+  fs::remove(folder, missing);  // where nothing else is in it
+}
+
+}  // namespace
+
+void removeLeftovers(const fs::path& out) {
+  for (const char* folder : {"", "frames", "surface", "onto", "state"}) removeTemporaries(out / folder);
+}
+
+void clearEarlierRun(const fs::path& out, const std::string& sceneName) {
+  fs::create_directories(out);
+  removeLeftovers(out);
+  removeStates(out / "state");
+  fs::remove(out / "run.json");
+  fs::remove(out / (sceneName + ".mp4"));
+  removeFrames(out / "frames", ".png");
+  removeFrames(out / "surface", ".ply");
+  removeFrames(out / "onto", ".ply");
+  if (fs::exists(out / "log.txt")) fs::resize_file(out / "log.txt", 0);
+}
+
+std::vector<std::string> resultsOf(int frame, bool rendered, bool onto) {
+  const std::string name = render::frameName(frame);
+  std::vector<std::string> results;
+  if (rendered) results.push_back("frames/" + name + ".png");
+  results.push_back("surface/" + name + ".ply");
+  if (onto) results.push_back("onto/" + name + ".ply");
+  return results;
+}
+
+std::optional<Broken> firstBroken(const fs::path& out, const Journal& journal, int first, int last,
+                                  bool rendered, bool onto) {
+  for (int frame = first; frame <= last; ++frame)
+    for (const std::string& name : resultsOf(frame, rendered, onto))
+      if (!isWhole(journal, out, name))
+        return Broken{frame, name, fs::exists(out / name), journal.files.contains(name)};
+  return std::nullopt;
+}
+
+}  // namespace fluidtex::tools

@@ -1,0 +1,37 @@
+// Files of an earlier run in the out folder. Only files that a run writes are touched; the user's own files
+// in the same folders stay.
+#pragma once
+
+#include "tools/run_folder/journal.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fluidtex::tools {
+
+// Removes all temporary files and folders of a killed run.
+void removeLeftovers(const std::filesystem::path& out);
+
+// Creates the folder if missing, and removes frames, surfaces, states, journal, report, video and log of an
+// earlier run of the scene. The state goes first, so that a kill in between leaves nothing that could be
+// resumed wrongly.
+void clearEarlierRun(const std::filesystem::path& out, const std::string& sceneName);
+
+// Files of a frame, relative to `out`: its surface, its picture if `rendered`, the scene's own mesh if
+// `onto`.
+std::vector<std::string> resultsOf(int frame, bool rendered, bool onto);
+
+struct Broken {
+  int frame = 0;
+  std::string name;      // relative to `out`
+  bool there = false;    // it exists, but not as the run wrote it
+  bool written = false;  // by the run, and lost or changed since; else it was never requested
+};
+
+// The first result of frames first..last that is not as the journal says.
+std::optional<Broken> firstBroken(const std::filesystem::path& out, const Journal& journal, int first,
+                                  int last, bool rendered, bool onto);
+
+}  // namespace fluidtex::tools

@@ -1,0 +1,120 @@
+#include "tools/run_folder/finished_run.h"
+
+#include "render/frame_name.h"
+#include "texture/exemplar/read_image.h"
+#include "tools/base/errors.h"
+#include "tools/base/work.h"
+#include "tools/run_folder/journal.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+namespace fluidtex::tools {
+namespace fs = std::filesystem;
+namespace {
+
+// Whether it has what the commands look for, in the types that they take.
+bool isReport(const Json& report) {
+  const auto texture = "/scene/texture"_json_pointer;
+  if (!report.is_object() || !report.contains(texture) || !report[texture].is_object()) return false;
+  const Json& own = report[texture];
+  const auto fits = [](const Json& object, const char* key, auto is) {
+    return !object.contains(key) || (object[key].*is)();
+  };
+  if (!fits(own, "exemplar", &Json::is_string) || !fits(own, "toroidal", &Json::is_boolean)) return false;
+  const auto frames = report.find("frames");
+  return frames != report.end() && frames->is_array() &&
+         std::all_of(frames->begin(), frames->end(), [&](const Json& record) {
+           return record.is_object() && fits(record, "frame", &Json::is_number_integer);
+         });
+}
+
+// run.json, and what it lacks of a run that was killed or goes on.
+Json readReport(const fs::path& out) {
+  const fs::path file = out / "run.json";
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw UsageError(file.string() + ": cannot be read; give the folder of a run of fluidtex run");
+  Json report = Json::parse(std::string{std::istreambuf_iterator<char>(in), {}}, nullptr, false);
+  if (!isReport(report))
+    throw UsageError(file.string() + ": is no report of a run; give the folder of a run of fluidtex run");
+  Json& frames = report["frames"];
+  const int last = !frames.empty() && frames.back().is_object() ? frames.back().value("frame", 0) : 0;
+  for (auto& [frame, record] : readJournal(out).frames)
+    if (frame > last) frames.push_back(std::move(record));
+  return report;
+}
+
+std::vector<int> framesIn(const fs::path& folder) {
+  std::vector<int> frames;
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(folder, missing))
+    if (entry.path().extension() == ".ply")
+      if (const auto frame = render::frameNumber(entry.path().stem().string())) frames.push_back(*frame);
+  std::sort(frames.begin(), frames.end());
+  if (frames.empty())
+    throw UsageError(folder.string() + ": holds no surface; give the folder of a run of fluidtex run");
+  return frames;
+}
+
+}  // namespace
+
+fs::path FinishedRun::surfaceOf(int frame) const {
+  return out / "surface" / (render::frameName(frame) + ".ply");
+}
+
+const Json* recordOf(const FinishedRun& run, int frame) {
+  for (const Json& record : run.report["frames"])
+    if (record.value("frame", -1) == frame) return &record;
+  return nullptr;
+}
+
+Json* recordOf(FinishedRun& run, int frame) {
+  return const_cast<Json*>(recordOf(std::as_const(run), frame));
+}
+
+double spacingOf(const FinishedRun& run, const texture::TexturedSurface& surface, int frame) {
+  const Json* record = recordOf(run, frame);
+  if (record != nullptr && record->contains("spacing") && (*record)["spacing"].is_number())
+    return (*record)["spacing"].get<double>();
+  double area = 0.0;
+  for (const texture::Vec3I& t : surface.triangles) {
+    const texture::Vec3f &a = surface.positions[t[0]], &b = surface.positions[t[1]],
+                         &c = surface.positions[t[2]];
+    area += 0.5 * (b - a).cross(c - a).length();
+  }
+  return std::sqrt(area / double(surface.positions.size()));
+}
+
+double spacingOf(const fs::path& out, const texture::TexturedSurface& surface, int frame) {
+  const Json none{{"frames", Json::array()}};
+  return spacingOf(FinishedRun{out, fs::exists(out / "run.json") ? readReport(out) : none, {}, {}, false, {}},
+                   surface, frame);
+}
+
+const fs::path& existing(const fs::path& out) {
+  if (!fs::is_directory(out))
+    throw UsageError((out / "run.json").string() +
+                     ": cannot be read; give the folder of a run of fluidtex run");
+  return out;
+}
+
+FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
+  FinishedRun run{out, readReport(out), exemplar, {}, false, {}};
+  const Json& texture = run.report["scene"]["texture"];
+  if (exemplar.empty()) run.exemplar = fs::path(texture.value("exemplar", ""));
+  if (!fs::exists(run.exemplar))
+    throw UsageError(fmt::format("{}: the exemplar of the run is not there; give --exemplar IMAGE",
+                                 run.exemplar.string()));
+  run.toroidal = texture.value("toroidal", false);
+  run.color = texture::readImage(run.exemplar);
+  nowAt(kOnRun);
+  run.frames = framesIn(out / "surface");
+  return run;
+}
+
+}  // namespace fluidtex::tools

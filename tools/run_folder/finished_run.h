@@ -1,0 +1,39 @@
+// Reads the folder of a finished run, for commands that work on it.
+#pragma once
+
+#include "texture/exemplar/exemplar.h"
+#include "tools/run_folder/report.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace fluidtex::tools {
+
+struct FinishedRun {
+  std::filesystem::path out;
+  Json report;                     // run.json
+  std::filesystem::path exemplar;  // the image's name
+  texture::Image color;            // and its pixels, linear RGBA
+  bool toroidal = false;
+  std::vector<int> frames;  // with a surface on disk, ascending; never empty
+  std::filesystem::path surfaceOf(int frame) const;
+};
+
+// The report's record of a frame; null if there is none.
+const Json* recordOf(const FinishedRun& run, int frame);
+Json* recordOf(FinishedRun& run, int frame);
+
+// The frame's spacing from the report, metres; else from area / points, as one vertex stands for one texel.
+double spacingOf(const FinishedRun& run, const texture::TexturedSurface& surface, int frame);
+
+// The same for a surface in the folder of a run whose report may be missing.
+double spacingOf(const std::filesystem::path& out, const texture::TexturedSurface& surface, int frame);
+
+// Returns the folder if it exists; commands that work on a run create none. Throws UsageError otherwise.
+const std::filesystem::path& existing(const std::filesystem::path& out);
+
+// exemplar: replaces the run's own, if that has moved; else empty. Throws UsageError if the folder holds no
+// run, or its exemplar is missing.
+FinishedRun openRun(const std::filesystem::path& out, const std::filesystem::path& exemplar);
+
+}  // namespace fluidtex::tools
