@@ -73,7 +73,7 @@ Vec3d placeOfLargest(const FloatGrid& deficit) {
 
 FloatGrid::Ptr targetDivergence(const FloatGrid& deficit, double time) {
   require(time > 0.0, "targetDivergence: the time must be positive");
-  const FloatGrid::Ptr divergence = deficit.deepCopy();
+  FloatGrid::Ptr divergence = deficit.deepCopy();
   const float rate = static_cast<float>(1.0 / time);
   const auto leaves = leavesOf(divergence->tree());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {

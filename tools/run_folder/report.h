@@ -52,7 +52,7 @@ std::string sceneDifference(const Json& before, const Json& now, const Json& inp
 // linearly with their number; the journal has the rest.
 class ReportFile {
  public:
-  explicit ReportFile(std::filesystem::path out) : m_file(std::move(out) / "run.json") {}
+  explicit ReportFile(const std::filesystem::path& out) : m_file(out / "run.json") {}
   void frameDone(const Report& report);
   void write(const Report& report);
 
