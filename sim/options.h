@@ -131,7 +131,7 @@ inline bool isClosed(Side side) {
 }
 
 struct Options {
-  Vec3d size{1.0};  // of the domain, metres; on unbounded sides nominal
+  Vec3d size{1.0};  // of the domain, metres; on unbounded sides, where it would end
   // Its faces: at low x, high x, low y, high y, low z, high z.
   std::array<Side, 6> sides{};
   int resolution = 64;  // cells along the longest side of [0, size]

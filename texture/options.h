@@ -36,7 +36,7 @@ struct SurfaceOptions {
   std::uint64_t seed = 1;
 };
 
-// Direction that the exemplar's columns follow, as far as the smoothness of the field allows.
+// Direction that the exemplar's rows follow, left to right, as far as the smoothness of the field allows.
 enum class Align {
   none,
   gravity,    // downhill along the surface
@@ -51,7 +51,7 @@ struct OrientationOptions {
   bool mirrored = false;  // the exemplar looks the same mirrored left to right
   Align align = Align::none;
   double weight = 0.2;  // of the alignment: 0 none, 0.5 as much as all neighbours, 1 hard constraint
-  double angle = 0.0;   // degrees from the alignment to the columns, counter-clockwise seen from outside
+  double angle = 0.0;   // degrees from the alignment to the rows, counter-clockwise seen from outside
   openvdb::Vec3d direction{1.0, 0.0, 0.0};
   std::filesystem::path field;  // OpenVDB file; its first grid of float vectors
 };
@@ -122,7 +122,7 @@ struct SynthesisOptions {
       0.1;  // f: weight of the transported colour where it is constant; 1: as much as all windows
   double histogram = 3.0;       // strength of the histogram weights [Kopf07]
   double usage = 0.4;           // penalty on parts of the exemplar that are used more than the mean
-  double core = 0.2;            // weight of the distance from a window's centre when texels are copied
+  double core = 0.2;            // weight of (1 - fall-off)^2 when texels are copied: prefers centres
   double featureWeight = 0.3;   // of the signed feature distance channel in squared distances; colour = 1
   double gradientWeight = 0.3;  // of the gradient energy channel
   double guidanceWeight = 1.0;  // of the guidance channel, where the exemplar has a guidance map

@@ -17,8 +17,8 @@ using openvdb::Vec3f;
 using openvdb::Vec3I;
 using openvdb::Vec4f;
 
-// Gradient of the exemplar coordinate in world space, texels per metre. Row s: columns of the image,
-// rightwards; row t: rows, downwards. Both rows are tangent to the surface. World space, so that the value
+// Gradient of the exemplar coordinate in world space, texels per metre. s: of the column,
+// rightwards; t: of the row, downwards. Both are tangent to the surface. World space, so that the value
 // does not depend on the axes that a vertex chooses.
 struct TexelGradient {
   Vec3f s{0.0f}, t{0.0f};
@@ -37,8 +37,8 @@ struct SurfaceMesh {
   double spacingAt(std::uint32_t v) const { return scale.empty() ? spacing : spacing * double(scale[v]); }
 };
 
-// A vertex's local axes, seen from outside: d = orientation points right along the exemplar's columns, and b
-// = d x n points down its rows. ([Kwatra07] uses t = n x d = -b with the image upside down.) Local
+// A vertex's local axes, seen from outside: d = orientation points along the exemplar's rows, rightwards, and
+// b = d x n along its columns, downwards. ([Kwatra07] uses t = n x d = -b with the image upside down.) Local
 // coordinates of a point x are l = ((x - p) . d, (x - p) . b) / spacingAt, in exemplar pixels.
 inline Vec3f rowAxis(const Vec3f& d, const Vec3f& n) {
   return d.cross(n);

@@ -70,7 +70,7 @@ std::vector<std::string> flowWarnings(const Options& options, const Solids& soli
   for (std::size_t n = 0; n < options.liquid.size(); ++n) {
     const LiquidBody& body = options.liquid[n];
     tell("liquid " + std::to_string(n), "nothing is poured",
-         "it has no surface, and is owed until the flow gathers it", body.shape, body.from);
+         "it has no surface, and counts as volume deficit until the flow gathers it", body.shape, body.from);
   }
   for (std::size_t n = 0; n < options.sources.size(); ++n) {
     const Source& source = options.sources[n];

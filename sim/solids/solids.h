@@ -129,7 +129,7 @@ class Solids {
   Vec3d velocityOf(const Placed& solid, const SurfaceVelocity* change, const Vec3d& x, double distance) const;
   void addSpeeds(SolidField& field, const std::vector<Placed>& solids) const;
   struct Thinness {
-    bool there = false;           // any part of the solid is
+    bool there = false;           // any of its surface is among the domain's cells
     double thickness = kForever;  // metres: of its thinnest wall, if too thin to hold
     Vec3d place{0.0};             // of the thinnest wall
   };

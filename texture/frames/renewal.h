@@ -41,10 +41,10 @@ struct DiscOptions {
   double urgentBudget;
 };
 
-// Averages over half a small window.
+// Smoothed over neighbours, about half a small window.
 struct Wear {
-  std::vector<float> bad;      // #V: badness()
-  std::vector<float> stretch;  // #V: log stretch() alone; 0 where the label is lost
+  std::vector<float> bad;      // #V: of badness()
+  std::vector<float> stretch;  // #V: of log stretch() alone; lost labels count as 0
 };
 Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<float>& trust);
 
@@ -73,11 +73,12 @@ std::vector<std::uint8_t> lostLabels(const SeamModel& model, const Labels& label
 // The mask (#V) grown by `rings` rings of neighbours.
 std::vector<std::uint8_t> grown(const VertexGraph& graph, std::vector<std::uint8_t> mask, int rings);
 
-// Merges proposed labels into transported ones. Where both show the same texel, the transported label stays.
+// Merges proposed labels into transported ones. Where both show the same texel, the transported label stays
+// unless it is clearly more stretched.
 // Among the others sub-texel misalignments are closed. Each connected piece of them is accepted only if that
-// lowers the summed badness of the surface: its own, and that of its neighbours, whose seams change with it.
-// renewed (#V) is 1 where a label was accepted. Every renewal lowers a sum that is bounded below, so a
-// surface at rest comes to rest.
+// lowers the summed badness of the surface by a least mean gain: its own, and that of its neighbours, whose
+// seams change with it. renewed (#V) is 1 where a label was accepted. Every renewal lowers a sum that is
+// bounded below, so a surface at rest comes to rest.
 Labels settle(const SeamModel& model, const Labels& carried, const Labels& proposed,
               const std::vector<float>& trust, std::vector<std::uint8_t>& renewed);
 

@@ -34,7 +34,7 @@ struct Lay {
   bool mirrored = false;
 };
 
-// The same placement in axes that `rotation` takes to the present ones.
+// The same placement for other axes: `rotation` takes local coordinates there to those that `lay` is for.
 inline Lay seenFrom(const Lay& lay, const Complexf& rotation) {
   return {lay.mirrored ? conjugateProduct(rotation, lay.turn) : product(lay.turn, rotation), lay.mirrored};
 }

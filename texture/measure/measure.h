@@ -13,7 +13,7 @@
 namespace fluidtex::texture {
 
 struct MeasureOptions {
-  int tile = 47;       // side of the flattened tiles, texels; smaller if none are flat
+  int tile = 47;       // side of the flattened tiles, texels; smaller if fewer than 24 (or `tiles`) are flat
   int tiles = 160;     // number of tiles
   int patches = 2500;  // number of patches drawn from them
   std::uint64_t seed = 1;

@@ -45,7 +45,7 @@ struct EditableMesh {
   }
   bool connected(std::uint32_t a, std::uint32_t b) const;
 
-  // Whether the flipped edge does not exist yet, and both ends keep a valence of three.
+  // Whether the flipped edge does not exist yet, and both ends keep a valence of at least three.
   bool canFlip(std::uint32_t h) const;
   // Afterwards h runs from its origin to the old opposite of twin[h]; the new edge is next(h).
   void flip(std::uint32_t h);

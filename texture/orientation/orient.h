@@ -20,8 +20,9 @@ struct OrientOptions {
 
 // Constraints on the field besides smoothness. Both are evaluated per level; either may be empty.
 struct OrientWishes {
-  // #V, world space: direction of the exemplar's columns. The length is the weight, 0..1: 0 none, 0.5 as much
-  // as the neighbours, 1 a hard constraint. It holds for vertices of level 0; coarser ones stand for several.
+  // #V, world space: direction of the exemplar's rows, rightwards. The length is the weight, 0..1: 0 none,
+  // 0.5 as much as the neighbours, 1 a hard constraint. It holds for vertices of level 0; coarser ones stand
+  // for several.
   std::function<std::vector<Vec3f>(const SurfaceMesh&)> direction;
   // #V, > 0, default 1: cost of turning. Singularities avoid places where it is much higher.
   std::function<std::vector<float>(const SurfaceMesh&)> stiffness;

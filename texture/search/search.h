@@ -70,8 +70,8 @@ struct WindowQuery {
   // Set by prepareQuery(). Rows are padded to a multiple of eight floats, with weight 0.
   std::vector<float> rows;    // the pixels, 0 where missing
   std::vector<float> weight;  // fall-off times mask over its sum, per channel
-  bool anyMissing = false;
-  bool fullWeight = false;  // all of the mask is 1
+  bool anyMissing = false;    // some of the mask is not 1
+  bool fullWeight = false;    // `weight` is that of a mask of ones, and need not be computed again
 
   // Set by describeQuery().
   bool described = false;

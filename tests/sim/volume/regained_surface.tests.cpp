@@ -23,7 +23,7 @@ FloatGrid::Ptr owing(const Coord& cell, float share) {
 
 }  // namespace
 
-TEST_CASE("regained surface: what is owed in the air becomes liquid where it fills a cell, the sum stays") {
+TEST_CASE("regained surface: a deficit in the air becomes liquid where it fills a cell, the sum stays") {
   const auto solid = Solids(tank(16, {})).at(0.0);
   // In the open, and on the floor.
   for (const Coord& cell : {Coord(8, 8, 8), Coord(8, 8, 0)}) {
@@ -42,7 +42,7 @@ TEST_CASE("regained surface: what is owed in the air becomes liquid where it fil
   }
 }
 
-TEST_CASE("regained surface: liquid beside takes what is owed itself") {
+TEST_CASE("regained surface: liquid beside takes the deficit itself") {
   const auto solid = Solids(tank(16, {})).at(0.0);
   const auto phi = makePhi(kVoxel, 6 * kVoxel);
   phi->tree().setValue(Coord(8, 8, 7), static_cast<float>(-kVoxel));

@@ -61,7 +61,7 @@ double largestOf(const FloatGrid& deficit) {
 
 }  // namespace
 
-TEST_CASE("owed volume: what the surface loses is owed, whatever the flow does") {
+TEST_CASE("volume deficit: what the surface loses is kept, whatever the flow does") {
   const SolidField solid = box();
   const auto before = phiOf(ballAndFilm), after = phiOf(ball);
   const double lost = liquidVolume(*before, solid) - liquidVolume(*after, solid);
@@ -80,7 +80,7 @@ TEST_CASE("owed volume: what the surface loses is owed, whatever the flow does")
   }
 }
 
-TEST_CASE("owed volume: a cell in the open without an open face does no harm") {
+TEST_CASE("volume deficit: a cell in the open without an open face does no harm") {
   SolidField solid = box();
   const Coord cell(22, 16, 16);  // cut by the ball's surface
   auto& open = solid.open.component;
@@ -98,7 +98,7 @@ TEST_CASE("owed volume: a cell in the open without an open face does no harm") {
   CHECK(std::isfinite(sumOf(*deficit)));
 }
 
-TEST_CASE("owed volume: at rest nothing is owed") {
+TEST_CASE("volume deficit: none at rest") {
   const SolidField solid = box();
   const auto phi = phiOf(ballAndFilm);
   const auto deficit = volumeDeficit(*phi, *phi, nullptr, flow([](const Vec3d&) { return Vec3d(0.0); }),
@@ -106,7 +106,7 @@ TEST_CASE("owed volume: at rest nothing is owed") {
   CHECK(deficit->empty());
 }
 
-TEST_CASE("owed volume: next to nothing is owed where the surface goes with the flow") {
+TEST_CASE("volume deficit: next to none where the surface goes with the flow") {
   const SolidField solid = box();
   const Vec3d speed(0.5, -0.25, 0.125);
   const double dt = 4.0 * kVoxel, ballVolume = 4.19 * std::pow(0.2, 3);
@@ -116,7 +116,8 @@ TEST_CASE("owed volume: next to nothing is owed where the surface goes with the 
   const double change = liquidVolume(*before, solid) - liquidVolume(*after, solid);
   CHECK(std::abs(sumOf(*deficit) - change) < 1e-5 * ballVolume);
   CHECK(std::abs(change) < 4e-3 * ballVolume);
-  // The fluxes blur an edge that is sharp: liquid is owed on one side of it and too much on the other.
+  // The fluxes blur an edge that is sharp: there is too little liquid on one side of it and too much on the
+  // other.
   CHECK(largestOf(*deficit) < 0.1);
   Vec3d moment(0.0);
   for (auto it = deficit->cbeginValueOn(); it; ++it)
@@ -125,7 +126,7 @@ TEST_CASE("owed volume: next to nothing is owed where the surface goes with the 
   CHECK(moment.length() < 0.02 * kVoxel * ballVolume);
 }
 
-TEST_CASE("owed volume: beside liquid it is the liquid that owes") {
+TEST_CASE("volume deficit: beside liquid it is the liquid that owes") {
   const SolidField solid = box();
   // A film around the ball, 1.5 cells thick, is lost.
   const auto before = phiOf([](const Vec3d&x) { return ball(x) - 1.5 * kVoxel; }), after = phiOf(ball);
@@ -137,7 +138,7 @@ TEST_CASE("owed volume: beside liquid it is the liquid that owes") {
   CHECK(inside > 0.98 * sumOf(*deficit));
 }
 
-TEST_CASE("owed volume: liquid grows by what it owes, by half a cell at once at most") {
+TEST_CASE("volume deficit: liquid grows by what it owes, by half a cell at once at most") {
   const auto deficit = FloatGrid::create(0.0f);
   deficit->tree().setValueOn(Coord(1, 2, 3), 0.1f);
   deficit->tree().setValueOn(Coord(1, 2, 4), -3.0f);
@@ -146,7 +147,7 @@ TEST_CASE("owed volume: liquid grows by what it owes, by half a cell at once at 
   CHECK(growth->tree().getValue(Coord(1, 2, 4)) == Approx(-2.0));
 }
 
-TEST_CASE("owed volume: what leaves the domain and what sources put in is not owed") {
+TEST_CASE("volume deficit: what leaves the domain and what sources put in is not in it") {
   Options options;
   options.size = Vec3d(1.0);
   options.resolution = kCells;
@@ -170,7 +171,7 @@ TEST_CASE("owed volume: what leaves the domain and what sources put in is not ow
   CHECK(volumeDeficit(*nothing, *source.phi, nullptr, still, closed, closed, flows, 0.01)->empty());
 }
 
-TEST_CASE("owed volume: a source that holds its place owes nothing, wherever cells are cut by its edges") {
+TEST_CASE("volume deficit: a source that holds its place owes nothing, wherever cells are cut by its edges") {
   const SolidField closed = box();
   const double low = 10.4 * kVoxel, high = 20.4 * kVoxel;  // centres lie 0.1 cell outside
   const auto shape = [&](const Vec3d& x) {
@@ -189,7 +190,7 @@ TEST_CASE("owed volume: a source that holds its place owes nothing, wherever cel
   CHECK(std::abs(sumOf(*deficit)) < 0.01 * std::pow(kVoxel, 3));
 }
 
-TEST_CASE("owed volume: a source without velocity in a pool that falls gives no more than its part") {
+TEST_CASE("volume deficit: a source without velocity in a pool that falls gives no more than its part") {
   // The surface falls through the source's upper cells, of which 0.7 are the source's.
   const SolidField closed = box();
   const double top = 16.2 * kVoxel;
@@ -217,7 +218,7 @@ TEST_CASE("owed volume: a source without velocity in a pool that falls gives no 
   CHECK(std::abs(after - before) < 8.0 * std::pow(kVoxel, 3));
 }
 
-TEST_CASE("owed volume: no cell owes more than it holds, and nothing goes through a wall") {
+TEST_CASE("volume deficit: no cell owes more than it holds, and nothing goes through a wall") {
   for (const float share : {5.0f, -5.0f}) {
     Options options;
     options.resolution = kCells;
