@@ -14,12 +14,11 @@ sim::Solver startedWith(const sim::Options& options, const std::function<Vec3d(c
   sim::Solver first(options);
   first.next();
   sim::State state = first.state();
-  for (const auto& [grid, axis] :
-       {std::pair(&state.velocity.component[0], 0), std::pair(&state.velocity.component[1], 1),
-        std::pair(&state.velocity.component[2], 2)}) {
-    *grid = (*grid)->deepCopy();
-    for (auto it = (*grid)->beginValueOn(); it; ++it)
-      it.setValue(static_cast<float>(velocity((*grid)->indexToWorld(it.getCoord()))[axis]));
+  for (int axis = 0; axis < 3; ++axis) {
+    auto& grid = state.velocity.component[axis];
+    grid = grid->deepCopy();
+    for (auto it = grid->beginValueOn(); it; ++it)
+      it.setValue(static_cast<float>(velocity(grid->indexToWorld(it.getCoord()))[axis]));
   }
   state.leapfrogOffset = 0.0;
   return sim::Solver(options, std::move(state));
@@ -28,14 +27,13 @@ sim::Solver startedWith(const sim::Options& options, const std::function<Vec3d(c
 double farthestFrom(const sim::State& state, const std::function<Vec3d(const Vec3d&)>& field) {
   const auto phi = state.phi->getConstUnsafeAccessor();
   double most = 0.0;
-  for (const auto& [grid, axis] :
-       {std::pair(&state.velocity.component[0], 0), std::pair(&state.velocity.component[1], 1),
-        std::pair(&state.velocity.component[2], 2)}) {
-    for (auto it = (*grid)->cbeginValueOn(); it; ++it) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& grid = state.velocity.component[axis];
+    for (auto it = grid->cbeginValueOn(); it; ++it) {
       Coord below = it.getCoord();
       below[axis] -= 1;
       if (phi.getValue(it.getCoord()) >= 0.0f || phi.getValue(below) >= 0.0f) continue;
-      const double exact = field((*grid)->indexToWorld(it.getCoord()))[axis];
+      const double exact = field(grid->indexToWorld(it.getCoord()))[axis];
       most = std::max(most, std::abs(*it - exact));
     }
   }

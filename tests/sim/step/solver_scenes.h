@@ -45,10 +45,9 @@ bool same(const Grid& a, const Grid& b) {
 inline double fastestOf(const State& state) {
   double most = 0.0;
   const auto phi = state.phi->getConstUnsafeAccessor();
-  for (const auto& [grid, axis] :
-       {std::pair(&state.velocity.component[0], 0), std::pair(&state.velocity.component[1], 1),
-        std::pair(&state.velocity.component[2], 2)}) {
-    for (auto it = (*grid)->cbeginValueOn(); it; ++it) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& grid = state.velocity.component[axis];
+    for (auto it = grid->cbeginValueOn(); it; ++it) {
       Coord below = it.getCoord();
       below[axis] -= 1;
       if (phi.getValue(it.getCoord()) < 0.0f && phi.getValue(below) < 0.0f)
