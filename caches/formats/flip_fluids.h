@@ -3,8 +3,8 @@
 
 #include "caches/formats/format_error.h"
 
+#include <openvdb/Types.h>
 #include <openvdb/math/Coord.h>
-#include <openvdb/math/Vec3.h>
 
 #include <cstdint>
 #include <filesystem>

@@ -1,0 +1,39 @@
+// Settings of a liquid that another program has simulated: [files] of a scene.
+#pragma once
+
+#include "sim/vec3.h"
+
+#include <filesystem>
+#include <string>
+
+namespace fluidtex::caches {
+
+using sim::Vec3d;
+
+enum class UpAxis { z, y };
+
+// Where the files are, what is taken of them, and where it is placed. Whatever is empty or 0 here is found
+// out from the files (caches/layouts/layout.h).
+struct Options {
+  // A program's cache folder, one file of a sequence, or a pattern: #### or %04d stands for the number.
+  std::filesystem::path path;
+  std::filesystem::path velocity;  // the same for files of velocity that are not those of the surface
+  std::string surfaceName;         // of the grid that holds the surface
+  std::string velocityName;        // of the grid or attribute of velocity; three grids: "u,v,w"
+  int first = -1;                  // number of the file that is the first frame; negative: the lowest
+  double unit = 1.0;               // metres a unit of length of the files
+  UpAxis up = UpAxis::z;
+  // Then, in this order: turned about x, y and z (degrees), enlarged, moved (metres).
+  Vec3d turn{0.0};
+  double scale = 1.0;
+  Vec3d move{0.0};
+  double iso = 0.0;            // value of densities at the surface; 0: half of the largest of the first frame
+  double velocityScale = 1.0;  // factor on the velocities of the files
+  double radius = 0.0;         // of particles, in the files' unit
+  double voxel = 0.0;          // side of the level set's cells, metres
+  double leastPiece = 0.0;     // m3: pieces of less volume are left out
+  // Below this share of the surface's motion that its velocity explains, a run ends.
+  double leastExplained = 0.3;
+};
+
+}  // namespace fluidtex::caches
