@@ -5,7 +5,9 @@
 
 #include "sim/meshes/read_mesh.h"
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace fluidtex::sim {
 
@@ -19,8 +21,15 @@ namespace fluidtex::sim {
 // Faces (f) and vertices (v) of Wavefront OBJ; lines, points, normals, groups and materials are passed over.
 MeshSoup soupOfObj(std::string_view text);
 
+// A property of vertices beside their place.
+struct VertexProperty {
+  std::string name;
+  std::vector<float> values;  // #P, unless the file has several elements `vertex`
+};
+
 // Polygon File Format, text or binary of either order, numbers of any type: elements `face` and `tristrips`.
-MeshSoup soupOfPly(std::string_view bytes);
+// others: takes the properties of vertices that are no lists, where it is given.
+MeshSoup soupOfPly(std::string_view bytes, std::vector<VertexProperty>* others = nullptr);
 
 // Stereolithography, text or binary: three points of its own for each facet.
 MeshSoup soupOfStl(std::string_view bytes);

@@ -235,13 +235,34 @@ std::array<std::size_t, 3> placesOf(const Element& vertex) {
   return places;
 }
 
-void takeElement(const Element& element, Numbers& numbers, MeshSoup& soup) {
+// The places of properties among an element's, and what takes their values.
+struct Kept {
+  std::vector<std::size_t> places;
+  std::size_t first = 0;  // of `others`
+};
+
+// Those that are no lists and not where the vertex is; adds them to `others`.
+Kept keptOf(const Element& vertex, const std::array<std::size_t, 3>& position,
+            std::vector<VertexProperty>& others) {
+  Kept kept{{}, others.size()};
+  for (std::size_t p = 0; p < vertex.properties.size(); ++p) {
+    if (vertex.properties[p].isList || std::find(position.begin(), position.end(), p) != position.end())
+      continue;
+    kept.places.push_back(p);
+    others.push_back({vertex.properties[p].name, {}});
+  }
+  return kept;
+}
+
+void takeElement(const Element& element, Numbers& numbers, MeshSoup& soup,
+                 std::vector<VertexProperty>* others) {
   const bool isVertex = element.name == "vertex", isFace = element.name == "face",
              isStrips = element.name == "tristrips";
   const std::array<std::size_t, 3> places = isVertex ? placesOf(element) : std::array<std::size_t, 3>{};
   if ((isFace || isStrips) && element.count > 0 &&
       std::none_of(element.properties.begin(), element.properties.end(), isCorners))
     throw std::runtime_error("its " + element.name + " elements have no list 'vertex_indices'");
+  const Kept kept = isVertex && others ? keptOf(element, places, *others) : Kept{};
   std::vector<double> values(element.properties.size());
   const auto takeOne = [&] {
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
@@ -259,6 +280,8 @@ void takeElement(const Element& element, Numbers& numbers, MeshSoup& soup) {
       if (polygon.size() < 3) soup.polygons.pop_back();
     }
     if (isVertex) soup.points.emplace_back(values[places[0]], values[places[1]], values[places[2]]);
+    for (std::size_t n = 0; n < kept.places.size(); ++n)
+      (*others)[kept.first + n].values.push_back(static_cast<float>(values[kept.places[n]]));
   };
   for (std::uint64_t n = 0; n < element.count; ++n) {
     try {
@@ -272,7 +295,7 @@ void takeElement(const Element& element, Numbers& numbers, MeshSoup& soup) {
 
 }  // namespace
 
-MeshSoup soupOfPly(std::string_view bytes) {
+MeshSoup soupOfPly(std::string_view bytes, std::vector<VertexProperty>* others) {
   const Header header = takeHeader(bytes);
   Numbers numbers(bytes, header.format);
   MeshSoup soup;
@@ -281,7 +304,7 @@ MeshSoup soupOfPly(std::string_view bytes) {
     if (!numbers.holds(element.count, leastSize(element)))
       throw std::runtime_error("says it has " + std::to_string(element.count) + " elements '" + element.name +
                                "', for which it is too short");
-    takeElement(element, numbers, soup);
+    takeElement(element, numbers, soup, others);
   }
   return soup;
 }
