@@ -12,6 +12,7 @@ namespace fluidtex::caches {
 namespace {
 
 constexpr std::size_t kSize = 204;
+constexpr std::string_view kEnd("C01", 4);  // with a zero behind it
 
 openvdb::Coord takeCoord(Bytes& bytes) {
   const auto i = bytes.take<std::int32_t>(), j = bytes.take<std::int32_t>(), k = bytes.take<std::int32_t>();
@@ -35,10 +36,9 @@ openvdb::Mat4d takeMatrix(Bytes& bytes) {
 
 MantaflowConfig readMantaflowConfig(const std::filesystem::path& file) {
   const std::string content = contentOf(file);
-  if (content.size() != kSize || !content.ends_with("C01"))
-    fail(file,
-         "is no configuration of a Blender liquid cache, which has 204 bytes and ends with 'C01'; it has " +
-             std::to_string(content.size()));
+  if (content.size() != kSize || !content.ends_with(kEnd))
+    fail(file, "is no configuration of a Blender liquid cache, of 204 bytes that end with 'C01'; it has " +
+                   std::to_string(content.size()));
   Bytes bytes(content, std::endian::little);
   MantaflowConfig config;
   config.activeFields = bytes.take<std::int32_t>();
