@@ -45,7 +45,7 @@ def pour():
     """Something like honey falls on the floor as a rope."""
     made = mantaflow.domain((-0.5, -0.5, 0.0), (0.5, 0.5, 1.0), options.cells, options.frames, folder)
     made[1].use_viscosity = True
-    made[1].viscosity_value = 0.5
+    made[1].viscosity_value = 1.5
     bpy.ops.mesh.primitive_cylinder_add(radius=0.08, depth=0.1, location=(0.0, 0.0, 0.85))
     bpy.context.object.name = "inflow"
     flow = mantaflow.liquid(bpy.context.object, "INFLOW")
