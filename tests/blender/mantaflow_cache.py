@@ -26,7 +26,8 @@ options.add_argument("--placed", action="store_true", help="the domain and all i
 options = options.parse_args(sys.argv[sys.argv.index("--") + 1:])
 folder = os.path.abspath(options.folder)
 if os.path.exists(os.path.join(folder, "config")):
-    sys.exit(f"{folder} holds a cache already, which Blender would read instead of making one: name another folder")
+    # Blender deletes the files of a cache as soon as a setting of its domain changes.
+    sys.exit(f"{folder} holds a cache already: name another folder")
 
 
 def dam():

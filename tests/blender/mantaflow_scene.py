@@ -23,8 +23,8 @@ def box(name, low, high):
 
 
 def domain(low, high, cells, frames, folder):
-    """CELLS along the longest side, the outermost of which are wall; all else is Blender's default. Returns the object and
-    its settings."""
+    """CELLS along the longest side, the outermost of which are wall; all else is Blender's default. Returns the object
+    and its settings."""
     thing = box("domain", low, high)
     bpy.ops.object.modifier_add(type="FLUID")
     thing.modifiers[0].fluid_type = "DOMAIN"
