@@ -1,5 +1,10 @@
 // The reference tests behind `fluidtex validate`: each runs the program's own kernels on a problem whose
 // answer is known and gives rows of figures beside their bars, and curves to plot.
+//
+// No row has a global volume correction. Those of the level set show the surface alone; in the others the
+// volume deficit is given back where it arose (docs/method/simulation.md). 2D tests of the solver are slabs
+// of 8 layers between two symmetry sides (swinging_drop_2d of 16), those of the level set of 16 layers
+// between walls, of which four in the middle are measured.
 #pragma once
 
 #include <array>
