@@ -31,7 +31,7 @@ using validation::Row;
 
 struct ValidateOptions {
   std::vector<std::string> names;
-  std::filesystem::path json, plots, page;
+  std::filesystem::path json, plots, page, figures;
   int resolution = 0;
   int threads = 0;
   bool list = false;
@@ -157,7 +157,8 @@ void listCases() {
   }
 }
 
-// Brings a page's tables up to date.
+// Brings the tables of a page up to date; of the pages, one has the rows that have to clear a bar and one the
+// others.
 void updatePage(const std::filesystem::path& page, const std::vector<Row>& rows) {
   std::ifstream in(page);
   if (!in) throw UsageError(page.string() + ": cannot be read");
@@ -220,7 +221,10 @@ int validate(const ValidateOptions& options) {
     for (const Row& row : all) json.push_back(toJson(row));
     writeTextAtomically(options.json, json.dump(2) + "\n");
   }
-  if (!options.page.empty()) updatePage(options.page, all);
+  const auto others =
+      std::stable_partition(all.begin(), all.end(), [](const Row& row) { return bool(row.must); });
+  if (!options.page.empty()) updatePage(options.page, {all.begin(), others});
+  if (!options.figures.empty()) updatePage(options.figures, {others, all.end()});
   return holds ? kDone : kFailed;
 }
 
@@ -236,6 +240,8 @@ void addValidate(CLI::App& app, int& exitCode) {
   command->add_option("--plots", options->plots, "Write the plots into this folder, as SVG");
   command->add_option("--docs", options->page,
                       "Bring the tables of this page up to date (docs/results/validation.md)");
+  command->add_option("--figures", options->figures,
+                      "The same for the page of figures without a bar (docs/results/figures.md)");
   command->add_option("--resolution", options->resolution, "Run at this resolution only")
       ->check(CLI::Range(8, 4096));
   command->add_option("--threads", options->threads, "Threads to use; one a core where not given")

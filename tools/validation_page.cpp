@@ -86,12 +86,10 @@ Figure figureOf(const Row& row) {
   std::string published;
   for (const auto& [value, source] : row.published)
     published += (published.empty() ? "" : "; ") + number(value) + " " + source;
-  std::string state;
-  if (row.must) {
-    Row asGoal = row;
-    asGoal.must = row.goal;
-    state = !row.ok() ? kFails : row.goal && asGoal.ok() ? kGoal : kHolds;
-  }
+  Row asGoal = row;
+  asGoal.must = row.goal;
+  const bool reached = row.goal && asGoal.ok();
+  const std::string state = !row.ok() ? kFails : reached ? kGoal : row.must ? kHolds : "";
   return {row.test,
           std::to_string(row.resolution),
           escaped(row.measure),

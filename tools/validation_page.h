@@ -1,4 +1,4 @@
-// Updates docs/results/validation.md with measured results.
+// Updates docs/results/validation.md, and figures.md beside it, with measured results.
 #pragma once
 
 #include "tests/validation/case.h"
@@ -15,10 +15,10 @@ struct PageError : std::runtime_error {
 };
 
 // The page with these rows in its tables. A table of figures has the columns test, cells, measure, value,
-// must, goal, published, and an unnamed last one: goal, holds, **fails**, or empty for a row without a bar.
-// Rows not measured stay; new rows of a test follow its others. Rows that fail are listed below the line "Of
-// the solver:", and the rows of each topic (a heading of three #) are counted in the table whose rows begin
-// with a link to it. Throws PageError if a test has no row in any table.
+// must, goal, published, and an unnamed last one: goal, holds, **fails**, or empty for a row that has no bar
+// and does not reach a goal. Rows not measured stay; new rows of a test follow its others. Rows that fail are
+// listed below the line "Of the solver:", and the rows of each topic (a heading of three #) are counted in
+// the table whose rows begin with a link to it. Throws PageError if a test has no row in any table.
 std::string updatedPage(const std::string& page, const std::vector<validation::Row>& rows);
 
 }  // namespace fluidtex::tools

@@ -1,6 +1,9 @@
 """The benchmarks' page: what was measured takes its place, what fails is listed, the rest stays."""
+import json
 import os
+import subprocess
 import sys
+import tempfile
 import tomllib
 import unittest
 
@@ -118,6 +121,26 @@ class BenchmarksPage(unittest.TestCase):
     def test_a_page_without_the_topic_is_refused(self):
         with self.assertRaisesRegex(PageError, "no line \"## Memory\""):
             updated_page(PAGE.replace("## Memory", "## Bytes"), measured({}), BARS)
+
+
+class TheProgram(unittest.TestCase):
+    def test_what_is_refused_leaves_the_page_as_it_was(self):
+        with open(os.path.join(ROOT, "docs", "results", "benchmarks.md")) as file:
+            before = file.read()
+        with tempfile.TemporaryDirectory() as folder:
+            figures, page = os.path.join(folder, "figures.json"), os.path.join(folder, "page.md")
+            with open(figures, "w") as file:
+                json.dump(measured({"tide/8": {"ns": 1.0}}), file)
+            with open(page, "w") as file:
+                file.write(before)
+            done = subprocess.run([sys.executable, os.path.join(ROOT, "tools", "pages", "benchmarks_page.py"), figures,
+                                   page], stderr=subprocess.PIPE, text=True)
+            with open(page) as file:
+                self.assertEqual(file.read(), before)
+            self.assertEqual(sorted(os.listdir(folder)), ["figures.json", "page.md"])
+        self.assertEqual(done.returncode, 1)
+        refusal = "tide/8: no figure of tools/benchmarks/bars.toml is of this row"
+        self.assertEqual(done.stderr, "error: %s: %s\n" % (page, refusal))
 
 
 class TheProjectsOwn(unittest.TestCase):
