@@ -14,6 +14,8 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <span>
+#include <streambuf>
 #include <string>
 
 namespace fluidtex::foreign {
@@ -87,45 +89,105 @@ std::optional<std::string> complaint(int status) {
   return "cannot be read: the program that reads it failed";
 }
 
+// One question and what comes back. While it lives no other is asked.
+class Answer {
+ public:
+  Answer(Wanted wanted, const std::filesystem::path& file, const std::string& part) : m_lock(s_one) {
+    std::string question = std::filesystem::absolute(file).string();
+    if (!part.empty()) (question += '\0') += part;
+    if (question.size() > kLongestPacket) throw Unreadable("cannot be read: its name is too long");
+    if (s_reader.socket >= 0 && s_reader.startedBy == getpid() &&
+        sendPackets(s_reader.socket, char(wanted), question))
+      return;
+    s_reader.stop();
+    s_reader.start();
+    sendPackets(s_reader.socket, char(wanted), question);
+  }
+
+  // The next piece; nothing behind the last one.
+  std::span<char> next() {
+    while (!m_ended) {
+      char letter = 0;
+      const ssize_t got = receivePacket(s_reader.socket, letter, s_bytes);
+      if (got < 0) {
+        s_reader.stop();
+        m_wrong = "cannot be read: the program that reads it was ended from outside";
+        m_ended = true;
+        break;
+      }
+      const std::span<char> piece(s_bytes, std::size_t(got));
+      if (letter == char(Packet::data) && !piece.empty()) return piece;
+      if (letter == char(Packet::wrong)) m_wrong.assign(piece.begin(), piece.end());
+      if (letter != char(Packet::ended)) continue;
+      m_ended = true;
+      if (piece.size() == sizeof m_status) std::memcpy(&m_status, piece.data(), sizeof m_status);
+    }
+    return {};
+  }
+
+  // Takes it up to its end, so that the next question finds the socket empty, and throws what was wrong: what
+  // the reader says before the failure that its silence has led to.
+  void finish(const std::exception_ptr& failure) {
+    while (!m_ended) next();
+    if (!m_wrong.empty()) throw Unreadable(m_wrong);
+    if (const auto why = complaint(m_status)) throw Unreadable(*why);
+    if (failure) std::rethrow_exception(failure);
+  }
+
+ private:
+  inline static std::mutex s_one;
+  inline static Running s_reader;
+  inline static char s_bytes[kLongestPacket];
+
+  std::lock_guard<std::mutex> m_lock;
+  std::string m_wrong;
+  int m_status = 0;
+  bool m_ended = false;
+};
+
+class AnswerBuffer : public std::streambuf {
+ public:
+  explicit AnswerBuffer(Answer& answer) : m_answer(answer) {}
+
+ protected:
+  int_type underflow() override {
+    std::span<char> piece = m_answer.next();
+    setg(piece.data(), piece.data(), piece.data() + piece.size());
+    return piece.empty() ? traits_type::eof() : traits_type::to_int_type(piece.front());
+  }
+
+ private:
+  Answer& m_answer;
+};
+
 }  // namespace
 
-void ask(Wanted wanted, const std::filesystem::path& file,
-         const std::function<void(std::string_view)>& take) {
-  static std::mutex one;
-  static Running reader;
-  const std::lock_guard lock(one);
-  const std::string name = std::filesystem::absolute(file).string();
-  if (name.size() > kLongestPacket) throw Unreadable("cannot be read: its name is too long");
-  if (reader.socket < 0 || reader.startedBy != getpid() || !sendPackets(reader.socket, char(wanted), name)) {
-    reader.stop();
-    reader.start();
-    sendPackets(reader.socket, char(wanted), name);
-  }
-  // The answer is taken up to its end whatever happens, so that the next question finds the socket empty.
-  static char bytes[kLongestPacket];
-  std::string wrong;
+void ask(Wanted wanted, const std::filesystem::path& file, const std::function<void(std::string_view)>& take,
+         const std::string& part) {
+  Answer answer(wanted, file, part);
   std::exception_ptr failure;
-  int status = 0;
-  for (char letter = 0; letter != char(Packet::ended);) {
-    const ssize_t size = receivePacket(reader.socket, letter, bytes);
-    if (size < 0) {
-      reader.stop();
-      throw Unreadable("cannot be read: the program that reads it was ended from outside");
-    }
-    const std::string_view piece(bytes, std::size_t(size));
-    if (letter == char(Packet::wrong)) wrong = piece;
-    if (letter == char(Packet::ended) && piece.size() == sizeof status)
-      std::memcpy(&status, piece.data(), sizeof status);
-    if (letter != char(Packet::data) || failure) continue;
-    try {
-      take(piece);
-    } catch (...) {
-      failure = std::current_exception();
-    }
+  try {
+    for (auto piece = answer.next(); !piece.empty(); piece = answer.next())
+      take({piece.data(), piece.size()});
+  } catch (...) {
+    failure = std::current_exception();
   }
-  if (!wrong.empty()) throw Unreadable(wrong);
-  if (const auto why = complaint(status)) throw Unreadable(*why);
-  if (failure) std::rethrow_exception(failure);
+  answer.finish(failure);
+}
+
+void askForStream(Wanted wanted, const std::filesystem::path& file,
+                  const std::function<void(std::istream&)>& parse, const std::string& part) {
+  Answer answer(wanted, file, part);
+  AnswerBuffer buffer(answer);
+  std::istream in(&buffer);
+  in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
+  std::exception_ptr failure;
+  try {
+    parse(in);
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  answer.finish(failure);
 }
 
 }  // namespace fluidtex::foreign

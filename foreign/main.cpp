@@ -2,6 +2,7 @@
 // input, which is a socket, and are answered there (foreign/packets.h); each file is read by a process of its
 // own, so that this one outlives them all. The libraries, which take longer to load than most files to read,
 // are there once.
+#include "foreign/grid_heads.h"
 #include "foreign/limits.h"
 #include "foreign/packets.h"
 #include "foreign/read_grid.h"
@@ -12,9 +13,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <new>
+#include <ostream>
 #include <string>
 
 // One, but in the build of the fuzz targets: a process takes longer to start and to end than a small file to
@@ -33,7 +36,27 @@ void say(Packet packet, std::string_view bytes) {
   sendPackets(kSocket, char(packet), bytes);
 }
 
-void answer(Wanted wanted, const std::filesystem::path& file) {
+bool isOfGrids(Wanted wanted) {
+  switch (wanted) {
+    case Wanted::colors:
+    case Wanted::numbers:
+    case Wanted::heights:
+    case Wanted::color_note:
+      return false;
+    case Wanted::floats:
+    case Wanted::vectors:
+    case Wanted::grids:
+    case Wanted::named_floats:
+    case Wanted::named_vectors:
+      return true;
+  }
+  return false;
+}
+
+void answer(Wanted wanted, const std::filesystem::path& file, const std::string& part) {
+  PacketBuffer buffer(kSocket);
+  std::ostream out(&buffer);
+  out.exceptions(std::ios::badbit | std::ios::failbit);
   switch (wanted) {
     case Wanted::colors:
     case Wanted::numbers:
@@ -49,16 +72,27 @@ void answer(Wanted wanted, const std::filesystem::path& file) {
       break;
     case Wanted::floats:
     case Wanted::vectors:
-      say(Packet::data, here::readGrid(file, wanted == Wanted::vectors));
+      here::readGrid(file, wanted == Wanted::vectors, out);
+      break;
+    case Wanted::grids:
+      say(Packet::data, packed(here::listGrids(file)));
+      break;
+    case Wanted::named_floats:
+    case Wanted::named_vectors:
+      here::readGrid(file, part, wanted == Wanted::named_vectors, out);
       break;
   }
+  out.flush();
 }
 
-void read(Wanted wanted, const std::filesystem::path& file) {
-  const bool isGrid = wanted == Wanted::floats || wanted == Wanted::vectors;
-  limitThisProcess(file, isGrid ? here::mostMemoryOfGrid(file) : kMostMemory);
+// `question`: the name of a file, and behind a zero what is wanted in it.
+void read(Wanted wanted, const std::string& question) {
+  const std::size_t end = std::min(question.find('\0'), question.size());
+  const std::filesystem::path file = question.substr(0, end);
+  const std::string part = question.substr(std::min(end + 1, question.size()));
+  limitThisProcess(file, isOfGrids(wanted) ? here::mostMemoryOfGrid(file) : kMostMemory);
   try {
-    answer(wanted, file);
+    answer(wanted, file, part);
   } catch (const Unreadable& error) {
     say(Packet::wrong, error.what());
   } catch (const std::bad_alloc&) {
@@ -74,8 +108,8 @@ void sayEnded(int status) {
 
 // In a process of its own, which goes on to further questions where it may read more than one file. How it
 // ends is said by the one that has started it.
-[[noreturn]] void readAndEnd(Wanted wanted, const std::filesystem::path& file) {
-  read(wanted, file);
+[[noreturn]] void readAndEnd(Wanted wanted, const std::string& question) {
+  read(wanted, question);
   for (int more = FLUIDTEX_FILES_A_PROCESS - 1; more > 0; --more) {
     sayEnded(0);
     static char bytes[kLongestPacket];
@@ -117,10 +151,10 @@ int main() {
     char letter = 0;
     const ssize_t size = receivePacket(kSocket, letter, bytes);
     if (size < 0) return 0;
-    const std::string file(bytes, std::size_t(size));
+    const std::string question(bytes, std::size_t(size));
     int status = 0;
     const pid_t child = fork();
-    if (child == 0) readAndEnd(Wanted(letter), file);
+    if (child == 0) readAndEnd(Wanted(letter), question);
     if (child < 0) say(Packet::wrong, "cannot be read: no process can be started for it");
     while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }

@@ -33,4 +33,16 @@ ssize_t receivePacket(int socket, char& letter, char (&bytes)[kLongestPacket]) {
   return got < 1 ? -1 : got - 1;
 }
 
+PacketBuffer::int_type PacketBuffer::overflow(int_type letter) {
+  if (sync() != 0) return traits_type::eof();
+  if (!traits_type::eq_int_type(letter, traits_type::eof())) sputc(traits_type::to_char_type(letter));
+  return traits_type::not_eof(letter);
+}
+
+int PacketBuffer::sync() {
+  const std::string_view bytes(pbase(), std::size_t(pptr() - pbase()));
+  clear();
+  return bytes.empty() || sendPackets(m_socket, char(Packet::data), bytes) ? 0 : -1;
+}
+
 }  // namespace fluidtex::foreign
