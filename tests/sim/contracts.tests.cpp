@@ -62,46 +62,6 @@ TEST_CASE("advectMarkers: what would move five cells or more in a step is refuse
   CHECK_THROWS_AS(advectMarkers(back.markers, back.velocity, 1.0), std::invalid_argument);
 }
 
-TEST_CASE("gather: a halo beyond the neighbouring leaves is refused", "[sim]") {
-  const Block block(0.0);
-  std::vector<float> out(40 * 40 * 40);
-  CHECK_NOTHROW(gather(block.phi->tree(), Coord(0), kLeafDim, out.data()));
-  CHECK_THROWS_AS(gather(block.phi->tree(), Coord(0), kLeafDim + 1, out.data()), std::invalid_argument);
-  CHECK_THROWS_AS(gather(block.phi->tree(), Coord(0), -1, out.data()), std::invalid_argument);
-}
-
-TEST_CASE("solver: settings that it cannot work with are refused", "[sim]") {
-  const Options good = tank(8, {box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.5))});
-  CHECK_NOTHROW(Solver(good));
-  const std::function<void(Options&)> spoil[] = {
-      [](Options& o) { o.size = Vec3d(1.0, 0.0, 1.0); },
-      [](Options& o) { o.size = Vec3d(1.0, -1.0, 1.0); },
-      [](Options& o) { o.size = Vec3d(kInfinity, 1.0, 1.0); },
-      [](Options& o) { o.resolution = 0; },
-      [](Options& o) { o.density = 0.0; },
-      [](Options& o) { o.density = std::nan(""); },
-      [](Options& o) { o.viscosity = -1.0; },
-      [](Options& o) { o.surfaceTension = -0.1; },
-      [](Options& o) { o.gravity = Vec3d(0.0, 0.0, kInfinity); },
-      [](Options& o) { o.cfl = 0.0; },
-      [](Options& o) { o.frameRate = 0.0; },
-      [](Options& o) { o.heat.simulated = true, o.heat.capacity = 0.0; },
-      [](Options& o) { o.heat.simulated = true, o.heat.conductivity = -1.0; },
-      [](Options& o) { o.heat.simulated = true, o.heat.ambient = -1.0; },
-  };
-  int number = 0;
-  for (const auto& change : spoil) {
-    INFO("change " << number++);
-    Options bad = good;
-    change(bad);
-    CHECK_THROWS_AS(Solver(bad), std::invalid_argument);
-    CHECK_THROWS_AS(Solver(bad, State{}), std::invalid_argument);
-  }
-  Options bad = good;
-  bad.frameRate = -24.0;
-  CHECK_THROWS_AS(makeMotion(bad, {.flow = MotionKind::rotation}), std::invalid_argument);
-}
-
 TEST_CASE("solver: a state without a surface or a velocity is refused", "[sim]") {
   CHECK_THROWS_AS(Solver(tank(8, {}), State{}), std::invalid_argument);
 }

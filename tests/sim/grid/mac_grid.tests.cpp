@@ -1,5 +1,4 @@
 #include "sim/grid/mac_grid.h"
-#include "sim/grid/leaf_table.h"
 
 #include <catch2/catch.hpp>
 
@@ -59,26 +58,10 @@ TEST_CASE("mac_grid: the largest component, and infinity for what is not a numbe
   CHECK(std::isinf(maxAbs(velocity)));
 }
 
-TEST_CASE("leaf_table: neighbours lead to the coordinates beside") {
-  FloatTree tree(0.0f);
-  for (const Coord& origin : {Coord(0, 0, 0), Coord(-8, 0, 0), Coord(0, 8, 0), Coord(0, 0, -8)})
-    tree.touchLeaf(origin);
-  const LeafTable table = makeLeafTable(tree);
-  REQUIRE(table.size() == 4);
-  int wrong = 0, outside = 0;
-  for (std::int64_t voxel = 0; voxel < static_cast<std::int64_t>(table.voxels()); ++voxel) {
-    for (int direction = 0; direction < 6; ++direction) {
-      Coord there = table.coord(voxel);
-      there[direction / 2] += direction % 2 == 1 ? 1 : -1;
-      const std::int64_t n = table.neighbor(voxel, direction);
-      if (n < 0) {
-        ++outside;
-        if (tree.probeConstLeaf(there) != nullptr) ++wrong;
-      } else if (table.coord(n) != there) {
-        ++wrong;
-      }
-    }
-  }
-  CHECK(wrong == 0);
-  CHECK(outside == (4 * 6 - 6) * 64);  // three pairs of leaves touch
+TEST_CASE("mac_grid: a halo beyond the neighbouring leaves is refused", "[sim]") {
+  const FloatTree tree(1.0f);
+  std::vector<float> out(40 * 40 * 40);
+  CHECK_NOTHROW(gather(tree, Coord(0), kLeafDim, out.data()));
+  CHECK_THROWS_AS(gather(tree, Coord(0), kLeafDim + 1, out.data()), std::invalid_argument);
+  CHECK_THROWS_AS(gather(tree, Coord(0), -1, out.data()), std::invalid_argument);
 }

@@ -1,9 +1,8 @@
 #include "sim/heat/heat.h"
-#include "sim/heat/advect_temperature.h"
 
 #include "sim/step/solver.h"
 #include "sim/step/state_io.h"
-#include "tests/sim/velocity/velocity_field.h"
+#include "tests/sim/heat/pool.h"
 
 #include <catch2/catch.hpp>
 
@@ -17,35 +16,6 @@ using Catch::Matchers::WithinRel;
 namespace {
 
 constexpr double kDensity = 2000.0;
-
-// A tank with liquid up to `level` and a temperature.
-struct Pool {
-  Options options;
-  double h = 0.0;
-  SolidField solid;
-  FloatGrid::Ptr phi, temperature;
-
-  Pool(int n, double level, const std::function<double(const Vec3d&)>& field) {
-    options.resolution = n;
-    h = options.voxelSize();
-    solid = *Solids(options).at(0.0);
-    phi = makePhi(h, 6.0 * h);
-    for (int i = -8; i < n + 8; i += 8) {
-      for (int j = -8; j < n + 8; j += 8) {
-        for (int k = -8; k < n + 8; k += 8) phi->tree().touchLeaf(Coord(i, j, k))->setValuesOn();
-      }
-    }
-    for (auto it = phi->beginValueOn(); it; ++it) {
-      const double d = phi->indexToWorld(it.getCoord())[2] - level;
-      it.setValue(static_cast<float>(std::clamp(d, -6.0 * h, 6.0 * h)));
-    }
-    temperature = makeTemperature(*makeTemperature(h, 300.0), phi->tree());
-    for (auto it = temperature->beginValueOn(); it; ++it)
-      it.setValue(static_cast<float>(field(temperature->indexToWorld(it.getCoord()))));
-  }
-
-  double at(int i, int j, int k) const { return temperature->tree().getValue(Coord(i, j, k)); }
-};
 
 }  // namespace
 
@@ -73,45 +43,6 @@ TEST_CASE("viscosityAt: follows its law, up to the solid's", "[sim]") {
   law = {.solidus = 900.0, .solidViscosity = 5e4};
   CHECK(viscosityAt(law, 2.0, 901.0) == 2.0);
   CHECK(viscosityAt(law, 2.0, 899.0) == 5e4);
-}
-
-TEST_CASE("advectTemperature: an even temperature stays, another one moves with the flow", "[sim]") {
-  const double dt = 0.05;
-  const auto flow = [](const Vec3d& x) { return Vec3d(0.5 - x[1], x[0] - 0.5, 0.0); };
-  Pool even(16, 0.5, [](const Vec3d&) { return 1234.5; });
-  const Velocity turn = velocityField(even.h, even.phi->tree(), flow);
-  const auto kept = advectTemperature(*even.temperature, turn, even.phi->tree(), *even.phi, even.solid, dt);
-  for (auto it = kept->cbeginValueOn(); it; ++it) {
-    const Coord c = it.getCoord();  // in the domain: what comes from beyond the leaves is not known
-    if (std::min({c[0], c[1], c[2]}) >= 0 && std::max({c[0], c[1], c[2]}) < 16) REQUIRE(*it == 1234.5f);
-  }
-
-  std::vector<double> errors;
-  for (const int n : {16, 32, 64}) {
-    const auto spot = [](const Vec3d& x) {
-      return 1000.0 + 100.0 * std::exp(-40.0 * (Vec3d(0.65, 0.5, 0.3) - x).lengthSqr());
-    };
-    Pool pool(n, 0.9, spot);
-    const Velocity speed = velocityField(pool.h, pool.phi->tree(), flow);
-    FloatGrid::Ptr t = pool.temperature;
-    const int steps = n / 2;
-    const double whole = 1.0;
-    for (int s = 0; s < steps; ++s)
-      t = advectTemperature(*t, speed, pool.phi->tree(), *pool.phi, pool.solid, whole / steps);
-    double largest = 0.0;
-    for (auto it = t->cbeginValueOn(); it; ++it) {
-      const Vec3d x = t->indexToWorld(it.getCoord());
-      const Vec3d r = x - Vec3d(0.5, 0.5, 0.0);
-      if (std::hypot(r[0], r[1]) > 0.35 || x[2] < 0.1 || x[2] > 0.7) continue;
-      const Vec3d back(0.5 + r[0] * std::cos(whole) + r[1] * std::sin(whole),
-                       0.5 - r[0] * std::sin(whole) + r[1] * std::cos(whole), x[2]);
-      largest = std::max(largest, std::abs(*it - spot(back)));
-    }
-    errors.push_back(largest);
-  }
-  INFO(errors[0] << " " << errors[1] << " " << errors[2]);
-  CHECK(errors[1] < 0.45 * errors[0]);
-  CHECK(errors[2] < 0.45 * errors[1]);
 }
 
 TEST_CASE("conductHeat: a cosine fades at the rate of its wave length", "[sim]") {

@@ -2,7 +2,6 @@
 // are much larger than the domain.
 #include "sim/meshes/mesh_distance.h"
 
-#include "sim/meshes/inside_test.h"
 #include "sim/meshes/read_mesh.h"
 #include "sim/shapes/shape_triangles.h"
 #include "sim/solids/solids.h"
@@ -22,23 +21,6 @@ namespace {
 
 constexpr double kVoxel = 1.0 / 32.0;
 const BBoxd kUnit(Vec3d(0.0), Vec3d(1.0));
-
-std::string facesFrom(int first) {
-  std::string text;
-  for (const char c : kBoxFaces)
-    text += c >= '1' && c <= '8' ? std::to_string(c - '1' + first) : std::string(1, c);
-  return text;
-}
-
-// Boxes in one file.
-std::string boxes(const std::vector<BBoxd>& all) {
-  std::string text, faces;
-  for (std::size_t n = 0; n < all.size(); ++n) {
-    text += boxObj(all[n].min(), all[n].max(), "");
-    faces += facesFrom(int(8 * n) + 1);
-  }
-  return text + faces;
-}
 
 ShapeDistance distanceOf(const std::string& obj, double voxelSize = kVoxel, const BBoxd& domain = kUnit) {
   const WrittenFile file("mesh.obj", obj);
@@ -80,24 +62,6 @@ std::string forked(double from, double to) {
 }
 
 }  // namespace
-
-TEST_CASE("inside test: lines along edges and through vertices are counted right", "[sim]") {
-  const WrittenFile file("boxes.obj", boxes({BBoxd(Vec3d(0.0), Vec3d(1.0)), BBoxd(Vec3d(0.5), Vec3d(1.5))}));
-  const TriangleMesh mesh = readMesh(MeshShape{file.path});
-  const InsideTest inside(mesh);
-  for (int i = -2; i <= 14; ++i)
-    for (int j = -2; j <= 14; ++j)
-      for (int k = -2; k <= 14; ++k) {
-        const Vec3d x(0.125 * i, 0.125 * j, 0.125 * k + 0.01);
-        const auto within = [&](double low, double high) {
-          // Of places on a side, those on the low ones are outside: the line is moved by a vanishing step.
-          int all = 1;
-          for (int a = 0; a < 2; ++a) all *= x[a] >= low && x[a] < high;
-          return all * (x[2] > low && x[2] < high);
-        };
-        REQUIRE(inside.winding(x) == within(0.0, 1.0) + within(0.5, 1.5));
-      }
-}
 
 TEST_CASE("mesh distance: a cavity is one", "[sim]") {
   const BBoxd outer(Vec3d(0.15), Vec3d(0.85)), inner(Vec3d(0.3), Vec3d(0.7));

@@ -1,13 +1,17 @@
-// Files of a mesh that changes its shape.
+// Meshes as text, files of meshes that change their shape, and what is known of a mesh.
 #pragma once
 
+#include "sim/meshes/read_mesh.h"
 #include "sim/options.h"
 #include "sim/shapes/shape_distance.h"
+#include "tests/sim/meshes/written_files.h"
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +29,36 @@ inline std::string boxObj(const Vec3d& a, const Vec3d& b, const std::string& fac
   for (const double z : {a.z(), b.z()})
     text +=
         vertex(a.x(), a.y(), z) + vertex(b.x(), a.y(), z) + vertex(b.x(), b.y(), z) + vertex(a.x(), b.y(), z);
+  return text + faces;
+}
+
+// The corners of a box alone.
+inline std::string boxCorners(const Vec3d& low, const Vec3d& high) {
+  return boxObj(low, high, "");
+}
+
+// A box's faces, its first vertex having the number `first`; turned inward if asked for.
+inline std::string facesFrom(int first, bool inward = false) {
+  std::string text, line;
+  for (const char c : kBoxFaces) {
+    if (c == '\n') {
+      text += "f" + line + "\n";
+      line.clear();
+    } else if (c >= '1' && c <= '8') {
+      const std::string corner = " " + std::to_string(c - '1' + first);
+      line = inward ? corner + line : line + corner;
+    }
+  }
+  return text;
+}
+
+// Boxes in one file.
+inline std::string boxes(const std::vector<openvdb::BBoxd>& all) {
+  std::string text, faces;
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    text += boxCorners(all[n].min(), all[n].max());
+    faces += facesFrom(int(8 * n) + 1);
+  }
   return text + faces;
 }
 
@@ -60,12 +94,29 @@ struct Files {
   ~Files() { std::filesystem::remove_all(folder); }
 };
 
+// Whether every edge is met as often in one direction as in the other.
+inline bool isClosed(const TriangleMesh& mesh) {
+  std::map<std::pair<unsigned, unsigned>, int> balance;
+  for (const auto& t : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const unsigned a = t[i], b = t[(i + 1) % 3];
+      balance[std::minmax(a, b)] += a < b ? 1 : -1;
+    }
+  }
+  return std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
+}
+
 inline double volumeOf(const TriangleMesh& mesh) {
   double sixfold = 0.0;
   for (const auto& t : mesh.triangles)
     sixfold +=
         Vec3d(mesh.positions[t[0]]).dot(Vec3d(mesh.positions[t[1]]).cross(Vec3d(mesh.positions[t[2]])));
   return sixfold / 6.0;
+}
+
+inline TriangleMesh meshOf(const std::string& name, const std::string& content, double scale = 1.0) {
+  const WrittenFile file(name, content);
+  return readMesh(MeshShape{file.path, scale});
 }
 
 inline Solid solidOf(const MeshSequence& sequence) {

@@ -1,6 +1,5 @@
 // Meshes as programs write them: each is read, or refused with its true reason.
 #include "sim/meshes/read_mesh.h"
-#include "sim/shapes/moving_mesh.h"
 
 #include "tests/sim/meshes/mesh_files.h"
 #include "tests/sim/meshes/written_files.h"
@@ -114,11 +113,6 @@ std::string textPly(const std::string& index = "int", const std::string& coordin
   return text;
 }
 
-TriangleMesh meshOf(const std::string& name, const std::string& content, double scale = 1.0) {
-  const WrittenFile file(name, content);
-  return readMesh(MeshShape{file.path, scale});
-}
-
 std::string faultOf(const std::string& name, const std::string& content) {
   const WrittenFile file(name, content);
   try {
@@ -128,21 +122,6 @@ std::string faultOf(const std::string& name, const std::string& content) {
     return error.what();
   }
   return "no fault";
-}
-
-// A box's faces, with its first vertex at number `first`, turned inward if asked for.
-std::string facesFrom(int first, bool inward = false) {
-  std::string text;
-  for (const auto& face : kFaces) {
-    text += "f";
-    for (std::size_t c = 0; c < 4; ++c) text += " " + std::to_string(first + face[inward ? 3 - c : c]);
-    text += "\n";
-  }
-  return text;
-}
-
-std::string corners(const Vec3d& low, const Vec3d& high) {
-  return boxObj(low, high, "");
 }
 
 }  // namespace
@@ -259,85 +238,4 @@ TEST_CASE("mesh reader: what it cannot use it says, and where", "[sim]") {
   std::string bytes = binaryPly<float, std::uint32_t, std::int32_t>(true, "float", "uint", "int");
   bytes.replace(bytes.find("end_header\n") + 11 + 8 * 12, 4, "\xFF\xFF\xFF\xFF");
   CHECK_THAT(faultOf("i.ply", bytes), Contains("4294967295 numbers") && Contains("too short"));
-}
-
-TEST_CASE("mesh reader: cubes that share a face, an edge or a corner are one solid", "[sim]") {
-  // 2 x 2 x 2 cubes side by side, of vertices of their own; without those of one diagonal plane, so that some
-  // meet at edges only; each once turned anyhow.
-  const auto cubes = [](auto has, auto isInward) {
-    std::string text, faces;
-    int first = 1;
-    for (int n = 0; n < 8; ++n) {
-      if (!has(n)) continue;
-      const Vec3d low(n & 1, n >> 1 & 1, n >> 2 & 1);
-      text += corners(low, low + Vec3d(1.0));
-      faces += facesFrom(first, isInward(n));
-      first += 8;
-    }
-    return text + faces;
-  };
-  const auto all = [](int) { return true; };
-  const auto none = [](int) { return false; };
-  const auto some = [](int n) { return n == 0 || n == 3 || n == 5 || n == 6; };
-  CHECK(volumeOf(meshOf("all.obj", cubes(all, none))) == Approx(8.0));
-  CHECK(volumeOf(meshOf("all.obj", cubes(all, all))) == Approx(8.0));
-  CHECK(volumeOf(meshOf("all.obj", cubes(all, some))) == Approx(8.0));
-  CHECK(volumeOf(meshOf("diagonal.obj", cubes(some, none))) == Approx(4.0));
-  CHECK(volumeOf(meshOf("diagonal.obj", cubes(some, [](int n) { return n == 3; }))) == Approx(4.0));
-  CHECK(volumeOf(meshOf("seven.obj", cubes([](int n) { return n != 7; }, none))) == Approx(7.0));
-  // No wall is left within.
-  CHECK(meshOf("all.obj", cubes(all, none)).triangles.size() == 48);
-  // Every face twice, as programs write surfaces that are seen from both sides.
-  CHECK(volumeOf(meshOf("twice.obj", box() + facesFrom(1, true))) == Approx(kVolume));
-  CHECK(volumeOf(meshOf("twice.obj", box() + facesFrom(1))) == Approx(kVolume));
-}
-
-TEST_CASE("mesh reader: a surface within another one is a cavity's, whichever way it is turned", "[sim]") {
-  const auto nested = [](bool outerInward, bool innerInward, bool coreInward) {
-    return corners(Vec3d(0.0), Vec3d(5.0)) + corners(Vec3d(1.0), Vec3d(4.0)) +
-           corners(Vec3d(2.0), Vec3d(3.0)) + facesFrom(1, outerInward) + facesFrom(9, innerInward) +
-           facesFrom(17, coreInward);
-  };
-  for (int n = 0; n < 8; ++n)
-    CHECK(volumeOf(meshOf("nested.obj", nested(n & 1, n & 2, n & 4))) == Approx(125.0 - 27.0 + 1.0));
-  // Side by side, and across each other: both solid.
-  CHECK(volumeOf(meshOf("two.obj", corners(Vec3d(0.0), Vec3d(1.0)) + corners(Vec3d(2.0), Vec3d(3.0)) +
-                                       facesFrom(1) + facesFrom(9, true))) == Approx(2.0));
-  CHECK(volumeOf(meshOf("cross.obj", corners(Vec3d(0, 0, 0), Vec3d(3, 1, 1)) +
-                                         corners(Vec3d(1, -1, 0.2), Vec3d(2, 2, 0.8)) + facesFrom(1) +
-                                         facesFrom(9, true))) == Approx(3.0 + 1.8));
-}
-
-TEST_CASE("mesh reader: concave polygons and such that touch themselves are cut", "[sim]") {
-  CHECK(volumeOf(meshOf("l.obj", prismObj())) == Approx(3.0));
-
-  // A square with a hole, whose rim is joined to the outer one by a slit.
-  std::string ring;
-  for (const double z : {0.0, 1.0}) {
-    for (const auto& [x, y] : {std::pair{0, 0}, {3, 0}, {3, 3}, {0, 3}}) ring += vertex(x, y, z);
-    for (const auto& [x, y] : {std::pair{1, 1}, {2, 1}, {2, 2}, {1, 2}}) ring += vertex(x, y, z);
-  }
-  ring += "f 1 5 8 7 6 5 1 4 3 2\nf 9 10 11 12 9 13 16 15 14 13\n";
-  for (int n = 1; n <= 4; ++n) {
-    const int next = n % 4 + 1;
-    ring += "f " + std::to_string(n) + " " + std::to_string(next) + " " + std::to_string(next + 8) + " " +
-            std::to_string(n + 8) + "\n";
-    ring += "f " + std::to_string(n + 12) + " " + std::to_string(next + 12) + " " + std::to_string(next + 4) +
-            " " + std::to_string(n + 4) + "\n";
-  }
-  CHECK(volumeOf(meshOf("ring.obj", ring)) == Approx(8.0));
-}
-
-TEST_CASE("mesh sequence: cavities and shared faces are as in a single mesh", "[sim]") {
-  const auto nested = [](double size) {
-    return corners(Vec3d(0.0), Vec3d(size)) + corners(Vec3d(1.0), Vec3d(size - 1.0)) + facesFrom(1) +
-           facesFrom(9);
-  };
-  const Files files({nested(4.0), nested(5.0)});
-  const MovingMesh mesh(files.sequence);
-  CHECK(volumeOf(mesh.at(0, 0.0)) == Approx(64.0 - 8.0));
-  CHECK(volumeOf(mesh.at(1, 0.0)) == Approx(125.0 - 27.0));
-  // Flat in its first file.
-  const Files flat({boxObj(Vec3d(0.0), Vec3d(1.0, 1.0, 0.0)), boxObj(Vec3d(0.0), Vec3d(1.0))});
-  CHECK(volumeOf(MovingMesh(flat.sequence).at(1, 0.0)) == Approx(1.0));
 }

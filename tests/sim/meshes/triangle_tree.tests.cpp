@@ -1,15 +1,14 @@
 #include "sim/meshes/triangle_tree.h"
-#include "sim/meshes/inside_test.h"
-#include "sim/shapes/shape_triangles.h"
-#include "tests/sim/meshes/mesh_files.h"
+
+#include "sim/options.h"
 
 #include <openvdb/math/Proximity.h>
+
 #include <catch2/catch.hpp>
 
 #include <cmath>
 
 using namespace fluidtex::sim;
-using openvdb::Vec3f;
 
 namespace {
 
@@ -26,10 +25,6 @@ TriangleMesh triangles(int count, double size) {
     mesh.triangles.emplace_back(3 * n, 3 * n + 1, 3 * n + 2);
   }
   return mesh;
-}
-
-TriangleMesh ball() {
-  return triangulate(Shape{Sphere{Vec3d(0.5), 0.31}}, openvdb::BBoxd(Vec3d(0.0), Vec3d(1.0)), 0.05);
 }
 
 }  // namespace
@@ -66,17 +61,4 @@ TEST_CASE("triangle tree: of triangles as near it is the first, and there may be
   const TriangleTree tree(mesh);
   for (int n = 0; n < 50; ++n) CHECK(tree.closest(somewhere(n), 0.1).triangle == 0);
   CHECK(TriangleTree(TriangleMesh{}).closest(Vec3d(0.0), 1.0).triangle == -1);
-}
-
-TEST_CASE("inside test: lines along all axes tell the same") {
-  const InsideTest inside(ball());
-  int within = 0;
-  for (int n = 0; n < 3000; ++n) {
-    const Vec3d x = somewhere(n);
-    const double far = (x - Vec3d(0.5)).length();
-    if (far > 0.305 && far < 0.31) continue;  // between the ball and its triangles
-    for (int axis = 0; axis < 3; ++axis) REQUIRE(inside.winding(x, axis) == (far < 0.31 ? 1 : 0));
-    within += far < 0.31;
-  }
-  CHECK(within > 200);
 }

@@ -1,9 +1,5 @@
-// Frames of flows known in closed form: velocity and surface against the formulas, and going on from a state.
+// Frames of flows known in closed form: velocity and surface against the formulas.
 #include "sim/motion/analytic_flow.h"
-
-#include "sim/motion/motion.h"
-#include "sim/step/state_io.h"
-#include "tests/scratch.h"
 
 #include <openvdb/tools/Interpolation.h>
 
@@ -153,23 +149,4 @@ TEST_CASE("analytic flow: a rate that no number of substeps can follow is refuse
   AnalyticFlow flow(ball(Vec3d(0.5, 0.75, 0.5), 0.15), {MotionKind::vortex, 8.0, 1e12});
   flow.next();
   CHECK_THROWS_AS(flow.next(), SolverError);
-}
-
-TEST_CASE("motion: a flow goes on from its state as if it had not stopped", "[sim]") {
-  Options options = ball(Vec3d(0.35), 0.15);
-  const MotionOptions motion{MotionKind::deformation};
-  const Scratch scratch;
-  Motion whole = makeMotion(options, motion);
-  CHECK(warningsOf(whole).empty());
-  nextFrame(whole);
-  nextFrame(whole);
-  writeState(stateOf(whole), scratch.path / "state.vdb");
-  Motion rest = makeMotion(options, motion, readState(scratch.path / "state.vdb"));
-  const Frame expected = nextFrame(whole), found = nextFrame(rest);
-  CHECK(found.index == 3);
-  CHECK(found.substeps.size() == expected.substeps.size());
-  auto a = expected.surfacePhi->cbeginValueOn(), b = found.surfacePhi->cbeginValueOn();
-  for (; a; ++a, ++b) REQUIRE((b && a.getCoord() == b.getCoord() && *a == *b));
-  options.resolution = 24;
-  CHECK_THROWS_AS(makeMotion(options, motion, readState(scratch.path / "state.vdb")), SolverError);
 }

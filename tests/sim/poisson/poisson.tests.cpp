@@ -1,6 +1,6 @@
 #include "sim/poisson/poisson.h"
 
-#include "sim/poisson/multigrid.h"
+#include "tests/sim/poisson/poisson_box.h"
 
 #include <catch2/catch.hpp>
 
@@ -11,53 +11,6 @@ using namespace fluidtex::sim;
 using Catch::Matchers::WithinAbs;
 
 namespace {
-
-// Cells of a box of n^3 for which `inside` holds, linked by random openness; anchored where the box ends
-// above.
-PoissonSystem systemOf(int n, bool (*inside)(const Coord&), bool anchored = true) {
-  std::vector<CellBlock> blocks;
-  for (int i = 0; i < n; i += 8) {
-    for (int j = 0; j < n; j += 8) {
-      for (int k = 0; k < n; k += 8) {
-        CellBlock block;
-        block.origin = Coord(i, j, k);
-        for (int c = 0; c < 512; ++c) {
-          const Coord cell = block.origin.offsetBy(c >> 6, (c >> 3) & 7, c & 7);
-          block.cells[c] = cell[0] < n && cell[1] < n && cell[2] < n && inside(cell);
-        }
-        if (block.cells.any()) blocks.push_back(block);
-      }
-    }
-  }
-  PoissonSystem system;
-  system.numbering = CellNumbering(blocks);
-  const int size = system.numbering.size();
-  system.rows.resize(size);
-  system.anchor.assign(size, 0.0);
-  system.anchoredSides.assign(size, 0);
-  std::mt19937 random(5);
-  std::uniform_real_distribution<float> openness(0.01f, 1.0f);
-  for (int i = 0; i < size; ++i) {
-    for (int s = 0; s < kSides; ++s) {
-      Coord beside = system.numbering.cell(i);
-      beside[s >> 1] += (s & 1) ? 1 : -1;
-      const int neighbor = system.numbering.at(beside);
-      system.rows.neighbor[i][s] = neighbor < 0 ? size : neighbor;
-      if (neighbor < 0) {
-        system.rows.link[i][s] = 0.0f;
-      } else if (neighbor > i) {
-        system.rows.link[i][s] = openness(random);
-      } else {
-        system.rows.link[i][s] = system.rows.link[neighbor][s ^ 1];
-      }
-    }
-    if (anchored && system.numbering.cell(i)[2] == n - 1) {
-      system.anchor[i] = 2.0;
-      system.anchoredSides[i] = 1 << 5;
-    }
-  }
-  return system;
-}
 
 std::vector<double> multiplied(const PoissonSystem& system, const std::vector<double>& x) {
   std::vector<double> y(x.size());
@@ -78,13 +31,6 @@ std::vector<double> noise(int size) {
   std::vector<double> values(size);
   for (double& value : values) value = uniform(random);
   return values;
-}
-
-bool everywhere(const Coord&) {
-  return true;
-}
-bool twoRooms(const Coord& c) {
-  return c[0] != 9;
 }
 
 }  // namespace
@@ -140,29 +86,6 @@ TEST_CASE("poisson: parts without an anchor are found, and solved with mean 0", 
   }
   system.anchor[parts[0].front()] = 1.0;
   CHECK(singularParts(system).size() == 1);
-}
-
-TEST_CASE("multigrid: symmetric and positive", "[sim]") {
-  const PoissonSystem system = systemOf(21, twoRooms);
-  const int n = system.numbering.size();
-  Multigrid multigrid(system, EvenRows(system.rows, system.anchor));
-  std::mt19937 random(2);
-  std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
-  std::vector<float> a(n + 1, 0.0f), b(n + 1, 0.0f), ma(n + 1, 0.0f), mb(n + 1, 0.0f);
-  for (int i = 0; i < n; ++i) {
-    a[i] = uniform(random);
-    b[i] = uniform(random) + 0.5f;
-  }
-  multigrid.apply(a, ma);
-  multigrid.apply(b, mb);
-  double ab = 0.0, ba = 0.0, aa = 0.0;
-  for (int i = 0; i < n; ++i) {
-    ab += double(a[i]) * mb[i];
-    ba += double(b[i]) * ma[i];
-    aa += double(a[i]) * ma[i];
-  }
-  CHECK(aa > 0.0);
-  CHECK_THAT(ab, WithinAbs(ba, 1e-4 * aa));
 }
 
 TEST_CASE("cell numbering: red before black, each cell found again", "[sim]") {

@@ -1,4 +1,3 @@
-#include "sim/shapes/pose.h"
 #include "sim/solids/solids.h"
 #include "sim/step/solver.h"
 #include "tests/sim/step/solver_scenes.h"
@@ -7,30 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <numbers>
 
 using namespace fluidtex::sim;
-
-TEST_CASE("pose: a solid moves evenly between keyframes and rests outside of them") {
-  Solid solid;
-  solid.pivot = Vec3d(1.0, 0.0, 0.0);
-  solid.axis = Vec3d(0.0, 0.0, 2.0);
-  solid.keyframes = {{1.0, Vec3d(0.0), 0.0}, {3.0, Vec3d(0.0, 0.0, 1.0), 720.0}};
-  const double degrees = std::numbers::pi / 180.0;
-  CHECK_FALSE(poseAt(solid, 0.5).moving());
-  CHECK(poseAt(solid, 0.5).toWorld(Vec3d(2.0, 0.0, 0.0)) == Vec3d(2.0, 0.0, 0.0));
-  CHECK(poseAt(solid, 1.0).moving());
-  CHECK_FALSE(poseAt(solid, 3.0).moving());
-  // A quarter turn after a quarter of a second, an eighth of the way up.
-  const Pose pose = poseAt(solid, 1.25);
-  CHECK(pose.angle == Approx(90.0 * degrees));
-  const Vec3d x = pose.toWorld(Vec3d(2.0, 0.0, 0.0));
-  CHECK((x - Vec3d(1.0, 1.0, 0.125)).length() < 1e-12);
-  CHECK((pose.toBody(x) - Vec3d(2.0, 0.0, 0.0)).length() < 1e-12);
-  // The velocity is the rate of change of the place.
-  const Vec3d after = poseAt(solid, 1.25 + 1e-6).toWorld(Vec3d(2.0, 0.0, 0.0));
-  CHECK(((after - x) / 1e-6 - pose.velocityAt(x)).length() < 1e-4);
-}
 
 namespace {
 

@@ -1,8 +1,7 @@
 #include "sim/viscosity/viscosity.h"
 
 #include "sim/viscosity/viscous_system.h"
-#include "sim/viscosity/volume_fraction.h"
-#include "tests/sim/velocity/velocity_field.h"
+#include "tests/sim/viscosity/viscous_tank.h"
 #include "tests/threads.h"
 
 #include <catch2/catch.hpp>
@@ -17,81 +16,7 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-constexpr double kDensity = 1000.0;
-using Field = std::function<Vec3d(const Vec3d&)>;
-using Distance = std::function<double(const Vec3d&)>;
-
-// A box of cells with liquid where `level` is negative and the velocity `speed` everywhere.
-struct Tank {
-  Options options;
-  double h = 0.0;
-  SolidField solid;
-  FloatGrid::Ptr phi;
-  Velocity velocity;
-
-  Tank(const Options& scene, const Distance& level, const Field& speed)
-      : options(scene), h(scene.voxelSize()), solid(*Solids(scene).at(0.0)), phi(makePhi(h, 6.0 * h)) {
-    const Coord cells = solid.domain.dim();
-    const Coord blocks((cells[0] + 15) / 8, (cells[1] + 15) / 8, (cells[2] + 15) / 8);
-    for (int i = -1; i < blocks[0]; ++i) {
-      for (int j = -1; j < blocks[1]; ++j) {
-        for (int k = -1; k < blocks[2]; ++k) phi->tree().touchLeaf(Coord(8 * i, 8 * j, 8 * k))->setValuesOn();
-      }
-    }
-    for (auto it = phi->beginValueOn(); it; ++it) {
-      const double d = level(phi->indexToWorld(it.getCoord()));
-      it.setValue(static_cast<float>(std::clamp(d, -6.0 * h, 6.0 * h)));
-    }
-    velocity = velocityField(h, phi->tree(), speed);
-  }
-
-  // Applies viscosity such that viscosity dt / (density h^2) is `number`.
-  ViscosityReport apply(double number, const ViscosityOptions& settings = {}) {
-    const double dt = 0.01;
-    return applyViscosity(velocity, *phi, solid, dt, kDensity, {.constant = number * kDensity * h * h / dt},
-                          settings);
-  }
-
-  // Gives the surfaces of solids this velocity.
-  void setWallVelocity(const Field& speed) { solid.slide = velocityField(h, phi->tree(), speed); }
-
-  // Gives the solids themselves this velocity.
-  void setSolidVelocity(const Field& speed) { solid.speed = velocityField(h, phi->tree(), speed); }
-
-  // Largest difference from `exact` over the liquid's open faces with keep(x).
-  double error(const Field& exact, const std::function<bool(const Vec3d&)>& keep) const {
-    double largest = 0.0;
-    for (int a = 0; a < 3; ++a) {
-      for (auto it = velocity.component[a]->cbeginValueOn(); it; ++it) {
-        Coord below = it.getCoord();
-        below[a] -= 1;
-        const Vec3d x = velocity.component[a]->indexToWorld(it.getCoord());
-        const bool wet = phi->tree().getValue(it.getCoord()) < 0.0f || phi->tree().getValue(below) < 0.0f;
-        const double gap = solid.phi->tree().getValue(it.getCoord()) + solid.phi->tree().getValue(below);
-        if (wet && gap > 1e-3 * h && keep(x)) largest = std::max(largest, std::abs(*it - exact(x)[a]));
-      }
-    }
-    return largest;
-  }
-};
-
 const auto everywhere = [](const Vec3d&) { return true; };
-
-Options tankOf(int n, Vec3d size = Vec3d(1.0)) {
-  Options options;
-  options.size = size;
-  options.resolution = n;
-  return options;
-}
-
-Vec3d mixed(const Vec3d& x) {
-  return Vec3d(std::sin(9 * x[1]) + 0.3 * std::cos(31 * x[2]), std::cos(7 * x[2]) * std::sin(17 * x[0]),
-               std::sin(11 * x[0]) - x[1]);
-}
-
-double dropDistance(const Vec3d& x) {
-  return (x - Vec3d(0.52, 0.47, 0.5)).length() - 0.31;
-}
 
 // A channel between the floor and a lid, 8 cells deep in y where walls slip; flow along x.
 struct Channel {
@@ -103,27 +28,6 @@ struct Channel {
 };
 
 }  // namespace
-
-TEST_CASE("negativeShare: is the volume below a plane in a cube", "[sim]") {
-  CHECK_THAT(negativeShare(0.1, 0.0, 0.0, 1.0), WithinAbs(0.4, 1e-3));
-  CHECK_THAT(negativeShare(-0.1, 0.0, 2.0, 0.0), WithinAbs(0.55, 1e-3));
-  // A corner cut off: a tetrahedron with legs of half a side.
-  CHECK_THAT(negativeShare(1.0, 1.0, 1.0, 1.0), WithinAbs(0.125 / 6.0, 1e-9));
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  for (int n = 0; n < 200; ++n) {
-    const double g[3] = {uniform(random), uniform(random), uniform(random)}, d = 0.8 * uniform(random);
-    int inside = 0;
-    constexpr int kSamples = 24;
-    for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
-      const double x = (i / (kSamples * kSamples) + 0.5) / kSamples - 0.5;
-      const double y = (i / kSamples % kSamples + 0.5) / kSamples - 0.5;
-      const double z = (i % kSamples + 0.5) / kSamples - 0.5;
-      inside += d + g[0] * x + g[1] * y + g[2] * z < 0.0;
-    }
-    CHECK_THAT(negativeShare(d, g[0], g[1], g[2]), WithinAbs(inside / std::pow(kSamples, 3.0), 0.01));
-  }
-}
 
 TEST_CASE("applyViscosity: a translation is left as it is, to the last bit", "[sim]") {
   const Field wind = [](const Vec3d&) { return Vec3d(0.3, -1.7, 2.1); };

@@ -1,8 +1,7 @@
 #include "sim/volume/volume_deficit.h"
 
-#include "sim/surface/level_set.h"
 #include "sim/volume/deficit_grid.h"
-#include "tests/sim/velocity/velocity_field.h"
+#include "tests/sim/volume/ball_and_flow.h"
 
 #include <catch2/catch.hpp>
 
@@ -10,56 +9,6 @@
 #include <cmath>
 
 using namespace fluidtex::sim;
-
-namespace {
-
-constexpr int kCells = 32;
-constexpr double kVoxel = 1.0 / kCells;
-
-// A ball of radius 0.2, and a film below it on the floor, thinner than a cell.
-double ball(const Vec3d& x) {
-  return (x - Vec3d(0.5)).length() - 0.2;
-}
-
-double ballAndFilm(const Vec3d& x) {
-  return std::min(ball(x), x[2] - 0.6 * kVoxel);
-}
-
-FloatGrid::Ptr phiOf(const std::function<double(const Vec3d&)>& distance) {
-  const auto phi = makePhi(kVoxel, 6 * kVoxel);
-  unite(*phi, distance, firstCells(Coord(kCells)));
-  trimBand(*phi, *makePhi(kVoxel, 3 * kVoxel));
-  return phi;
-}
-
-SolidField box() {
-  Options options;
-  options.size = Vec3d(1.0);
-  options.resolution = kCells;
-  return *Solids(options).at(0.0);
-}
-
-Velocity flow(const std::function<Vec3d(const Vec3d&)>& field) {
-  FloatTree topology(0.0f);
-  for (int i = -8; i < kCells + 8; i += 8)
-    for (int j = -8; j < kCells + 8; j += 8)
-      for (int k = -8; k < kCells + 8; k += 8) topology.touchLeaf(Coord(i, j, k))->setValuesOn();
-  return velocityField(kVoxel, topology, field);
-}
-
-double sumOf(const FloatGrid& deficit) {
-  double sum = 0.0;
-  for (auto it = deficit.cbeginValueOn(); it; ++it) sum += double(*it) * kVoxel * kVoxel * kVoxel;
-  return sum;
-}
-
-double largestOf(const FloatGrid& deficit) {
-  float largest = 0.0f;
-  for (auto it = deficit.cbeginValueOn(); it; ++it) largest = std::max(largest, std::abs(*it));
-  return largest;
-}
-
-}  // namespace
 
 TEST_CASE("volume deficit: what the surface loses is kept, whatever the flow does") {
   const SolidField solid = box();
@@ -136,15 +85,6 @@ TEST_CASE("volume deficit: beside liquid it is the liquid that owes") {
   for (auto it = deficit->cbeginValueOn(); it; ++it)
     inside += after->tree().getValue(it.getCoord()) < 0.0f ? double(*it) * std::pow(kVoxel, 3) : 0.0;
   CHECK(inside > 0.98 * sumOf(*deficit));
-}
-
-TEST_CASE("volume deficit: liquid grows by what it owes, by half a cell at once at most") {
-  const auto deficit = FloatGrid::create(0.0f);
-  deficit->tree().setValueOn(Coord(1, 2, 3), 0.1f);
-  deficit->tree().setValueOn(Coord(1, 2, 4), -3.0f);
-  const auto growth = targetDivergence(*deficit, 0.25);
-  CHECK(growth->tree().getValue(Coord(1, 2, 3)) == Approx(0.4));
-  CHECK(growth->tree().getValue(Coord(1, 2, 4)) == Approx(-2.0));
 }
 
 TEST_CASE("volume deficit: what leaves the domain and what sources put in is not in it") {

@@ -1,55 +1,15 @@
-// Sequences of meshes: their files, what lies between them, and the velocity of their surface.
-#include "sim/meshes/read_mesh.h"
 #include "sim/shapes/moving_mesh.h"
-#include "sim/shapes/pose.h"
-#include "sim/shapes/shape_triangles.h"
-#include "sim/shapes/surface_velocity.h"
+
+#include "sim/meshes/read_mesh.h"
 #include "tests/sim/meshes/mesh_files.h"
 
 #include <catch2/catch.hpp>
-
-#include <cmath>
 
 using namespace fluidtex::sim;
 using Catch::Matchers::Contains;
 using openvdb::Vec3f;
 
-TEST_CASE("mesh sequence: the number stands in the last part of the name") {
-  MeshSequence sequence;
-  sequence.first = 9;
-  sequence.files = "50%d/rock_%03d.obj";
-  CHECK(sequence.fileOf(0) == "50%d/rock_009.obj");
-  CHECK(sequence.fileOf(991) == "50%d/rock_1000.obj");
-  sequence.files = "%d.ply";
-  CHECK(sequence.fileOf(1) == "10.ply");
-}
-
-TEST_CASE("mesh sequence: it goes evenly from file to file and rests outside of them") {
-  MeshSequence sequence;
-  sequence.first = 3;
-  sequence.last = 33;
-  sequence.frameRate = 30.0;
-  sequence.start = 0.7;
-  const Solid solid = solidOf(sequence);
-  CHECK_FALSE(poseAt(solid, 0.699).moving());
-  CHECK(poseAt(solid, 0.699).file == 0);
-  CHECK_FALSE(poseAt(solid, 1.71).moving());
-  CHECK(poseAt(solid, 1.71).file == 30);
-  CHECK(poseAt(solid, 1.71).part == 0.0);
-  // At a file's time it goes on as after it, whatever rounding does.
-  for (int n = 0; n < 30; ++n) {
-    const Pose pose = poseAt(solid, sequence.timeOf(n));
-    CHECK(pose.file == n);
-    CHECK(pose.part == 0.0);
-    CHECK(pose.fileRate == 30.0);
-  }
-  CHECK_FALSE(poseAt(solid, sequence.timeOf(30)).moving());
-  const Pose between = poseAt(solid, 0.7 + 4.25 / 30.0);
-  CHECK(between.file == 4);
-  CHECK(between.part == Approx(0.25));
-}
-
-TEST_CASE("mesh sequence: vertices go in straight lines") {
+TEST_CASE("moving mesh: vertices go in straight lines") {
   const Files files({boxObj(Vec3d(0.0), Vec3d(1.0)), boxObj(Vec3d(0.0), Vec3d(2.0, 1.0, 3.0))});
   const MovingMesh mesh(files.sequence);
   CHECK(volumeOf(mesh.at(0, 0.0)) == Approx(1.0));
@@ -65,7 +25,7 @@ TEST_CASE("mesh sequence: vertices go in straight lines") {
   CHECK(MovingMesh(files.sequence, 1, 1).at(1, 0.0).positions == mesh.at(1, 0.0).positions);
 }
 
-TEST_CASE("mesh sequence: vertices that are always together are joined, others are not") {
+TEST_CASE("moving mesh: vertices that are always together are joined, others are not") {
   // A box whose top has corners of its own, as exporters make them where normals differ.
   const auto twice = [](double top) {
     return boxObj(Vec3d(0.0), Vec3d(1.0, 1.0, top), "") + vertex(0, 0, top) + vertex(1, 0, top) +
@@ -102,7 +62,7 @@ TEST_CASE("mesh sequence: vertices that are always together are joined, others a
   CHECK(area == Approx(2.0 * 3.0 + 8.0 * 2.0));
 }
 
-TEST_CASE("mesh sequence: faults name the files and what is wrong") {
+TEST_CASE("moving mesh: faults name the files and what is wrong") {
   const auto faultOf = [](const std::vector<std::string>& texts) -> std::string {
     const Files files(texts);
     try {
@@ -131,28 +91,16 @@ TEST_CASE("mesh sequence: faults name the files and what is wrong") {
   CHECK_THROWS_AS(MovingMesh(missing), MeshError);
 }
 
-TEST_CASE("surface velocity: that of the closest point") {
-  const Files files({boxObj(Vec3d(0.0), Vec3d(1.0)), boxObj(Vec3d(0.0), Vec3d(2.0, 1.0, 1.0))});
+TEST_CASE("moving mesh: cavities and shared faces are as in a single mesh", "[sim]") {
+  const auto nested = [](double size) {
+    return boxCorners(Vec3d(0.0), Vec3d(size)) + boxCorners(Vec3d(1.0), Vec3d(size - 1.0)) + facesFrom(1) +
+           facesFrom(9);
+  };
+  const Files files({nested(4.0), nested(5.0)});
   const MovingMesh mesh(files.sequence);
-  const SurfaceVelocity velocity(mesh.at(0, 0.0), mesh.change(0));
-  for (const double reach : {0.05, 0.5, 10.0}) {
-    CHECK((velocity.at(Vec3d(1.2, 0.3, 0.7), reach) - Vec3d(1, 0, 0)).length() < 1e-6);
-    CHECK((velocity.at(Vec3d(0.25, 0.3, 1.1), reach) - Vec3d(0.25, 0, 0)).length() < 1e-6);
-    CHECK((velocity.at(Vec3d(0.7, 0.5, 0.9), reach) - Vec3d(0.7, 0, 0)).length() < 1e-6);
-    CHECK(velocity.at(Vec3d(-3.0, 0.5, 0.5), reach).length() < 1e-6);
-  }
-  // A sphere that swells: whatever the triangle, the velocity points outward and is as large as the radius
-  // grows.
-  const TriangleMesh ball =
-      triangulate(Shape{Sphere{Vec3d(0.5), 0.25}}, openvdb::BBoxd(Vec3d(0.0), Vec3d(1.0)), 0.02);
-  std::vector<Vec3f> outward;
-  for (const Vec3f& x : ball.positions) outward.push_back((x - Vec3f(0.5f)) * 4.0f);
-  const SurfaceVelocity expands(ball, outward);
-  for (int n = 0; n < 200; ++n) {
-    const Vec3d way = Vec3d(std::sin(1.0 * n), std::cos(2.3 * n), std::sin(3.1 * n)).unit();
-    for (const double r : {0.2, 0.25, 0.3}) {
-      const Vec3d v = expands.at(Vec3d(0.5) + r * way, std::abs(r - 0.25) + 0.02);
-      CHECK((v - way).length() < 0.01);
-    }
-  }
+  CHECK(volumeOf(mesh.at(0, 0.0)) == Approx(64.0 - 8.0));
+  CHECK(volumeOf(mesh.at(1, 0.0)) == Approx(125.0 - 27.0));
+  // Flat in its first file.
+  const Files flat({boxObj(Vec3d(0.0), Vec3d(1.0, 1.0, 0.0)), boxObj(Vec3d(0.0), Vec3d(1.0))});
+  CHECK(volumeOf(MovingMesh(flat.sequence).at(1, 0.0)) == Approx(1.0));
 }
