@@ -13,7 +13,7 @@ namespace {
 constexpr double kFewestCells = 4.0;
 
 void checkDomain(const Scene& scene, Reader& reader) {
-  if (!reader.clean("domain")) return;
+  if (!reader.clean("domain") || !isSizeKnown(scene)) return;
   for (int axis = 0; axis < 3; ++axis) {
     const double cells = scene.sim.size[axis] / scene.sim.voxelSize();
     if (cells >= kFewestCells) continue;
@@ -109,6 +109,16 @@ void checkWall(const sim::Wall& wall, const std::string& path, Reader& reader) {
                  "give it together with wall = \"no_slip\" or \"friction\"");
 }
 
+void checkFiles(const Scene& scene, Reader& reader) {
+  if (!reader.clean("motion.flow") || !reader.clean("files")) return;
+  const bool used = scene.motion.flow == sim::MotionKind::files;
+  if (used && scene.files.path.empty())
+    reader.fault("files.path", "missing key",
+                 "give the cache of another program: its folder, or a pattern such as \"water_####.vdb\"");
+  if (!used && reader.given("files"))
+    reader.fault("files", "is of no use here", "give it together with motion.flow = \"files\"");
+}
+
 // A flow in closed form moves what is there from the start, and knows nothing else.
 void checkKnownFlow(const Scene& scene, Reader& reader) {
   using sim::MotionKind;
@@ -122,7 +132,8 @@ void checkKnownFlow(const Scene& scene, Reader& reader) {
   ofUse("period", {MotionKind::vortex, MotionKind::deformation}, "\"vortex\" or \"deformation\"");
   ofUse("rate", {MotionKind::rotation, MotionKind::vortex, MotionKind::stretch, MotionKind::sourceSink},
         "\"rotation\", \"vortex\", \"stretch\" or \"source_sink\"");
-  if (flow == MotionKind::solver || !reader.clean("motion.flow")) return;
+  checkFiles(scene, reader);
+  if (flow == MotionKind::solver || flow == MotionKind::files || !reader.clean("motion.flow")) return;
   if (reader.clean("domain") && !isBounded(domainOf(scene.sim)))
     reader.fault("domain.sides", "a flow in closed form is known inside the domain only",
                  "give no side that is \"unbounded\", or give motion.flow = \"solver\"");
@@ -141,8 +152,8 @@ void checkKnownFlow(const Scene& scene, Reader& reader) {
 }
 
 void checkBodies(const Scene& scene, Reader& reader) {
-  if (scene.sim.liquid.empty() && scene.sim.sources.empty() && reader.clean("liquid") &&
-      reader.clean("source"))
+  if (scene.motion.flow != sim::MotionKind::files && scene.sim.liquid.empty() && scene.sim.sources.empty() &&
+      reader.clean("liquid") && reader.clean("source"))
     reader.fault("liquid", reader.given("liquid") ? "an empty list" : "missing key",
                  "give at least one [[liquid]] or one [[source]]");
   for (std::size_t i = 0; i < scene.sim.liquid.size(); ++i)

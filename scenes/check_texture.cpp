@@ -144,7 +144,8 @@ void checkWindows(const Scene& scene, Reader& reader) {
 }
 
 void checkSpacing(const Scene& scene, Reader& reader) {
-  if (!reader.clean("texture.spacing") || !reader.clean("domain.size")) return;
+  if (!reader.clean("texture.spacing") || !reader.clean("domain.size") || !isSizeKnown(scene))
+    return;
   const Vec3d& size = scene.sim.size;
   const double spacing = scene.texture.spacing, shortest = std::min({size[0], size[1], size[2]});
   if (spacing >= shortest) {

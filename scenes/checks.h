@@ -9,6 +9,11 @@ namespace fluidtex::scenes {
 // Adds a fault for each invalid combination. Keys that have a fault already are skipped.
 void check(const Scene& scene, Reader& reader);
 
+// False for a liquid out of files in a scene without a domain.
+inline bool isSizeKnown(const Scene& scene) {
+  return scene.sim.size[0] > 0.0;
+}
+
 inline constexpr const char* kAxes[] = {"x", "y", "z"};
 
 // Its parts: a shape, and files that are one shape after the other, at `path`; domain, bodies, flows, heat;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fluidtex::scenes {
 namespace {
@@ -53,6 +54,14 @@ void complete(Scene& scene, const Reader& reader) {
   if (!reader.given("texture.later_iterations"))
     synthesis.laterIterations = fitted(synthesis.laterIterations, synthesis.windows.size());
 
+  // What the cache says, where the scene does not: see pipeline/take_cache.h.
+  const bool found = scene.motion.flow == sim::MotionKind::files;
+  if (found && !reader.given("frames")) scene.frames = 0;
+  if (found && !reader.given("domain.size")) {
+    scene.sim.size = Vec3d(0.0);
+    scene.sim.sides.fill(sim::Side::unbounded);
+  }
+
   // A floor would hide what falls through it, and a rim would bound what has no bounds.
   const auto& sides = scene.sim.sides;
   render::Surroundings& around = scene.render.surroundings;
@@ -65,6 +74,11 @@ void complete(Scene& scene, const Reader& reader) {
   const render::Camera view;
   render::Camera& camera = scene.render.camera;
   const Vec3d& size = scene.sim.size;
+  if (found && size[0] == 0.0) {
+    if (!reader.given("camera.at")) camera.at = Vec3d(std::numeric_limits<double>::quiet_NaN());
+    if (!reader.given("camera.from")) camera.from = Vec3d(std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
   if (!reader.given("camera.at")) camera.at = view.at * size;
   if (!reader.given("camera.from"))
     camera.from = camera.at + (view.from - view.at) * std::max({size[0], size[1], size[2]});

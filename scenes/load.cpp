@@ -7,6 +7,7 @@
 #include "scenes/schema.h"
 #include "scenes/writer.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -86,18 +87,82 @@ std::vector<Node> readOverrides(const Overrides& overrides, Faults& faults) {
   return layers;
 }
 
-Scene readScene(const Node& document, const std::filesystem::path& file, Faults& faults) {
+Scene readScene(const Node& document, const std::filesystem::path& file, bool liquidOnly, Faults& faults) {
   Scene scene;
   scene.file = file;
   Reader reader(document, file.parent_path(), faults);
   reader.absent("quality");
-  describe(reader, scene);
+  describe(reader, scene, liquidOnly ? Need::optional : Need::required);
   reader.reportUnknownKeys();
   // The file's own was taken out before; what is left was put there by a quality or by the command line.
   if (reader.given("quality"))
     reader.fault("quality", "cannot be set from here", "set the key itself, for example domain.resolution");
   complete(scene, reader);
   check(scene, reader);
+  return scene;
+}
+
+// The cache's folder, or what the names of its files have in common: "water" of water_####.vdb.
+std::string nameOfCache(const std::filesystem::path& cache) {
+  const std::filesystem::path plain = cache.has_filename() ? cache : cache.parent_path();
+  if (std::filesystem::is_directory(plain)) return plain.filename().string();
+  std::string name = plain.filename().string();
+  name.resize(std::min(name.find('.'), name.size()));
+  const std::size_t last = name.find_last_not_of("0123456789#%d_-");
+  return last == std::string::npos ? "cache" : name.substr(0, last + 1);
+}
+
+// A scene whose liquid comes out of files, with the qualities that shipped scenes have too.
+Node documentOfCache(const std::filesystem::path& cache) {
+  const Origin origin{0, 1, 1, cache.string(), ""};
+  const auto leaf = [&](auto value) { return Node{std::move(value), origin}; };
+  const auto table = [&](std::vector<std::pair<std::string, Node>> entries) {
+    Table result;
+    for (auto& [key, node] : entries) result.push_back({key, std::move(node)});
+    return Node{std::move(result), origin};
+  };
+  const auto quality = [&](std::int64_t points, std::int64_t width, std::int64_t height,
+                           std::int64_t samples) {
+    return table(
+        {{"texture", table({{"points", leaf(points)}})},
+         {"render", table({{"size", leaf(List{leaf(width), leaf(height)})}, {"samples", leaf(samples)}})}});
+  };
+  // Absolute, since the folder of this scene is none.
+  return table(
+      {{"name", leaf(nameOfCache(cache))},
+       {"motion", table({{"flow", leaf(std::string("files"))}})},
+       {"files", table({{"path", leaf(std::filesystem::absolute(cache).lexically_normal().string())}})},
+       {"quality",
+        table({{"preview", quality(10000, 480, 270, 8)}, {"final", quality(200000, 1920, 1080, 64)}})}});
+}
+
+// A document with the command line's layers over it.
+Scene resolved(const Node& written, const std::filesystem::path& file, const Overrides& overrides) {
+  Faults faults;
+  const std::vector<Node> commandLine = readOverrides(overrides, faults);
+  Node document = expanded(written, "", faults);
+  const std::array<Node, 3> qualities = takeQualities(document, faults);
+
+  // All qualities are checked, whichever is asked for. A fault that the default has not, but is told at a key
+  // outside of the quality's own table, says which quality it comes from.
+  Scene scene;
+  Faults ofDefault;
+  for (std::size_t i = 0; i < kQualities.size(); ++i) {
+    Faults found;
+    Node overlaid = document;
+    overlay(overlaid, qualities[i], found);
+    for (const Node& layer : commandLine) overlay(overlaid, layer, found);
+    Scene candidate = readScene(overlaid, file, overrides.liquidOnly, found);
+    if (kQualities[i] == overrides.quality) scene = std::move(candidate);
+    if (i == 0) ofDefault = found;
+    for (Fault fault : found.all()) {
+      if (i > 0 && fault.origin.prefix.empty() && !ofDefault.has(fault))
+        fault.message += " (in quality " + std::string(nameOf(kQualities[i])) + ")";
+      faults.add(fault);
+    }
+  }
+  if (!faults.empty()) throw SceneError(faults.lines());
+  scene.resolved = resolvedText(scene, overrides.quality);
   return scene;
 }
 
@@ -113,35 +178,16 @@ SceneError::SceneError(std::vector<std::string> lines)
 Scene loadScene(const std::filesystem::path& file, const Overrides& overrides) {
   Faults faults;
   const Node written = readDocument(file, faults);
-  const bool readable = faults.empty();
-  const std::vector<Node> commandLine = readOverrides(overrides, faults);
   // Without the file's content everything would be missing from it.
-  if (!readable) throw SceneError(faults.lines());
-
-  Node document = expanded(written, "", faults);
-  const std::array<Node, 3> qualities = takeQualities(document, faults);
-
-  // All qualities are checked, whichever is asked for. A fault that the default has not, but is told at a key
-  // outside of the quality's own table, says which quality it comes from.
-  Scene scene;
-  Faults ofDefault;
-  for (std::size_t i = 0; i < kQualities.size(); ++i) {
-    Faults found;
-    Node resolved = document;
-    overlay(resolved, qualities[i], found);
-    for (const Node& layer : commandLine) overlay(resolved, layer, found);
-    Scene candidate = readScene(resolved, file, found);
-    if (kQualities[i] == overrides.quality) scene = std::move(candidate);
-    if (i == 0) ofDefault = found;
-    for (Fault fault : found.all()) {
-      if (i > 0 && fault.origin.prefix.empty() && !ofDefault.has(fault))
-        fault.message += " (in quality " + std::string(nameOf(kQualities[i])) + ")";
-      faults.add(fault);
-    }
+  if (!faults.empty()) {
+    readOverrides(overrides, faults);
+    throw SceneError(faults.lines());
   }
-  if (!faults.empty()) throw SceneError(faults.lines());
-  scene.resolved = resolvedText(scene, overrides.quality);
-  return scene;
+  return resolved(written, file, overrides);
+}
+
+Scene sceneOfCache(const std::filesystem::path& cache, const Overrides& overrides) {
+  return resolved(documentOfCache(cache), cache, overrides);
 }
 
 }  // namespace fluidtex::scenes

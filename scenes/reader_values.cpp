@@ -273,6 +273,12 @@ void Reader::files(const std::string& key, std::filesystem::path& value,
   if (hasEnding(path, *node, full, endings)) value = full;
 }
 
+void Reader::path(const std::string& key, std::filesystem::path& value) {
+  const Node* node = look(key, Need::optional);
+  std::filesystem::path full;
+  if (node && readName(key, quoted("cache_fluid"), node, full)) value = full;
+}
+
 void Reader::choice(const std::string& key, int& value, const std::vector<std::string>& words) {
   const Node* node = look(key, Need::optional);
   if (!node) return;

@@ -1,6 +1,7 @@
 // A scene file, parsed and validated: the settings of every room. Schema: scenes/README.md.
 #pragma once
 
+#include "caches/options.h"
 #include "render/options.h"
 #include "sim/motion_options.h"
 #include "sim/options.h"
@@ -26,6 +27,7 @@ struct Scene {
   std::uint64_t seed = 1;
   sim::Options sim;
   sim::MotionOptions motion;
+  caches::Options files;  // with MotionKind::files
   texture::Options texture;
   std::vector<sim::Shape> scaleFrom;  // what ScaleBy::distance is measured from
   std::vector<sim::Shape> keepClear;  // places where the orientation field should have no singularities
@@ -40,6 +42,7 @@ struct Overrides {
   Quality quality = Quality::standard;
   std::vector<std::string> set;    // "dotted.key=value", value as in TOML, bare words taken as strings
   std::filesystem::path exemplar;  // empty: the scene's own; else toroidal is false unless set
+  bool liquidOnly = false;         // no exemplar is asked for, and none is read
 };
 
 // Every fault found in the file, one line each:  FILE:LINE:COLUMN: error: KEY: what is wrong; what would be
@@ -52,5 +55,9 @@ struct SceneError : std::runtime_error {
 // Parses, applies [quality.NAME] and the overrides, and validates. Paths inside are relative to the file's
 // folder. Throws SceneError with all faults.
 Scene loadScene(const std::filesystem::path& file, const Overrides& overrides = {});
+
+// The scene of another program's cache that has no scene file: motion.flow = "files", everything else as the
+// overrides say or by default. What is found out from the files is still missing: see pipeline/take_cache.h.
+Scene sceneOfCache(const std::filesystem::path& cache, const Overrides& overrides = {});
 
 }  // namespace fluidtex::scenes

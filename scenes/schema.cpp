@@ -22,17 +22,40 @@ void describeWall(Visitor& visitor, sim::Wall& wall) {
 void describeMotion(Visitor& visitor, sim::MotionOptions& motion) {
   visitor.table("motion", [&] {
     choice(visitor, "flow", motion.flow,
-           {"solver", "rest", "rotation", "vortex", "deformation", "stretch", "source_sink"});
+           {"solver", "rest", "rotation", "vortex", "deformation", "stretch", "source_sink", "files"});
     visitor.number("period", motion.period, kPositive);
     visitor.number("rate", motion.rate, kPositive);
   });
 }
 
-void describeLiquid(Visitor& visitor, sim::Options& sim) {
+void describeFiles(Visitor& visitor, caches::Options& files) {
+  visitor.table("files", [&] {
+    visitor.path("path", files.path);
+    visitor.path("velocity", files.velocity);
+    visitor.text("surface_name", files.surfaceName);
+    visitor.text("velocity_name", files.velocityName);
+    visitor.integer("first", files.first, {.low = -1, .high = 1e9});
+    visitor.number("unit", files.unit, kPositive);
+    choice(visitor, "up", files.up, {"z", "y"});
+    visitor.vector("turn", files.turn, {.low = -360.0, .high = 360.0});
+    visitor.number("scale", files.scale, kPositive);
+    visitor.vector("move", files.move, kAny);
+    visitor.number("iso", files.iso, kAny);
+    visitor.number("velocity_scale", files.velocityScale, kAny);
+    visitor.number("radius", files.radius, kNotNegative);
+    visitor.number("voxel", files.voxel, kNotNegative);
+    visitor.number("least_piece", files.leastPiece, kNotNegative);
+    visitor.number("least_explained", files.leastExplained, kShare);
+  });
+}
+
+// The domain of a liquid out of files is found, where nothing is said of it.
+void describeLiquid(Visitor& visitor, sim::Options& sim, bool solved) {
+  const Need need = solved ? Need::required : Need::optional;
   visitor.table(
       "domain",
       [&] {
-        visitor.vector("size", sim.size, kPositive, Need::required);
+        visitor.vector("size", sim.size, kPositive, need);
         visitor.integer("resolution", sim.resolution, {.low = 8, .high = 4096});
         visitor.table("sides", [&] {
           static const char* const kKeys[] = {"x_low", "x_high", "y_low", "y_high", "z_low", "z_high"};
@@ -40,7 +63,7 @@ void describeLiquid(Visitor& visitor, sim::Options& sim) {
             choice(visitor, kKeys[n], sim.sides[n], {"wall", "open", "stream", "symmetry", "unbounded"});
         });
       },
-      Need::required);
+      need);
   visitor.table("fluid", [&] {
     visitor.number("density", sim.density, kPositive);
     visitor.number("viscosity", sim.viscosity, kNotNegative);
@@ -167,12 +190,15 @@ void describeGuidance(Visitor& visitor, texture::Options& texture) {
   });
 }
 
-void describeTexture(Visitor& visitor, Scene& scene) {
+void describeTexture(Visitor& visitor, Scene& scene, Need need) {
   texture::Options& texture = scene.texture;
   visitor.table(
       "texture",
       [&] {
-        visitor.file("exemplar", texture.exemplar.file, {});
+        if (need == Need::required)
+          visitor.file("exemplar", texture.exemplar.file, {});
+        else
+          visitor.absent("exemplar");
         visitor.flag("toroidal", texture.exemplar.toroidal);
         choice(visitor, "between", texture.exemplar.between, {"points", "exemplar", "file"});
         if (texture.exemplar.between == texture::Between::file)
@@ -233,7 +259,7 @@ void describeTexture(Visitor& visitor, Scene& scene) {
           visitor.vector("translate", scene.onto.translate, kAny);
         });
       },
-      Need::required);
+      need);
 }
 
 void describePicture(Visitor& visitor, render::Options& render) {
@@ -270,14 +296,15 @@ void describePicture(Visitor& visitor, render::Options& render) {
 
 }  // namespace
 
-void describe(Visitor& visitor, Scene& scene) {
+void describe(Visitor& visitor, Scene& scene, Need texture) {
   visitor.text("name", scene.name);
   visitor.integer("frames", scene.frames, {.low = 1, .high = 9999});
   visitor.number("frame_rate", scene.sim.frameRate, {.low = 1.0, .high = 1000.0});
   visitor.seed("seed", scene.seed);
   describeMotion(visitor, scene.motion);
-  describeLiquid(visitor, scene.sim);
-  describeTexture(visitor, scene);
+  describeFiles(visitor, scene.files);
+  describeLiquid(visitor, scene.sim, scene.motion.flow != sim::MotionKind::files);
+  describeTexture(visitor, scene, texture);
   describePicture(visitor, scene.render);
 }
 

@@ -17,7 +17,8 @@ inline const std::vector<std::string> kDensityKeys = {"points", "spacing"};
 inline const std::vector<std::string> kDomainFaces = {"all",    "x_low", "x_high", "y_low",
                                                       "y_high", "z_low", "z_high"};
 
-void describe(Visitor& visitor, Scene& scene);
+// texture: optional where only the liquid is looked at: no exemplar is asked for then.
+void describe(Visitor& visitor, Scene& scene, Need texture = Need::required);
 
 // The shape keys of one liquid, solid or part: kShapeKeys.
 void describeShape(Visitor& visitor, sim::Shape& shape);

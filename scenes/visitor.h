@@ -49,6 +49,8 @@ class Visitor {
   // is not checked.
   virtual void files(const std::string& key, std::filesystem::path& value,
                      const std::vector<std::string>& endings) = 0;
+  // A file, a folder or a pattern of files. Its existence is not checked.
+  virtual void path(const std::string& key, std::filesystem::path& value) = 0;
   // One of a few words, by index.
   virtual void choice(const std::string& key, int& value, const std::vector<std::string>& words) = 0;
 

@@ -1,11 +1,11 @@
-// Settings of what moves the liquid: the solver, or an analytic flow.
+// Settings of what moves the liquid: the solver, an analytic flow, or files of another program.
 #pragma once
 
 namespace fluidtex::sim {
 
-enum class MotionKind { solver, rest, rotation, vortex, deformation, stretch, sourceSink };
+enum class MotionKind { solver, rest, rotation, vortex, deformation, stretch, sourceSink, files };
 
-// An analytic flow (sim/motion/known_flow.h) is scaled to the domain.
+// An analytic flow (sim/motion/known_flow.h) is scaled to the domain. Files: caches/options.h.
 struct MotionOptions {
   MotionKind flow = MotionKind::solver;
   double period = 6.0;  // s, vortex and deformation: they reverse after half of it

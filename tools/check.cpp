@@ -1,13 +1,14 @@
 // fluidtex check SCENE: validate only, and print what a run would do.
 #include "pipeline/foreseen_surface.h"
 #include "pipeline/liquid_plan.h"
+#include "pipeline/motion.h"
 #include "sim/grid/mac_grid.h"
-#include "sim/motion/motion.h"
 #include "sim/solids/domain.h"
 #include "texture/exemplar/exemplar.h"
 #include "tools/base/console.h"
 #include "tools/base/errors.h"
 #include "tools/base/work.h"
+#include "tools/check_cache.h"
 #include "tools/common_options.h"
 #include "tools/frames/check_relief.h"
 #include "tools/frames/color_between.h"
@@ -25,6 +26,7 @@ namespace {
 constexpr double kFewExemplars = 0.25;
 
 void check(const CommonOptions& options) {
+  if (isCache(options.scene) && options.exemplar.empty()) return checkCache(options);
   const scenes::Scene scene = loadScene(options);
   int first = 1, last = 0;
   parseFrames(options.frames, scene.frames, first, last);
@@ -34,6 +36,7 @@ void check(const CommonOptions& options) {
   const std::optional<texture::Detail> detail = detailOf(scene.texture);
   checkRelief(scene.render.bump, exemplar);
   if (options.quiet) return;
+  if (scene.motion.flow == sim::MotionKind::files) checkMotionOf(scene, first, last);
   nowAt(kOnMotion);
   const double h = scene.sim.voxelSize();
   const pipeline::LiquidPlan liquid = pipeline::planLiquid(scene.sim);
@@ -95,16 +98,17 @@ void check(const CommonOptions& options) {
   print("\n");
   for (const std::string& note : imageNotes(colorPictures(scene.texture.exemplar)))
     say("warning: {}\n", note);
-  for (const std::string& warning : sim::warningsOf(scene.sim, scene.motion)) say("warning: {}\n", warning);
+  for (const std::string& warning : pipeline::warningsOf(scene)) say("warning: {}\n", warning);
 }
 
 }  // namespace
 
 void addCheck(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("check", "Validate a scene and print the plan");
+  CLI::App* command = app.add_subcommand("check", "Validate a scene or a cache, and print what is in it");
   auto options = std::make_shared<CommonOptions>();
   addSceneOptions(*command, *options);
-  command->footer("Example:\n  fluidtex check scenes/dam_break.toml --quality final");
+  command->footer(
+      "Examples:\n  fluidtex check scenes/dam_break.toml --quality final\n  fluidtex check cache_fluid");
   command->callback([options, &exitCode] { exitCode = guarded([&] { check(*options); }); });
 }
 

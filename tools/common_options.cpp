@@ -1,17 +1,22 @@
 #include "tools/common_options.h"
 
+#include "caches/layouts/numbered_files.h"
+#include "pipeline/take_cache.h"
+#include "scenes/writer.h"
 #include "sim/grid/mac_grid.h"
 #include "sim/meshes/read_mesh.h"
 #include "sim/shapes/moving_mesh.h"
 #include "sim/shapes/pose.h"
 #include "sim/shapes/shape_distance.h"
 #include "sim/solids/domain.h"
+#include "tools/base/console.h"
 #include "tools/base/errors.h"
 
 #include <fmt/core.h>
 
 #include <charconv>
 #include <cstdio>
+#include <system_error>
 
 namespace fluidtex::tools {
 namespace {
@@ -70,7 +75,9 @@ void tryMeshes(const sim::Shape& shape, const openvdb::BBoxd& reach, const sim::
 }  // namespace
 
 void addSceneOptions(CLI::App& command, CommonOptions& options) {
-  command.add_option("scene", options.scene, "Scene file")->required()->type_name("SCENE");
+  command.add_option("scene", options.scene, "Scene file, or a folder or file of another program's cache")
+      ->required()
+      ->type_name("SCENE");
   command.add_option("--out", options.out, "Folder for the results (default: out/SCENE_NAME)")
       ->type_name("DIR");
   command
@@ -96,13 +103,28 @@ void addSceneOptions(CLI::App& command, CommonOptions& options) {
   command.add_flag("--verbose", options.verbose, "More in the log");
 }
 
+bool isCache(const std::filesystem::path& scene) {
+  std::error_code unknown;
+  return std::filesystem::is_directory(scene, unknown) ||
+         (scene.extension() != ".toml" &&
+          (std::filesystem::exists(scene, unknown) || caches::isPattern(scene)));
+}
+
 scenes::Scene loadScene(const CommonOptions& options) {
   scenes::Overrides overrides;
   if (options.quality == "preview") overrides.quality = scenes::Quality::preview;
   if (options.quality == "final") overrides.quality = scenes::Quality::final;
   overrides.set = options.set;
   overrides.exemplar = options.exemplar;
-  scenes::Scene scene = scenes::loadScene(options.scene, overrides);
+  const bool ofCache = isCache(options.scene);
+  scenes::Scene scene =
+      ofCache ? scenes::sceneOfCache(options.scene, overrides) : scenes::loadScene(options.scene, overrides);
+  if (scene.motion.flow == sim::MotionKind::files) {
+    const caches::Survey survey = pipeline::takeCache(scene);
+    scene.resolved = scenes::resolvedText(scene, overrides.quality);
+    if (ofCache && !options.quiet)
+      for (const std::string& line : caches::describe(survey.layout)) print("{}\n", line);
+  }
   const openvdb::BBoxd domain = sim::domainBox(scene.sim);
   for (const sim::LiquidBody& body : scene.sim.liquid)
     tryMeshes(body.shape, domain, scene.sim.size, options.quiet);

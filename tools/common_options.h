@@ -10,8 +10,13 @@ namespace fluidtex::tools {
 
 void addSceneOptions(CLI::App& command, CommonOptions& options);
 
-// Loads the scene with quality, --set and --exemplar applied, and test-reads its mesh files. Throws
-// scenes::SceneError, sim::MeshError.
+// Whether this is the cache of another program and no scene file: a folder, a pattern, or a file that does not
+// end in .toml.
+bool isCache(const std::filesystem::path& scene);
+
+// Loads the scene with quality, --set and --exemplar applied, and test-reads its mesh files; of a cache, or
+// where the scene's liquid comes out of files, what is found in these is filled in. Throws
+// scenes::SceneError, sim::MeshError, caches::LayoutError, caches::FormatError.
 scenes::Scene loadScene(const CommonOptions& options);
 
 // Parses "A:B", "A:" or "A" into first and last, of a scene with `frames` frames; empty means all. Throws

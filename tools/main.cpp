@@ -22,15 +22,18 @@ int main(int argc, char** argv) {
   spdlog::set_default_logger(
       std::make_shared<spdlog::logger>("fluidtex", std::make_shared<spdlog::sinks::null_sink_mt>()));
   CLI::App app(
-      "fluidtex simulates a liquid and covers its moving surface with texture grown from an example image.",
+      "fluidtex simulates a liquid and covers its moving surface, or that of another program's liquid, with "
+      "texture grown from an example image.",
       "fluidtex");
   app.set_version_flag("--version", std::string("fluidtex ") + FLUIDTEX_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Examples:\n  fluidtex run scenes/dam_break.toml\n  fluidtex check scenes/dam_break.toml --quality "
+      "Examples:\n  fluidtex run scenes/dam_break.toml\n  fluidtex texture cache_fluid --exemplar lava.jpg\n "
+      " fluidtex check scenes/dam_break.toml --quality "
       "final");
   int exitCode = kDone;
   addRun(app, exitCode);
+  addTexture(app, exitCode);
   addCompare(app, exitCode);
   addApply(app, exitCode);
   addCheck(app, exitCode);

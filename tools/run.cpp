@@ -65,24 +65,41 @@ void runInto(const std::filesystem::path& out, const scenes::Scene& scene, const
   }
 }
 
-void addRun(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("run", "Simulate, texture, render and write, frame by frame");
-  auto options = std::make_shared<CommonOptions>();
-  addSceneOptions(*command, *options);
-  command->add_flag("--resume", options->resume,
-                    "Go on from the last frame that an earlier, unfinished run has left in the folder");
-  command->add_flag("--no-render", options->noRender, "Write surfaces only, no pictures and no video");
-  command->footer(
-      "Example:\n"
-      "  fluidtex run scenes/dam_break.toml --quality preview --exemplar bark.jpg --set texture.points=20000 "
-      "--out out/bark");
-  command->callback([options, &exitCode] {
+namespace {
+
+void addRunOptions(CLI::App& command, const std::shared_ptr<CommonOptions>& options, int& exitCode) {
+  addSceneOptions(command, *options);
+  command.add_flag("--resume", options->resume,
+                   "Go on from the last frame that an earlier, unfinished run has left in the folder");
+  command.add_flag("--no-render", options->noRender, "Write surfaces only, no pictures and no video");
+  command.callback([options, &exitCode] {
     exitCode = guarded([&] {
       const scenes::Scene scene = loadScene(*options);
       runInto(options->out.empty() ? std::filesystem::path("out") / scene.name : options->out, scene,
               *options);
     });
   });
+}
+
+}  // namespace
+
+void addRun(CLI::App& app, int& exitCode) {
+  CLI::App* command = app.add_subcommand("run", "Simulate, texture, render and write, frame by frame");
+  addRunOptions(*command, std::make_shared<CommonOptions>(), exitCode);
+  command->footer(
+      "Example:\n"
+      "  fluidtex run scenes/dam_break.toml --quality preview --exemplar bark.jpg --set texture.points=20000 "
+      "--out out/bark");
+}
+
+void addTexture(CLI::App& app, int& exitCode) {
+  CLI::App* command =
+      app.add_subcommand("texture", "Texture and render the liquid of another program's cache");
+  addRunOptions(*command, std::make_shared<CommonOptions>(), exitCode);
+  command->footer(
+      "Examples:\n"
+      "  fluidtex texture cache_fluid --exemplar lava.jpg\n"
+      "  fluidtex texture 'water_####.vdb' --exemplar bark.jpg --set files.up=y --out out/water");
 }
 
 }  // namespace fluidtex::tools

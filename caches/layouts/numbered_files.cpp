@@ -65,8 +65,8 @@ std::vector<std::string> namesIn(const fs::path& folder) {
 void add(const fs::path& folder, const std::string& name, int number, NumberedFiles& files) {
   const auto [place, isNew] = files.byNumber.emplace(number, folder / name);
   if (!isNew)
-    throw LayoutError(place->second.string() + " and " + (folder / name).string() +
-                      ": are both number " + std::to_string(number) + "; leave one of them");
+    throw LayoutError(place->second.string() + " and " + (folder / name).string() + ": are both number " +
+                      std::to_string(number) + "; leave one of them");
 }
 
 NumberedFiles filesBetween(const fs::path& folder, const std::string& before, const std::string& after) {
@@ -119,7 +119,8 @@ NumberedFiles numberedLike(const fs::path& patternOrFile) {
   if (const auto [begin, length] = placeIn(name); length > 0 && !isFile) {
     NumberedFiles files = filesBetween(folder, name.substr(0, begin), name.substr(begin + length));
     if (files.empty())
-      throw LayoutError(patternOrFile.string() + ": there is no file of this pattern; #### stands for the number");
+      throw LayoutError(patternOrFile.string() +
+                        ": there is no file of this pattern; #### stands for the number");
     return files;
   }
   if (!isFile)

@@ -15,7 +15,7 @@ struct LayoutError : std::runtime_error {
 };
 
 struct NumberedFiles {
-  std::filesystem::path pattern;                // the number as ####, for messages
+  std::filesystem::path pattern;  // the number as ####, for messages
   std::map<int, std::filesystem::path> byNumber;
 
   bool empty() const { return byNumber.empty(); }

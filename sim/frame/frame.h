@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct FrameStats {
   int pressureIterations = 0;   // summed over the substeps
   int viscosityIterations = 0;  // summed over the substeps
   double pressureResidual = 0;  // largest relative residual of the substeps
+  // Of a liquid out of files: share of the surface's motion that its velocities explain, at most 1
+  // (caches/liquid/explained.h); nothing where little moves.
+  std::optional<double> explained = std::nullopt;
 };
 
 struct Frame {

@@ -1,9 +1,9 @@
 #include "tools/frames/frame_loop.h"
 
+#include "pipeline/motion.h"
 #include "pipeline/texture_frame.h"
 #include "render/frame_name.h"
 #include "render/render.h"
-#include "sim/motion/motion.h"
 #include "tools/base/atomic_file.h"
 #include "tools/base/console.h"
 #include "tools/base/errors.h"
@@ -94,12 +94,12 @@ class FrameLoop {
   void run() {
     if (!m_options.resume || !continueFromState()) {
       nowAt(kOnMotion);
-      m_motion = sim::makeMotion(m_scene.sim, m_scene.motion);
+      m_motion = pipeline::makeMotion(m_scene);
       clearEarlierRun(m_options.out, m_scene.name);
     }
     tellWarnings();
     for (const std::string& note : imageNotes(colorPictures(m_scene.texture.exemplar))) warn(note);
-    const int first = sim::stateOf(*m_motion).frame + 1;
+    const int first = pipeline::stateOf(*m_motion).frame + 1;
     spdlog::info("{}: frames {} to {}, {} threads", m_scene.name, first, m_last, m_options.threads);
     Progress progress(first, m_last, m_options.quiet);
     m_progress = &progress;
@@ -121,7 +121,7 @@ class FrameLoop {
 
   // Those of the motion that have come up since the last call.
   void tellWarnings() {
-    const std::vector<std::string> all = sim::warningsOf(*m_motion);
+    const std::vector<std::string> all = pipeline::warningsOf(*m_motion);
     for (; m_warningsTold < all.size(); ++m_warningsTold) warn(all[m_warningsTold]);
   }
 
@@ -143,7 +143,7 @@ class FrameLoop {
     {
       Stopwatch watch(seconds.write);
       recordCost(record, seconds);
-      saveState(sim::stateOf(*m_motion), m_surface, toJson(reportOf(record)), m_options.out / "state");
+      saveState(pipeline::stateOf(*m_motion), m_surface, toJson(reportOf(record)), m_options.out / "state");
     }
     recordCost(record, seconds);
     addToJournal(m_options.out, {lineOfFrame(record)});
@@ -170,8 +170,8 @@ class FrameLoop {
     StageSeconds& seconds = result.seconds;
     {
       Stopwatch watch(seconds.simulate);
-      nowAt(kOnMotion, sim::stateOf(*m_motion).frame + 1);
-      result.motion = sim::nextFrame(*m_motion, reporter("simulate"));
+      nowAt(kOnMotion, pipeline::stateOf(*m_motion).frame + 1);
+      result.motion = pipeline::nextFrame(*m_motion, reporter("simulate"));
     }
     tellWarnings();
     const int frame = result.motion.index;
@@ -266,11 +266,11 @@ class FrameLoop {
     std::optional<EarlierFrames> earlier = earlierFrames(m_scene, m_options, m_report, m_last);
     if (!earlier) return false;
     m_report.frames = std::move(earlier->records);
-    m_motion = sim::makeMotion(m_scene.sim, m_scene.motion, std::move(earlier->solver));
+    m_motion = pipeline::makeMotion(m_scene, std::move(earlier->solver));
     m_surface = std::move(earlier->surface);
     if (earlier->writeLastAgain) {
       StageSeconds seconds;
-      writeResults(sim::stateOf(*m_motion).frame, m_report.frames.back().at("time").get<double>(), seconds);
+      writeResults(pipeline::stateOf(*m_motion).frame, m_report.frames.back().at("time").get<double>(), seconds);
     }
     m_reportFile.write(m_report);
     return true;
@@ -281,7 +281,7 @@ class FrameLoop {
       if (m_stop) throw Interrupted();
       // None while files of an earlier run are made again.
       if (m_progress == nullptr) return;
-      m_progress->update(sim::stateOf(*m_motion).frame + (std::string_view(stage) == "simulate" ? 1 : 0),
+      m_progress->update(pipeline::stateOf(*m_motion).frame + (std::string_view(stage) == "simulate" ? 1 : 0),
                          stage, part);
     };
   }
@@ -294,7 +294,7 @@ class FrameLoop {
   // What pictures show between the points, where it is not their colours.
   std::optional<texture::Detail> m_detail;
   pipeline::Texturing m_texturing;
-  std::optional<sim::Motion> m_motion;
+  std::optional<pipeline::Motion> m_motion;
   std::size_t m_warningsTold = 0;
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
   VisibleSolids m_solids;

@@ -45,6 +45,7 @@ class Collector : public scenes::Visitor {
 
   void file(const std::string& key, fs::path& value, const Words&) override { add(key, value, false); }
   void files(const std::string& key, fs::path& value, const Words&) override { add(key, value, true); }
+  void path(const std::string&, fs::path&) override {}
   // The numbers of a sequence stand behind its name in the same table.
   void integer(const std::string& key, int& value, const Limits&, Need) override {
     if (inputs.empty() || !inputs.back().sequence || inputs.back().key != dotted("files")) return;

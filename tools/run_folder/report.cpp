@@ -51,6 +51,7 @@ Json frameRecord(const sim::Frame& frame, const texture::TexturedSurface& surfac
   record["cells"] = frame.stats.cells;
   record["volume"] = frame.stats.volume;
   record["deficit"] = frame.stats.deficit;
+  if (frame.stats.explained) record["explained"] = *frame.stats.explained;
   record["vertices"] = surface.positions.size();
   record["triangles"] = surface.triangles.size();
   record["components"] = mesh.components;

@@ -1,0 +1,171 @@
+#include "caches/layouts/programs.h"
+
+#include "caches/formats/read_geometry.h"
+#include "foreign/grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace fluidtex::caches {
+namespace {
+
+using foreign::GridHead;
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return text;
+}
+
+// Names of surfaces and velocities, the most usual first.
+constexpr std::array kDistanceNames{"surface",  "liquid_surface", "fluid_surface", "sdf",
+                                    "levelset", "level_set",      "phi",           "distance"};
+constexpr std::array kDensityNames{"density", "fluid", "liquid", "fluid_density"};
+constexpr std::array kVelocityNames{"vel", "v", "velocity", "velocities"};
+
+template <class Fits>
+const GridHead* firstOf(const std::vector<GridHead>& grids, const Fits& fits) {
+  const auto found = std::find_if(grids.begin(), grids.end(), fits);
+  return found == grids.end() ? nullptr : &*found;
+}
+
+const GridHead* named(const std::vector<GridHead>& grids, const std::string& name, bool vectors) {
+  return firstOf(grids, [&](const GridHead& grid) {
+    return grid.readable && grid.vectors == vectors && lower(grid.name) == name;
+  });
+}
+
+std::string namesOf(const std::vector<GridHead>& grids) {
+  std::string text;
+  for (const GridHead& grid : grids) text += (text.empty() ? "" : ", ") + grid.name;
+  return text.empty() ? "none" : text;
+}
+
+const GridHead* surfaceOf(const std::vector<GridHead>& grids, bool& fog) {
+  fog = false;
+  for (const char* name : kDistanceNames)
+    if (const GridHead* grid = named(grids, name, false); grid && grid->gridClass != "fog volume")
+      return grid;
+  const auto isLevelSet = [](const GridHead& grid) {
+    return grid.readable && !grid.vectors && grid.gridClass == "level set";
+  };
+  if (const GridHead* grid = firstOf(grids, isLevelSet)) return grid;
+  fog = true;
+  for (const char* name : kDensityNames)
+    if (const GridHead* grid = named(grids, name, false)) return grid;
+  return firstOf(grids, [](const GridHead& grid) {
+    return grid.readable && !grid.vectors && grid.gridClass == "fog volume";
+  });
+}
+
+std::vector<std::string> velocityOf(const std::vector<GridHead>& grids, bool& onFaces) {
+  const GridHead* vectors = nullptr;
+  for (const char* name : kVelocityNames)
+    if (!vectors) vectors = named(grids, name, true);
+  if (!vectors) vectors = firstOf(grids, [](const GridHead& grid) { return grid.readable && grid.vectors; });
+  if (vectors) {
+    onFaces = vectors->gridClass == "staggered";
+    return {vectors->name};
+  }
+  const auto three = [&](const std::array<std::string, 3>& names) {
+    std::vector<std::string> found;
+    for (const std::string& name : names)
+      if (const GridHead* grid = named(grids, name, false)) found.push_back(grid->name);
+    return found.size() == 3 ? found : std::vector<std::string>{};
+  };
+  for (const std::string base : kVelocityNames)
+    for (const std::string between : {".", "", "_"})
+      if (auto names = three({base + between + "x", base + between + "y", base + between + "z"});
+          !names.empty())
+        return names;
+  return three({"u", "v", "w"});
+}
+
+// "a,b,c" in its parts.
+std::vector<std::string> parts(const std::string& names) {
+  std::vector<std::string> result;
+  std::size_t begin = 0;
+  for (std::size_t comma = names.find(','); comma != std::string::npos; comma = names.find(',', begin)) {
+    result.push_back(names.substr(begin, comma - begin));
+    begin = comma + 1;
+  }
+  result.push_back(names.substr(begin));
+  return result;
+}
+
+std::vector<std::string> givenVelocity(const std::filesystem::path& file, const std::vector<GridHead>& grids,
+                                       const std::string& given, bool& onFaces) {
+  const std::vector<std::string> names = parts(given);
+  if (names.size() != 1 && names.size() != 3)
+    throw LayoutError("files.velocity_name: \"" + given + "\" names " + std::to_string(names.size()) +
+                      " grids; name one of vectors, or three, \"u,v,w\"");
+  for (const std::string& name : names) {
+    const GridHead* grid = firstOf(grids, [&](const GridHead& other) {
+      return other.name == name && other.readable && other.vectors == (names.size() == 1);
+    });
+    if (!grid)
+      throw LayoutError(file.string() + ": holds no grid of " + (names.size() == 1 ? "vectors" : "numbers") +
+                        " named \"" + name + "\"; there are: " + namesOf(grids));
+    onFaces = names.size() == 1 && grid->gridClass == "staggered";
+  }
+  return names;
+}
+
+}  // namespace
+
+GridChoice chooseGrids(const std::filesystem::path& file, const Options& options) {
+  std::vector<GridHead> grids;
+  try {
+    grids = foreign::listGrids(file);
+  } catch (const foreign::Unreadable& error) {
+    throw LayoutError(file.string() + ": " + error.what());
+  }
+  GridChoice choice;
+  if (options.surfaceName.empty()) {
+    if (const GridHead* grid = surfaceOf(grids, choice.fog)) choice.surface = grid->name;
+  } else if (const GridHead* grid =
+                 firstOf(grids, [&](const GridHead& other) { return other.name == options.surfaceName; })) {
+    if (!grid->readable || grid->vectors)
+      throw LayoutError(file.string() + ": its grid \"" + grid->name +
+                        "\" holds no numbers that can be a surface; there are: " + namesOf(grids));
+    choice.surface = grid->name;
+    choice.fog = grid->gridClass == "fog volume" || (options.iso != 0.0 && grid->gridClass != "level set");
+  }
+  choice.velocity = options.velocityName.empty()
+                        ? velocityOf(grids, choice.onFaces)
+                        : givenVelocity(file, grids, options.velocityName, choice.onFaces);
+  for (const GridHead& grid : grids)
+    if (grid.readable && !grid.vectors && grid.name != choice.surface && !grid.name.empty() &&
+        std::find(choice.velocity.begin(), choice.velocity.end(), grid.name) == choice.velocity.end())
+      choice.scalars.push_back(grid.name);
+  return choice;
+}
+
+AttributeChoice chooseAttributes(const std::filesystem::path& file, const Options& options) {
+  const Geometry geometry = readGeometry(file);
+  AttributeChoice choice;
+  choice.triangles = !geometry.triangles.empty();
+  for (const auto& [name, attribute] : geometry.attributes)
+    if (attribute.components == 1) choice.scalars.push_back(name);
+  if (!options.velocityName.empty()) {
+    const auto found = geometry.attributes.find(options.velocityName);
+    if (found != geometry.attributes.end() && found->second.components == 3) {
+      choice.velocity = found->first;
+    } else {
+      std::string there;
+      for (const auto& [name, attribute] : geometry.attributes)
+        if (attribute.components == 3) there += (there.empty() ? "" : ", ") + name;
+      throw LayoutError(file.string() + ": has no attribute of vectors \"" + options.velocityName +
+                        "\"; there are: " + (there.empty() ? "none" : there));
+    }
+    return choice;
+  }
+  for (const char* wanted : kVelocityNames)
+    for (const auto& [name, attribute] : geometry.attributes)
+      if (choice.velocity.empty() && attribute.components == 3 && lower(name) == wanted)
+        choice.velocity = name;
+  return choice;
+}
+
+}  // namespace fluidtex::caches

@@ -1,0 +1,133 @@
+#include "caches/liquid/cached_flow.h"
+
+#include "caches/liquid/read_frame.h"
+#include "caches/liquid/velocity_grids.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fluidtex::caches {
+namespace {
+
+constexpr int kMostSubsteps = 4;
+// Frames of which the velocities must explain too little before a run ends.
+constexpr std::size_t kJudged = 3;
+
+std::int64_t cellsInside(const openvdb::FloatGrid& phi) {
+  std::int64_t count = 0;
+  for (auto value = phi.cbeginValueAll(); value; ++value)
+    if (*value < 0.0f) count += std::int64_t(value.getVoxelCount());
+  return count;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Grids that know nothing.
+sim::FaceGrids unknownVelocity(double h) {
+  return sim::makeVelocity(h);
+}
+
+}  // namespace
+
+CachedFlow::CachedFlow(Cache cache) : m_cache(std::move(cache)) {
+  if (m_cache.layout.velocityKind == VelocityKind::none && m_cache.options.leastExplained > 0.0)
+    throw LayoutError(
+        m_cache.layout.surface.pattern.string() +
+        ": no velocities were found, without which texture cannot follow the liquid; write them "
+        "(an attribute v, a grid vel), name them with files.velocity or files.velocity_name, or "
+        "let texture stay in place with files.least_explained=0");
+  m_state.phi = sim::makePhi(m_cache.voxel, float(m_cache.voxel));
+  m_state.velocity = sim::makeVelocity(m_cache.voxel);
+}
+
+CachedFlow::CachedFlow(Cache cache, sim::State state) : CachedFlow(std::move(cache)) {
+  m_state.frame = state.frame;
+  m_state.time = state.time;
+  if (m_state.frame > 0) m_last = readFrame(m_cache, numberOf(m_state.frame));
+}
+
+void CachedFlow::warnOnce(const std::string& warning) {
+  if (std::find(m_warnings.begin(), m_warnings.end(), warning) == m_warnings.end())
+    m_warnings.push_back(warning);
+}
+
+void CachedFlow::judge(const LiquidFrame& now, const FrameMotion& motion, int number) {
+  if (!motion.explained) return;
+  m_explained.push_back(*motion.explained);
+  if (m_explained.size() < kJudged || median(m_explained) >= m_cache.options.leastExplained) return;
+  const double seconds = 1.0 / m_cache.frameRate;
+  const std::optional<VelocityFactor> factor =
+      bestFactor(*m_last->phi, *now.phi, m_last->velocity, now.velocity, motion.meanWeight, seconds);
+  std::string advice = "check that surface and velocities are of the same frames";
+  if (factor && factor->residual < 0.5 * factor->residualAtRest)
+    advice = fmt::format("with files.velocity_scale={:.3g} they would explain it", factor->factor);
+  throw LayoutError(
+      fmt::format("{}: up to frame {} the velocities explain only {:.0f}% of the surface's motion "
+                  "(files.least_explained is "
+                  "{:.0f}%); {}, or go on with files.least_explained=0",
+                  m_cache.layout.surface.pattern.string(), number, 100.0 * median(m_explained),
+                  100.0 * m_cache.options.leastExplained, advice));
+}
+
+void CachedFlow::addSubsteps(const LiquidFrame& now, sim::Frame& frame) {
+  const double seconds = 1.0 / m_cache.frameRate;
+  const auto add = [&](double dt, const sim::FaceGrids& grids) {
+    frame.substeps.push_back({dt, grids.component[0], grids.component[1], grids.component[2]});
+  };
+  const sim::FaceGrids begin = m_last->velocity ? m_last->velocity : unknownVelocity(m_cache.voxel);
+  const sim::FaceGrids end = now.velocity ? now.velocity : unknownVelocity(m_cache.voxel);
+  FrameMotion motion;
+  if (m_last->velocity && now.velocity) {
+    motion = bestMotion(*m_last->phi, *now.phi, begin, end, seconds);
+    judge(now, motion, numberOf(frame.index));
+    frame.stats.explained = motion.explained;
+  } else {
+    motion.meanWeight = m_last->velocity ? 0.0 : 1.0;
+  }
+  if (motion.meanWeight == 0.0 || motion.meanWeight == 1.0) {
+    add(seconds, motion.meanWeight == 0.0 ? begin : end);
+  } else if (!sameTransforms(begin, end)) {
+    add((1.0 - motion.meanWeight) * seconds, begin);
+    add(motion.meanWeight * seconds, end);
+  } else {
+    const double speed = std::max(sim::maxAbs(begin), sim::maxAbs(end));
+    const double cells = speed * seconds / begin[0].voxelSize()[0];
+    const int substeps = int(std::clamp(std::ceil(0.5 * cells), 1.0, double(kMostSubsteps)));
+    for (int n = 0; n < substeps; ++n)
+      add(seconds / substeps, blended(begin, end, weightAt(motion.meanWeight, (n + 0.5) / substeps)));
+  }
+  frame.stats.dtMin = frame.substeps.front().dt;
+  for (const sim::Substep& substep : frame.substeps)
+    frame.stats.dtMin = std::min(frame.stats.dtMin, substep.dt);
+}
+
+sim::Frame CachedFlow::next(const std::function<void(double)>& progress) {
+  sim::Frame frame;
+  frame.index = m_state.frame + 1;
+  frame.time = m_state.frame / m_cache.frameRate;
+  const int number = numberOf(frame.index);
+  LiquidFrame now = readFrame(m_cache, number);
+  if (progress) progress(0.7);
+  if (now.isSheet)
+    warnOnce(m_cache.layout.surface.at(number).string() +
+             ": encloses no volume; open surfaces are taken as sheets, one and a half cells thick");
+  if (m_last) addSubsteps(now, frame);
+  frame.surfacePhi = now.phi;
+  frame.fields = now.fields;
+  frame.stats.cells = cellsInside(*now.phi);
+  frame.stats.volume = double(frame.stats.cells) * std::pow(m_cache.voxel, 3);
+  m_last = std::move(now);
+  m_state.frame = frame.index;
+  m_state.time = frame.time;
+  if (progress) progress(1.0);
+  return frame;
+}
+
+}  // namespace fluidtex::caches

@@ -1,0 +1,257 @@
+#include "caches/liquid/read_frame.h"
+
+#include "caches/formats/flip_fluids.h"
+#include "caches/formats/read_fields.h"
+#include "caches/formats/read_geometry.h"
+#include "caches/liquid/level_set.h"
+#include "caches/liquid/mantaflow_frame.h"
+#include "caches/liquid/particles.h"
+#include "caches/liquid/placement.h"
+#include "caches/liquid/velocity_grids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+namespace fluidtex::caches {
+namespace fs = std::filesystem;
+namespace {
+
+using openvdb::Mat3d;
+using openvdb::Mat4d;
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+
+// Cells around the surface in which attributes at its points become velocities: at least, and at most.
+constexpr int kLeastReach = 6, kMostReach = 24;
+// Level of densities where nothing is said: this share of the largest.
+constexpr float kIsoShare = 0.5f;
+
+bool isEmptyFile(const fs::path& file) {
+  std::error_code unknown;
+  return fs::file_size(file, unknown) == 0 && !unknown;
+}
+
+bool isMantaflow(const Cache& cache) {
+  return cache.layout.program == Program::mantaflow;
+}
+
+double largestOf(const openvdb::FloatGrid& grid) {
+  float largest = 0.0f;
+  for (auto value = grid.cbeginValueOn(); value; ++value) largest = std::max(largest, *value);
+  return double(largest);
+}
+
+// What a frame's files hold, in the world's place, before it becomes grids.
+struct Raw {
+  SurfaceTriangles surface;
+  Geometry geometry;  // of meshes and particles, as in the file
+};
+
+double radiusOf(const Cache& cache, const std::vector<Vec3f>& points) {
+  return cache.options.radius > 0.0 ? cache.options.radius : 0.5 * particleSpacing(points);
+}
+
+SurfaceTriangles surfaceInGrid(const Cache& cache, const fs::path& file) {
+  const openvdb::FloatGrid::Ptr grid = readScalars(file, cache.layout.surfaceName);
+  if (cache.layout.surfaceKind != SurfaceKind::fog) return surfaceOfGrid(*grid, cache.options.iso);
+  const double iso = cache.options.iso > 0.0 ? cache.options.iso : kIsoShare * largestOf(*grid);
+  return iso > 0.0 ? surfaceOfGrid(*grid, iso) : SurfaceTriangles{};
+}
+
+Raw readRaw(const Cache& cache, int number) {
+  const fs::path& file = cache.layout.surface.at(number);
+  Raw raw;
+  if (isEmptyFile(file)) return raw;
+  Mat4d world = worldFromFile(cache.options);
+  switch (cache.layout.surfaceKind) {
+    case SurfaceKind::mesh:
+      raw.geometry = readGeometry(file);
+      raw.surface = {raw.geometry.points, raw.geometry.triangles};
+      if (isMantaflow(cache)) world = mantaflowPlace(cache, number).worldFromMesh * world;
+      break;
+    case SurfaceKind::particles:
+      raw.geometry = readGeometry(file);
+      raw.surface = surfaceOfParticles(raw.geometry.points, 2.0 * radiusOf(cache, raw.geometry.points));
+      break;
+    case SurfaceKind::mantaflow: {
+      const MantaflowPlace place = mantaflowPlace(cache, number);
+      raw.surface = surfaceOfGrid(*mantaflowDistance(file, place.resolution), 0.0);
+      world = place.worldFromIndex * world;
+      break;
+    }
+    case SurfaceKind::levelSet:
+    case SurfaceKind::fog:
+      raw.surface = surfaceInGrid(cache, file);
+      break;
+  }
+  place(world, raw.surface.points);
+  dropPieces(cache.options.leastPiece, raw.surface);
+  return raw;
+}
+
+// Largest length of vectors at points but for the fastest hundredth, which are stray drops.
+double mostSpeed(const std::vector<float>& vectors) {
+  std::vector<float> squares;
+  for (std::size_t n = 0; n + 2 < vectors.size(); n += 3)
+    squares.push_back(vectors[n] * vectors[n] + vectors[n + 1] * vectors[n + 1] +
+                      vectors[n + 2] * vectors[n + 2]);
+  if (squares.empty()) return 0.0;
+  const auto at = squares.begin() + std::ptrdiff_t(0.99 * double(squares.size() - 1));
+  std::nth_element(squares.begin(), at, squares.end());
+  return std::sqrt(double(*at));
+}
+
+// Cells that a frame's motion may lead away from the surface.
+int reachInCells(const Cache& cache, double speed) {
+  return int(std::clamp(std::ceil(speed / cache.frameRate / cache.voxel) + 3.0, double(kLeastReach),
+                        double(kMostReach)));
+}
+
+std::vector<float> inWorld(std::vector<float> vectors, const Mat3d& velocityFromFile) {
+  for (std::size_t n = 0; n + 2 < vectors.size(); n += 3) {
+    const Vec3d v = velocityFromFile.transform(Vec3d(vectors[n], vectors[n + 1], vectors[n + 2]));
+    for (int axis = 0; axis < 3; ++axis) vectors[n + std::size_t(axis)] = float(v[axis]);
+  }
+  return vectors;
+}
+
+void atPoints(const Cache& cache, const SurfaceTriangles& surface, const std::vector<float>& vectors,
+              LiquidFrame& frame) {
+  frame.velocity =
+      velocityGrids(continuedOff(surface, vectors, 3, cache.voxel, reachInCells(cache, mostSpeed(vectors))));
+}
+
+void velocityOfAttribute(const Cache& cache, int number, const Raw& raw, LiquidFrame& frame) {
+  const std::string& name = cache.layout.velocityNames.front();
+  const auto attribute = raw.geometry.attributes.find(name);
+  if (attribute == raw.geometry.attributes.end() || attribute->second.components != 3)
+    throw LayoutError(cache.layout.surface.at(number).string() + ": lacks the attribute " + name +
+                      ", which other frames have; write it for all frames");
+  const std::vector<float>& values = attribute->second.values;
+  if (cache.layout.surfaceKind == SurfaceKind::particles) {
+    RawVelocity grids;
+    grids.vectors =
+        velocityOfParticles(raw.geometry.points, values, 2.0 * radiusOf(cache, raw.geometry.points));
+    grids.worldFromFile = worldFromFile(cache.options);
+    grids.velocityFromFile = velocityFromFile(cache.options);
+    frame.velocity = velocityGrids(grids, cache.voxel, *leavesNear(*frame.phi, kMostReach * cache.voxel));
+    return;
+  }
+  atPoints(cache, raw.surface, inWorld(values, velocityFromFile(cache.options)), frame);
+}
+
+// FLIP Fluids' velocities are in the simulation's unit. Displacements of a frame, where there are some, are
+// in the mesh's: the factor between them is that of least squares.
+void velocityOfFlipFluids(const Cache& cache, int number, const Raw& raw, LiquidFrame& frame) {
+  const fs::path& file = cache.layout.velocity.at(number);
+  const std::vector<Vec3f> velocity = readFlipVectors(file);
+  if (velocity.size() != raw.geometry.points.size())
+    throw LayoutError(file.string() + ": holds " + std::to_string(velocity.size()) + " vectors, the mesh " +
+                      std::to_string(raw.geometry.points.size()) + " points; bake both anew");
+  double factor = 1.0;
+  if (cache.layout.blur.byNumber.contains(number)) {
+    const std::vector<Vec3f> blur = readFlipVectors(cache.layout.blur.at(number));
+    double both = 0.0, squares = 0.0;
+    for (std::size_t n = 0; n < std::min(blur.size(), velocity.size()); ++n) {
+      both += double(blur[n].dot(velocity[n]));
+      squares += double(velocity[n].lengthSqr());
+    }
+    if (both > 0.0 && squares > 0.0) factor = both / squares * cache.frameRate;
+  }
+  std::vector<float> values;
+  values.reserve(3 * velocity.size());
+  for (const Vec3f& v : velocity)
+    for (int axis = 0; axis < 3; ++axis) values.push_back(float(factor) * v[axis]);
+  atPoints(cache, raw.surface, inWorld(std::move(values), velocityFromFile(cache.options)), frame);
+}
+
+void velocityInGrids(const Cache& cache, int number, LiquidFrame& frame) {
+  const fs::path& file = cache.layout.velocity.at(number);
+  RawVelocity raw;
+  raw.onFaces = cache.layout.onFaces;
+  raw.worldFromFile = worldFromFile(cache.options);
+  raw.velocityFromFile = velocityFromFile(cache.options);
+  if (cache.layout.velocityNames.size() == 1) {
+    raw.vectors = readVectors(file, cache.layout.velocityNames.front());
+  } else {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      raw.numbers[axis] = readScalars(file, cache.layout.velocityNames[axis]);
+  }
+  if (isMantaflow(cache)) {
+    const MantaflowPlace place = mantaflowPlace(cache, number);
+    raw.vectors->setTransform(openvdb::math::Transform::createLinearTransform(1.0));
+    raw.worldFromFile = place.worldFromIndex * raw.worldFromFile;
+    raw.velocityFromFile = place.metersPerSecond * raw.velocityFromFile;
+  }
+  frame.velocity = velocityGrids(raw, cache.voxel, *leavesNear(*frame.phi, kMostReach * cache.voxel));
+}
+
+void readVelocity(const Cache& cache, int number, const Raw& raw, LiquidFrame& frame) {
+  switch (cache.layout.velocityKind) {
+    case VelocityKind::none:
+      return;
+    case VelocityKind::attribute:
+      if (!raw.geometry.points.empty()) velocityOfAttribute(cache, number, raw, frame);
+      return;
+    case VelocityKind::flipFluids:
+      if (!raw.geometry.points.empty()) velocityOfFlipFluids(cache, number, raw, frame);
+      return;
+    case VelocityKind::grids:
+      if (!isEmptyFile(cache.layout.velocity.at(number))) velocityInGrids(cache, number, frame);
+      return;
+  }
+}
+
+void readScalarFields(const Cache& cache, int number, const Raw& raw, LiquidFrame& frame) {
+  const SurfaceKind kind = cache.layout.surfaceKind;
+  for (const std::string& name : cache.layout.scalars) {
+    if (kind == SurfaceKind::levelSet || kind == SurfaceKind::fog) {
+      const openvdb::FloatGrid::Ptr grid = readScalars(cache.layout.surface.at(number), name);
+      grid->transform().postMult(worldFromFile(cache.options));
+      frame.fields[name] = sim::fromOpenVdb(*grid);
+      continue;
+    }
+    const auto attribute = raw.geometry.attributes.find(name);
+    if (kind != SurfaceKind::mesh || attribute == raw.geometry.attributes.end()) continue;
+    frame.fields[name] = sim::fromOpenVdb(
+        *continuedOff(raw.surface, attribute->second.values, 1, cache.voxel, kLeastReach).front());
+  }
+}
+
+}  // namespace
+
+SurfaceTriangles readSurface(const Cache& cache, int number) {
+  return readRaw(cache, number).surface;
+}
+
+LiquidFrame readFrame(const Cache& cache, int number) {
+  Raw raw = readRaw(cache, number);
+  LiquidFrame frame;
+  LevelSet levelSet = levelSetOf(raw.surface, cache.voxel);
+  frame.phi = std::move(levelSet.phi);
+  frame.isSheet = levelSet.isSheet;
+  if (!raw.surface.triangles.empty()) {
+    readVelocity(cache, number, raw, frame);
+    readScalarFields(cache, number, raw, frame);
+  }
+  frame.surface = std::move(raw.surface);
+  return frame;
+}
+
+double suitingVoxel(const Cache& cache, int number, const SurfaceTriangles& surface) {
+  const SurfaceKind kind = cache.layout.surfaceKind;
+  if (kind == SurfaceKind::mantaflow)
+    return mantaflowPlace(cache, number).voxel * cache.options.unit * cache.options.scale;
+  if (kind == SurfaceKind::levelSet || kind == SurfaceKind::fog) {
+    const openvdb::FloatGrid::Ptr grid =
+        readScalars(cache.layout.surface.at(number), cache.layout.surfaceName);
+    const Mat3d voxel =
+        (grid->transform().baseMap()->getAffineMap()->getMat4() * worldFromFile(cache.options)).getMat3();
+    return std::cbrt(std::abs(voxel.det()));
+  }
+  return meanEdge(surface);
+}
+
+}  // namespace fluidtex::caches

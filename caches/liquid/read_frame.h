@@ -1,0 +1,19 @@
+// Reading of a frame.
+#pragma once
+
+#include "caches/liquid/cache.h"
+
+namespace fluidtex::caches {
+
+// The surface of the frame of this number as triangles in metres, without its level set and velocity; pieces
+// below Options::leastPiece are left out. A file of no bytes is a frame without liquid. Throws LayoutError or
+// FormatError.
+SurfaceTriangles readSurface(const Cache& cache, int number);
+
+// All of it. Velocities are known within two frames' motion of the surface, or wherever the files have them.
+LiquidFrame readFrame(const Cache& cache, int number);
+
+// Side of the cells that suit a frame of this surface, metres: the voxels of grids, else the mean edge.
+double suitingVoxel(const Cache& cache, int number, const SurfaceTriangles& surface);
+
+}  // namespace fluidtex::caches

@@ -1,0 +1,81 @@
+#include "caches/liquid/surface_mesh.h"
+
+#include <openvdb/tools/VolumeToMesh.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace fluidtex::caches {
+namespace {
+
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+using openvdb::Vec3I;
+
+// The lowest point that a point is connected to; paths are halved on the way.
+std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+void join(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) {
+  a = rootOf(parent, a);
+  b = rootOf(parent, b);
+  if (a != b) parent[std::max(a, b)] = std::min(a, b);
+}
+
+}  // namespace
+
+SurfaceTriangles surfaceOfGrid(const openvdb::FloatGrid& grid, double iso) {
+  std::vector<openvdb::Vec4I> quads;
+  SurfaceTriangles surface;
+  openvdb::tools::volumeToMesh(grid, surface.points, surface.triangles, quads, iso);
+  for (const openvdb::Vec4I& quad : quads) {
+    surface.triangles.emplace_back(quad[0], quad[1], quad[2]);
+    surface.triangles.emplace_back(quad[0], quad[2], quad[3]);
+  }
+  return surface;
+}
+
+void place(const openvdb::Mat4d& worldFromFile, std::vector<Vec3f>& points) {
+  tbb::parallel_for(std::size_t{0}, points.size(),
+                    [&](std::size_t n) { points[n] = Vec3f(worldFromFile.transform(Vec3d(points[n]))); });
+}
+
+void dropPieces(double leastVolume, SurfaceTriangles& surface) {
+  if (leastVolume <= 0.0 || surface.triangles.empty()) return;
+  std::vector<std::uint32_t> parent(surface.points.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  for (const Vec3I& t : surface.triangles) {
+    join(parent, t[0], t[1]);
+    join(parent, t[1], t[2]);
+  }
+  // Volumes against a point of the piece itself, so that those far from the origin lose no digits.
+  std::vector<double> volume(surface.points.size(), 0.0);
+  for (const Vec3I& t : surface.triangles) {
+    const std::uint32_t root = rootOf(parent, t[0]);
+    const Vec3d from(surface.points[root]);
+    const auto at = [&](int corner) { return Vec3d(surface.points[t[corner]]) - from; };
+    volume[root] += at(0).dot(at(1).cross(at(2))) / 6.0;
+  }
+  std::erase_if(surface.triangles,
+                [&](const Vec3I& t) { return std::abs(volume[rootOf(parent, t[0])]) < leastVolume; });
+}
+
+double meanEdge(const SurfaceTriangles& surface) {
+  double sum = 0.0;
+  for (const Vec3I& t : surface.triangles)
+    for (int corner = 0; corner < 3; ++corner)
+      sum += (surface.points[t[corner]] - surface.points[t[(corner + 1) % 3]]).length();
+  return surface.triangles.empty() ? 0.0 : sum / (3.0 * double(surface.triangles.size()));
+}
+
+openvdb::BBoxd boundsOf(const SurfaceTriangles& surface) {
+  openvdb::BBoxd bounds;
+  for (const Vec3I& t : surface.triangles)
+    for (int corner = 0; corner < 3; ++corner) bounds.expand(Vec3d(surface.points[t[corner]]));
+  return bounds;
+}
+
+}  // namespace fluidtex::caches

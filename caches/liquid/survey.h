@@ -1,0 +1,18 @@
+// What has to be known of a cache before its frames are read one by one.
+#pragma once
+
+#include "caches/liquid/cache.h"
+
+namespace fluidtex::caches {
+
+struct Survey {
+  Layout layout;
+  double voxel = 0.0;     // side of the level sets' cells, metres
+  openvdb::BBoxd bounds;  // of the surface in the first frame that has one, a middle one and the last, metres
+};
+
+// Recognizes the cache and reads those three surfaces. Throws LayoutError (also where no frame holds a
+// surface) or FormatError.
+Survey survey(const Options& options);
+
+}  // namespace fluidtex::caches

@@ -1,0 +1,41 @@
+#include "pipeline/motion.h"
+
+#include <utility>
+
+namespace fluidtex::pipeline {
+namespace {
+
+bool isOutOfFiles(const scenes::Scene& scene) {
+  return scene.motion.flow == sim::MotionKind::files;
+}
+
+}  // namespace
+
+Motion makeMotion(const scenes::Scene& scene, std::optional<sim::State> state) {
+  if (!isOutOfFiles(scene)) return sim::makeMotion(scene.sim, scene.motion, std::move(state));
+  caches::Cache cache{scene.files, caches::recognize(scene.files), scene.files.voxel, scene.sim.frameRate};
+  return state ? caches::CachedFlow(std::move(cache), std::move(*state))
+               : caches::CachedFlow(std::move(cache));
+}
+
+sim::Frame nextFrame(Motion& motion, const std::function<void(double)>& progress) {
+  if (auto* cached = std::get_if<caches::CachedFlow>(&motion)) return cached->next(progress);
+  return sim::nextFrame(std::get<sim::Motion>(motion), progress);
+}
+
+const sim::State& stateOf(const Motion& motion) {
+  if (const auto* cached = std::get_if<caches::CachedFlow>(&motion)) return cached->state();
+  return sim::stateOf(std::get<sim::Motion>(motion));
+}
+
+std::vector<std::string> warningsOf(const Motion& motion) {
+  if (const auto* cached = std::get_if<caches::CachedFlow>(&motion)) return cached->warnings();
+  return sim::warningsOf(std::get<sim::Motion>(motion));
+}
+
+std::vector<std::string> warningsOf(const scenes::Scene& scene) {
+  if (isOutOfFiles(scene)) return {};
+  return sim::warningsOf(scene.sim, scene.motion);
+}
+
+}  // namespace fluidtex::pipeline

@@ -1,0 +1,28 @@
+// The source of a scene's frames: solver, analytic flow, or the cache of another program.
+#pragma once
+
+#include "caches/liquid/cached_flow.h"
+#include "scenes/scene.h"
+#include "sim/motion/motion.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace fluidtex::pipeline {
+
+using Motion = std::variant<sim::Motion, caches::CachedFlow>;
+
+// From the start or from a state. Throws as sim::makeMotion() and caches::CachedFlow.
+Motion makeMotion(const scenes::Scene& scene, std::optional<sim::State> state = {});
+
+// The next frame; its number and time are those after the state's. Throws as the source does.
+sim::Frame nextFrame(Motion& motion, const std::function<void(double)>& progress = {});
+const sim::State& stateOf(const Motion& motion);
+std::vector<std::string> warningsOf(const Motion& motion);
+// Those that are known without making the source.
+std::vector<std::string> warningsOf(const scenes::Scene& scene);
+
+}  // namespace fluidtex::pipeline
