@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 namespace fluidtex::testing {
 
@@ -58,6 +59,18 @@ inline sim::Frame steadyFrame(const Cells& cells, double time, int substeps, con
 
 inline Flow linearFlow(const Mat3d& a) {
   return [a](const Vec3d& x) { return a * x; };
+}
+
+// Scattered through [-reach, reach]^3, crossing cells and leaves everywhere.
+inline std::vector<openvdb::Vec3f> scattered(int count, double reach) {
+  std::vector<openvdb::Vec3f> points;
+  for (int i = 0; i < count; ++i) {
+    const auto part = [&](double irrational) {
+      return float((std::fmod(i * irrational, 1.0) * 2.0 - 1.0) * reach);
+    };
+    points.emplace_back(part(0.7548776662), part(0.5698402910), part(0.8191725134));
+  }
+  return points;
 }
 
 // The matrix exponential, by its series on a halved argument.

@@ -112,38 +112,3 @@ TEST_CASE("isosurface: a tile of inside values without leaves around it is close
   REQUIRE(isClosedManifold(surface.positions.size(), surface.triangles));
   REQUIRE(characteristics(surface) == std::map<long, int>{{2, 1}});
 }
-
-TEST_CASE("level set: tricubic samples are exact for quadratic polynomials, with their gradient") {
-  // Catmull-Rom reproduces quadratics. The band of two voxels around the zero set is what samples see.
-  const auto f = [](const Vec3d& p) {
-    return 0.3 * p.x() - 0.8 * p.y() + 0.02 * p.z() * p.z() - 0.01 * p.x() * p.y();
-  };
-  openvdb::initialize();
-  auto grid = FloatGrid::create(50.0f);
-  const openvdb::CoordBBox box(openvdb::Coord(-12), openvdb::Coord(12));
-  for (auto it = box.begin(); it; ++it) grid->tree().setValue(*it, float(f((*it).asVec3d())));
-  const LevelSet phi(*grid);
-  int known = 0;
-  for (int i = 0; i < 300; ++i) {
-    const Vec3d p(4.0 * std::sin(1.7 * i), 1.5 * std::sin(0.9 * i + 1.0), 4.0 * std::cos(2.3 * i));
-    if (std::abs(f(p)) > 1.0) continue;
-    const LevelSet::Sample s = phi.sample(Vec3f(p));
-    if (!s.known) continue;
-    ++known;
-    CHECK(s.value == Approx(f(p)).margin(1e-4));
-    CHECK(s.gradient.x() == Approx(0.3 - 0.01 * p.y()).margin(1e-4));
-    CHECK(s.gradient.y() == Approx(-0.8 - 0.01 * p.x()).margin(1e-4));
-    CHECK(s.gradient.z() == Approx(0.04 * p.z()).margin(1e-4));
-  }
-  CHECK(known > 50);
-}
-
-TEST_CASE("level set: refuses values that are not finite, in leaves and tiles") {
-  openvdb::initialize();
-  auto leaf = sphereGrid(1.0, 0.1);
-  leaf->tree().setValue(openvdb::Coord(10, 0, 0), std::numeric_limits<float>::quiet_NaN());
-  CHECK_THROWS_AS(LevelSet(*leaf), std::invalid_argument);
-  auto tile = FloatGrid::create(1.0f);
-  tile->tree().addTile(1, openvdb::Coord(0), std::numeric_limits<float>::infinity(), false);
-  CHECK_THROWS_AS(LevelSet(*tile), std::invalid_argument);
-}

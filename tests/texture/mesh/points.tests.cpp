@@ -1,7 +1,6 @@
 #include "texture/mesh/points.h"
 
 #include "tests/texture/levelset/level_sets.h"
-#include "texture/loops/point_grid.h"
 
 #include <catch2/catch.hpp>
 
@@ -77,15 +76,5 @@ TEST_CASE("points: fresh points lie on the smooth surface, however close they ar
     for (const Vec3f& p : points.position) off += std::abs(phi.sample(p).value) > 0.05f;
     INFO("spacing " << spacing << ", " << points.position.size() << " points");
     CHECK(off == 0);
-  }
-}
-
-TEST_CASE("point grid: what lies too far away for the number of its cell is found, too") {
-  const std::vector<Vec3f> points{{0, 0, 0}, {1e30f, 0, 0}, {0, -4e9f, 0}};
-  const PointGrid grid(points, 0.5);
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    std::vector<std::uint32_t> found;
-    grid.visitNear(points[i], [&](std::uint32_t index) { found.push_back(index); });
-    CHECK(found == std::vector{i});
   }
 }

@@ -1,47 +1,17 @@
 // The paper's transport over the grid, where it must be exact or has a bound.
+#include "transport/grid_transport.h"
+
 #include "tests/threads.h"
 #include "tests/transport/orientation_flows.h"
-#include "transport/band.h"
 #include "transport/carry.h"
-#include "transport/grid_transport.h"
+
+#include <catch2/catch.hpp>
 
 #include <cstring>
 
 using namespace fluidtex;
 using namespace fluidtex::testing;
 using namespace fluidtex::transport;
-
-TEST_CASE("band: the cells whose velocity is known, and their neighbours", "[transport]") {
-  const Cells cells{0.1, -3, 4};
-  const Band band = bandOf(steadyFrame(cells, 1.0, 2, [](const Vec3d&) { return Vec3d(1.0); }));
-  CHECK(band.h == Approx(0.1));
-  REQUIRE(band.cells.size() == 8 * 8 * 8);
-  for (std::size_t cell = 0; cell < band.cells.size(); ++cell) {
-    for (std::size_t side = 0; side < 6; ++side) {
-      openvdb::Coord beside = band.cells[cell];
-      beside[int(side / 2)] += side % 2 ? 1 : -1;
-      const std::int32_t found = band.neighbor[cell][side];
-      const int place = beside[int(side / 2)];
-      REQUIRE((found == Band::kNone) == (place < -3 || place > 4));
-      if (found != Band::kNone) REQUIRE(band.cells[std::size_t(found)] == beside);
-    }
-    REQUIRE((band.center(cell) - band.cells[cell].asVec3d() * 0.1).length() < 1e-6);
-  }
-  CHECK(bandOf(sim::Frame{}).cells.empty());
-}
-
-TEST_CASE("band: the velocity's gradient is exact for a linear flow, inside", "[transport]") {
-  const Mat3d a = matrix(0.5, 1.0, -0.25, 2.0, -1.5, 0.125, 0.75, -0.5, 1.0);
-  const sim::Frame frame = steadyFrame({0.1, -6, 6}, 1.0, 1, linearFlow(a));
-  const Band band = bandOf(frame);
-  const std::vector<Vec3d> velocity = velocityAtCells(band, frame.substeps[0]);
-  for (std::size_t cell = 0; cell < band.cells.size(); ++cell) {
-    const openvdb::Coord& c = band.cells[cell];
-    if (std::max({std::abs(c[0]), std::abs(c[1]), std::abs(c[2])}) > 4) continue;
-    REQUIRE((velocity[cell] - a * band.center(cell)).length() < 1e-5);
-    REQUIRE(largestDifference(velocityGradient(band, velocity, cell), a) < 1e-4);
-  }
-}
 
 TEST_CASE("coordinate fields: a uniform stream is exact, and no velocity moves nothing", "[transport]") {
   const Vec3d velocity(1.5, -0.75, 0.5);
