@@ -1,6 +1,7 @@
 // Sections C.3 and C.4 of the reference: liquid that should not move, and liquid that only falls.
 #include "tests/validation/rest_cases.h"
 
+#include "tests/validation/face_velocities.h"
 #include "tests/validation/measure.h"
 #include "tests/validation/solver_run.h"
 
@@ -36,7 +37,7 @@ Result pool(const std::string& test, const Vec3d& up, const Vec3d& point,
   double fastest = 0.0, last = first;
   for (int n = 0; n < frames; ++n) {
     last = solver.next().stats.volume;
-    fastest = std::max(fastest, farthestFrom(solver.state(), [](const Vec3d&) { return Vec3d(0.0); }));
+    fastest = std::max(fastest, fastestOf(solver.state()));
     if (progress) progress((n + 1.0) / frames);
   }
   const double drift = compare(*solver.state().phi, plane, cells, samples).farthest * resolution;
@@ -103,7 +104,7 @@ Result viscousPool(int resolution, const Progress& progress) {
         for (int n = 0; n < kFrames; ++n) {
           const double last = solver.next().stats.volume;
           volume = std::max(volume, std::abs(last / first - 1.0));
-          fastest = std::max(fastest, farthestFrom(solver.state(), [](const Vec3d&) { return Vec3d(0.0); }));
+          fastest = std::max(fastest, fastestOf(solver.state()));
           if (progress) progress((run + (n + 1.0) / kFrames) / kRuns);
         }
         for (int i = 1; i < resolution; i += 3)

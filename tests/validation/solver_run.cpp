@@ -24,22 +24,6 @@ sim::Solver startedWith(const sim::Options& options, const std::function<Vec3d(c
   return sim::Solver(options, std::move(state));
 }
 
-double farthestFrom(const sim::State& state, const std::function<Vec3d(const Vec3d&)>& field) {
-  const auto phi = state.phi->getConstUnsafeAccessor();
-  double most = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto& grid = state.velocity.component[axis];
-    for (auto it = grid->cbeginValueOn(); it; ++it) {
-      Coord below = it.getCoord();
-      below[axis] -= 1;
-      if (phi.getValue(it.getCoord()) >= 0.0f || phi.getValue(below) >= 0.0f) continue;
-      const double exact = field(grid->indexToWorld(it.getCoord()))[axis];
-      most = std::max(most, std::abs(*it - exact));
-    }
-  }
-  return most;
-}
-
 double surfaceHeight(const sim::State& state, int i, int j, int cells) {
   const auto phi = state.phi->getConstUnsafeAccessor();
   for (int k = cells - 1; k >= 0; --k) {

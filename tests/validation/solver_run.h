@@ -8,14 +8,10 @@
 namespace fluidtex::validation {
 
 // A solver whose first frame has been made, with this velocity (m/s, at world positions) given to every
-// active face at that time. Later velocities are those of State::ahead after the frame's time. Nothing is
-// projected: the field should be free of divergence on the faces.
+// active face at that time. Later velocities are later than the frame's time by State::leapfrogOffset.
+// Nothing is projected: the field should be free of divergence on the faces.
 sim::Solver startedWith(const sim::Options& options,
                         const std::function<sim::Vec3d(const sim::Vec3d&)>& velocity);
-
-// Largest difference of a velocity component from the field, over the faces that have liquid on both sides,
-// m/s.
-double farthestFrom(const sim::State& state, const std::function<sim::Vec3d(const sim::Vec3d&)>& field);
 
 // Height of the surface above the floor in the column of cells (i, j), by linear interpolation of phi; 0
 // without liquid.

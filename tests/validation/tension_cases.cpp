@@ -5,6 +5,7 @@
 #include "sim/step/step.h"
 #include "sim/surface/level_set.h"
 #include "sim/surface/redistance.h"
+#include "tests/validation/face_velocities.h"
 #include "tests/validation/solver_run.h"
 
 #include <fmt/format.h>
@@ -74,10 +75,6 @@ sim::Solver shaped(const sim::Options& options, bool flat,
   return sim::Solver(within, std::move(state));
 }
 
-double fastest(const sim::State& state) {
-  return farthestFrom(state, [](const Vec3d&) { return Vec3d(0.0); });
-}
-
 // The pressure in a drop, from one projection. It should be sigma (1 / R + 1 / R), and nothing should move.
 Result laplace(int resolution, const Progress&) {
   sim::Options options = dropOptions(resolution, false, 0.0);
@@ -135,7 +132,7 @@ Result staticDrop(int resolution, const Progress& progress) {
   for (int n = 0; n < kFrames; ++n) {
     const sim::Frame frame = solver.next();
     after = frame.stats.volume;
-    last = fastest(solver.state());
+    last = fastestOf(solver.state());
     most = std::max(most, last);
     if (progress) progress((n + 1.0) / kFrames);
   }

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "sim/step/solver.h"
+#include "tests/validation/face_velocities.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -41,20 +40,6 @@ bool same(const Grid& a, const Grid& b) {
   return true;
 }
 
-// The largest velocity component between two cells of liquid, m/s.
-inline double fastestOf(const State& state) {
-  double most = 0.0;
-  const auto phi = state.phi->getConstUnsafeAccessor();
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto& grid = state.velocity.component[axis];
-    for (auto it = grid->cbeginValueOn(); it; ++it) {
-      Coord below = it.getCoord();
-      below[axis] -= 1;
-      if (phi.getValue(it.getCoord()) < 0.0f && phi.getValue(below) < 0.0f)
-        most = std::max(most, std::abs(double(*it)));
-    }
-  }
-  return most;
-}
+using validation::fastestOf;
 
 }  // namespace fluidtex::sim
