@@ -30,7 +30,7 @@ using Range = tbb::blocked_range<int>;
 constexpr double kSuctionNoise = 1e-5;
 
 // Tolerance of the expansion. The deficit changes from step to step by more than this error.
-constexpr double kGrowthTolerance = 1e-2;
+constexpr double kExpansionTolerance = 1e-2;
 
 // Tolerance at which separation is tested first: mostly it shows by then.
 constexpr double kSeparationTolerance = 1e-3;
@@ -296,7 +296,7 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   PressureReport& report = result.report;
   report.cells = n;
   report.converged = true;
-  std::vector<double> q(n, 0.0), growing;
+  std::vector<double> q(n, 0.0), expansion;
   std::vector<char> detached(n, 0);
   for (int pass = 0; n > 0; ++pass) {
     std::vector<int> liquidOf;
@@ -352,9 +352,9 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
       setOutflow(*options.divergence, liquid, system, solid.voxelSize, b);
       std::fill(x.begin(), x.end(), 0.0);
       // If this fails, no deficit is given back in this step.
-      if (poisson.solve(std::move(b), x, kGrowthTolerance, options.maxIterations).converged) {
-        growing.assign(n, 0.0);
-        for (std::size_t i = 0; i < liquidOf.size(); ++i) growing[liquidOf[i]] = x[i];
+      if (poisson.solve(std::move(b), x, kExpansionTolerance, options.maxIterations).converged) {
+        expansion.assign(n, 0.0);
+        for (std::size_t i = 0; i < liquidOf.size(); ++i) expansion[liquidOf[i]] = x[i];
       }
     }
     break;
@@ -364,12 +364,12 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   result.valid.component[0] = updateFaces(liquid, surface, solid, q, detached, 0, u);
   result.valid.component[1] = updateFaces(liquid, surface, solid, q, detached, 1, v);
   result.valid.component[2] = updateFaces(liquid, surface, solid, q, detached, 2, w);
-  if (!growing.empty()) {
+  if (!expansion.empty()) {
     result.expansion = makeVelocity(solid.voxelSize);
     const SolidField still = atRest(solid);
     const std::vector<char> none(n, 0);
     for (int axis = 0; axis < 3; ++axis)
-      updateFaces(liquid, {}, still, growing, none, axis, *result.expansion.component[axis]);
+      updateFaces(liquid, {}, still, expansion, none, axis, *result.expansion.component[axis]);
   }
   result.separating = separatingCells(liquid, solid, detached);
   for (const Edge& edge : liquid.edges) {

@@ -102,13 +102,13 @@ PressureOptions pressureOf(const Options& options, double h, double dt, double k
 
 bool applyViscosityFor(Liquid& liquid, const SolidField& solid, double kick, const Options& options,
                        const FloatGrid* viscosity, StepReport& report) {
-  const ViscousStepReport friction =
+  const ViscousStepReport viscous =
       applyViscousStep(liquid.velocity, *liquid.phi, solid, kick, options.density,
                        {.constant = options.viscosity, .variable = viscosity},
                        pressureOf(options, voxelSize(liquid), kick, kick));
-  report.viscosity = friction.viscosity;
-  if (!friction.viscosity.skipped) report.pressure = friction.pressure;
-  return friction.converged();
+  report.viscosity = viscous.viscosity;
+  if (!viscous.viscosity.skipped) report.pressure = viscous.pressure;
+  return viscous.converged();
 }
 
 bool applyPressure(Liquid& liquid, const SolidField& solid, double dt, double kick, const Options& options,

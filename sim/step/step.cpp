@@ -142,10 +142,10 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
     solves.heatConverged = moveHeat(liquid, next, around, flows, dt, options);
     viscosity = viscosityOf(*next.temperature, options.heat.law, options.viscosity);
   }
-  const bool frictionless =
+  const bool inviscid =
       viscosity == nullptr && isNegligible(options.viscosity, kick, options.density, voxelSize(next));
   Velocity arrived;
-  if (!frictionless) arrived = copyOf(next.velocity);
+  if (!inviscid) arrived = copyOf(next.velocity);
   const bool converged =
       solves.heatConverged && applyViscosityFor(next, around, kick, options, viscosity.get(), solves);
   if (report != nullptr) *report = solves;

@@ -30,7 +30,7 @@ fs::path written(const fs::path& file, const std::string& text) {
   return file;
 }
 
-// The volume of the first frame, with what its surface has lost and owes.
+// The volume of the first frame, with the volume deficit of its surface.
 double volumeOf(std::vector<std::string> args, const fs::path& out) {
   for (const char* more : {"--no-render", "--frames", "1:1", "--out"}) args.emplace_back(more);
   args.push_back(out.string());

@@ -10,8 +10,8 @@ class VolumeBudget {
  public:
   VolumeBudget(const sim::Options& options, const Surroundings& surroundings);
 
-  // Volumes, m3, are what there is and what is owed together. Each call gives how far outside of what can be
-  // the volume is: above 0 where there is too much, below 0 where there is too little. Of the first frame:
+  // Volumes, m3, are those of liquid and volume deficit together. Each call gives how far outside of what can
+  // be the volume is: above 0 where there is too much, below 0 where there is too little. Of the first frame:
   // beside what the shapes themselves hold.
   double start(double volume);
   // Between two frames, at these times.

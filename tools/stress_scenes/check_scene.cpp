@@ -37,14 +37,14 @@ constexpr double kDeficitOfThin = 0.5;
 // Cells: surface over less liquid than that is that of films.
 constexpr double kFilmThickness = 0.6;
 // Liquid that meets a wall within a step goes into it until the step ends, by `cfl` cells at most. So much of
-// that may be owed at once, times the surface's area.
+// that may be volume deficit at once, times the surface's area.
 constexpr double kImpact = 0.1;
 // Times the speed that a fall from the highest place to the lowest gives. The front of a dam break alone has
 // 1.4 times that (Ritter), and where fronts meet or close, jets are faster still.
 constexpr double kJets = 3.0;
 // Of the energy of motion and place: what the surface's volume, read off phi, is not exact by.
 constexpr double kEnergyTolerance = 0.01;
-// Cells that what is owed may go until it is surface again.
+// Cells that volume deficit may move until it is surface again.
 constexpr double kGivenBack = 8.0;
 // Of the energy of the surface: of films thinner than two cells only half is seen, and all of it is set free.
 constexpr double kFilms = 0.1;
@@ -209,10 +209,10 @@ class Checks {
            fmt::format("{} cells of liquid, one at {}", cells, written((first.asVec3d() + Vec3d(0.5)) * h)));
   }
 
-  // Potential energy and surface are those of the frame, the velocity is of a time `ahead`. Until then the
-  // energy of place falls by what gravity does meanwhile: exactly, but for a part of second order, of which
-  // free fall has the most, m (g ahead)^2 / 2. What is owed may have been lost at another height than where
-  // it is, what was owed some cells from where it came back, and of a drop that no grid sees a cell is the
+  // Potential energy and surface are those of the frame, the velocity is later by the leapfrog offset. Until
+  // then the energy of place falls by what gravity does meanwhile: exactly, but for a part of second order,
+  // of which free fall has the most, m (g offset)^2 / 2. A deficit may have been lost at another height than
+  // where it is, and given back some cells from where it was, and of a drop that no grid sees a cell is the
   // least that can be known.
   void energy(const sim::State& state, const sim::Frame& frame, const Measures& now) {
     const double h = m_options.voxelSize(), deficit = std::abs(frame.stats.deficit);
@@ -237,7 +237,7 @@ class Checks {
     m_energy = std::min(m_energy, sum + unseenEnergy(frame, now));
   }
 
-  // What liquid that is owed can have of motion and of surface: it moves as the liquid seen does on the
+  // Energy of motion and of surface that the volume deficit can have: it moves as the liquid seen does on the
   // whole, in drops of a cell or larger. It may be seen again.
   double unseenEnergy(const sim::Frame& frame, const Measures& now) const {
     const double unseen = std::max(0.0, frame.stats.deficit), perVolume = std::cbrt(36.0 * M_PI);

@@ -19,7 +19,7 @@ struct Failure {
 //   finite   all values of the state are finite
 //   poured   on the first frame there is as much liquid as the shapes hold
 //   volume   liquid plus volume deficit is what was poured plus inflow minus outflow, to 1%
-//   owed     the volume deficit is less than 2% of the liquid, but for a few frames, and half of thin sheets;
+//   deficit  the volume deficit is less than 2% of the liquid, but for a few frames, and half of thin sheets;
 //            more may be missing while what is seen is films
 //   outside  no liquid where there is no open path to
 //   energy   kinetic, potential and surface energy together, with what the volume deficit may have, do not

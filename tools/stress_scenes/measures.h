@@ -19,10 +19,10 @@ struct Peak {
 
 struct Measures {
   // J, of motion at the time that the velocity is for; of place, measured from the domain's lowest corner,
-  // with what is owed where it is owed; of the surface.
+  // with the volume deficit in its place; of the surface.
   double kinetic = 0.0, potential = 0.0, surface = 0.0;
   double area = 0.0;     // m2, of the surface between liquid and air
-  double mass = 0.0;     // kg, without what is owed
+  double mass = 0.0;     // kg, without the volume deficit
   double thin = 0.0;     // m3, of what phi shows with nothing deeper than a cell beside it: sheets, threads
   double falling = 0.0;  // W, by which the potential energy falls
   Peak speed;            // m/s, of cells of liquid

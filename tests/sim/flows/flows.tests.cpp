@@ -168,7 +168,8 @@ TEST_CASE("flows: what leaves through an open side is gone, also where the domai
 }
 
 TEST_CASE(
-    "flows: a stream that comes in through a side owes nothing, also where the domain ends within a block") {
+    "flows: a stream that comes in through a side leaves no deficit, also where the domain ends within a "
+    "block") {
   Options options = channel();
   options.size = Vec3d(0.5, 2.0, 0.5);
   options.sides[2] = Side::stream;

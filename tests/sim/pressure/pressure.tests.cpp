@@ -77,7 +77,7 @@ TEST_CASE("pressure: no divergence is left in any cell, cut or whole", "[sim]") 
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   scene.setVelocity([&](const Vec3d&) { return Vec3d(uniform(random), uniform(random), uniform(random)); });
   PressureOptions options = precise();
-  SECTION("liquid that may not let go") {
+  SECTION("liquid that may not separate") {
     options.maxSeparationPasses = 0;
     const Projection result = scene.projected(options);
     CHECK(result.separating->empty());
@@ -172,7 +172,7 @@ TEST_CASE("pressure: a pocket without surface is solved, beside liquid that has 
   }
   CHECK_THAT(sum / (8 * n * n), WithinAbs(0.0, 1e-6));  // the free constant: mean 0
 
-  // Full and closed, it cannot let go of anything: gravity alone leaves it still.
+  // Full and closed, it cannot separate from anything: gravity alone leaves it still.
   scene.setVelocity([](const Vec3d&) { return Vec3d(0.0, 0.0, -kStep); });
   const Projection still = scene.projected(precise());
   CHECK(still.separating->empty());
@@ -223,7 +223,7 @@ TEST_CASE("pressure: a face that a solid leaves open by a hair is no nozzle", "[
   CHECK_THAT(u.tree().getValue(behind), WithinAbs(wide ? 2.0 * q : 0.0, 1e-6));
 }
 
-TEST_CASE("pressure: liquid that grows swells out of its surface, and its velocity does not know", "[sim]") {
+TEST_CASE("pressure: the expansion has the divergence asked for, and leaves the velocity as it is", "[sim]") {
   // A ball in the floor, one of air in the tank's liquid.
   const auto level = [](const Vec3d& x) {
     return std::max(x[2] - 0.6, 0.15 - (x - Vec3d(0.5, 0.5, 0.4)).length());

@@ -73,7 +73,7 @@ TEST_CASE("surface pressure: where the surface touches a cell's centre it is one
   CHECK(judged > 300);
 }
 
-TEST_CASE("surface pressure: drops and jets that let go of walls are not thrown out", "[slow]") {
+TEST_CASE("surface pressure: drops and jets that separate from walls are not thrown out", "[slow]") {
   // A splash of drops of a few cells around a ball, which surface tension alone could set moving at no more
   // than sqrt(4 tension / (density h)) = 1.2 m/s.
   Options options;

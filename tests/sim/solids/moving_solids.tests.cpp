@@ -49,7 +49,7 @@ TEST_CASE("moving solids: the liquid's velocity is the piston's where the tank i
     CHECK(std::abs(state.velocity.component[0]->tree().getValue(Coord(i, 4, 8)) - 0.25) < 1e-5);
   // 0.4 s of 0.25 m/s over the tank's cross-section.
   CHECK((first - last) / (0.4 * 0.25 * 0.125) == Approx(1.0).epsilon(1e-4));
-  // Cells cut by the piston owe nothing.
+  // Cells cut by the piston have no deficit.
   double deficit = 0.0;
   for (auto it = state.deficit->cbeginValueOn(); it; ++it) deficit = std::max(deficit, std::abs(double(*it)));
   CHECK(deficit < 1e-4);

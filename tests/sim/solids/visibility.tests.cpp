@@ -79,7 +79,7 @@ TEST_CASE("visibility: a level set goes on linearly behind a wall, and does not 
   for (int at = 0; at < VisibleCells::kCount; ++at) values[at] = 2.5f - float(at / kUp);
   extrapolateBehind(values, visible, 0.55f);  // 2.5, 1.5, 0.5 to the middle
   CHECK(values[VisibleCells::kMiddle + kUp] == 0.5f);
-  // Liquid that the wall cuts, and liquid that has let go of it.
+  // Liquid that the wall cuts, and liquid that has separated from it.
   for (int at = 0; at < VisibleCells::kCount; ++at) values[at] = -0.5f + 0.2f * float(at / kUp - 2);
   extrapolateBehind(values, visible, 0.55f);
   CHECK(values[VisibleCells::kMiddle + kUp] == Approx(-0.3f));

@@ -103,7 +103,7 @@ TEST_CASE("solver: a column that collapses keeps its volume") {
   CHECK(std::abs(late) < 0.01);
 }
 
-TEST_CASE("solver: what a splash loses when a solid goes is owed") {
+TEST_CASE("solver: what a splash loses when a solid goes is volume deficit") {
   Options options =
       tank(32, {box(Vec3d(0.0), Vec3d(0.45, 1.0, 0.25)), box(Vec3d(0.1, 0.2, 0.5), Vec3d(0.4, 0.8, 0.9))});
   Solid gate;
@@ -125,7 +125,8 @@ TEST_CASE("solver: what a splash loses when a solid goes is owed") {
   CHECK(std::abs(water() / before - 1.0) < 0.005);
 }
 
-TEST_CASE("solver: however much is owed, the surface goes half a cell a step at most to give it back") {
+TEST_CASE(
+    "solver: however large the deficit, the surface moves by half a cell a step at most to give it back") {
   Options options = tank(32, {{Shape{Sphere{Vec3d(0.5), 0.28}}, Vec3d(0.0), 0.0}});
   options.gravity = Vec3d(0.0);
   Solver made(options);
@@ -194,7 +195,8 @@ TEST_CASE("solver: a velocity of no use ends with a sentence, not with endless s
 }
 
 TEST_CASE(
-    "solver: friction of no use ends with a sentence that tells how far the solve came, already in the first "
+    "solver: a viscosity of no use ends with a sentence that tells how far the solve came, already in the "
+    "first "
     "frame") {
   Options options = tank(16, {{Shape{Sphere{Vec3d(0.5), 0.2}}, Vec3d(1.0, 0.0, 0.0), 0.0}});
   options.viscosity = 1e308;

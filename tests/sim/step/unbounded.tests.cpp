@@ -94,7 +94,7 @@ TEST_CASE("unbounded: a wall goes on beside a side without an end", "[sim]") {
     a = inHall.next();
     b = outside.next();
   }
-  // How much of a splash the surface encloses differs by rounding; with what is owed it is all there.
+  // How much of a splash the surface encloses differs by rounding; with the volume deficit it is all there.
   CHECK(b.stats.volume + b.stats.deficit == Approx(a.stats.volume + a.stats.deficit).epsilon(1e-3));
   const Vec3d middle = middleOf(*outside.state().phi);
   CHECK((middle + Vec3d(8.0, 0.0, 0.0) - middleOf(*inHall.state().phi)).length() < 0.2 * kVoxel);

@@ -66,7 +66,7 @@ TEST_CASE("cell volume: of a film between wall and air only what lies between co
   CHECK(liquidVolume(*phi, *solid) == Catch::Detail::Approx(0.3 * h).epsilon(0.01));
 }
 
-TEST_CASE("volume: what is shown and owed stays where liquid lets go of solids that cells are cut by") {
+TEST_CASE("volume: surface and deficit together stay where liquid separates from solids that cut cells") {
   Options options = tank(32, {});
   options.size = Vec3d(1.0, 0.51601, 0.9577);
   options.solids.resize(2);
@@ -117,7 +117,7 @@ TEST_CASE("volume: a paddle that stirs a pool neither makes liquid nor loses any
   }
 }
 
-TEST_CASE("volume: a drop that is lost is owed") {
+TEST_CASE("volume: a drop that is lost is volume deficit") {
   Options options = tank(16, {{Shape{Sphere{Vec3d(0.5, 0.5, 0.2), 0.06}}, Vec3d(0.0), 0.0}});
   Solver solver(options);
   FrameStats last = solver.next().stats;
@@ -131,7 +131,8 @@ TEST_CASE("volume: a drop that is lost is owed") {
 }
 
 TEST_CASE(
-    "volume: liquid that a piston presses on and that has no way out is owed, and the run says so once") {
+    "volume: liquid that a piston presses on and that has no way out is volume deficit, and the run says so "
+    "once") {
   Options options = tank(16, {box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.4))});
   options.solids.resize(1);
   options.solids[0].shape = {Box{Vec3d(-0.1, -0.1, 0.5), Vec3d(1.1, 1.1, 0.9)}};
@@ -156,7 +157,7 @@ TEST_CASE("volume: of a slab of two cells with edges volume and deficit are what
         Catch::Detail::Approx(1.0).epsilon(0.04));
 }
 
-TEST_CASE("volume: nothing is owed in what a wall leaves of a cell above the liquid") {
+TEST_CASE("volume: no deficit in what a wall leaves of a cell above the liquid") {
   // The liquid ends in the floor, half a cell below where the room above it begins.
   Options options = tank(20, {box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.2249))});
   options.solids.resize(1);
@@ -166,7 +167,7 @@ TEST_CASE("volume: nothing is owed in what a wall leaves of a cell above the liq
   CHECK((first.volume + first.deficit) / (0.3 * 0.2249) == Catch::Detail::Approx(1.0).epsilon(0.01));
 }
 
-TEST_CASE("volume: of a slab without a cell's centre all is owed, poured at the start or later") {
+TEST_CASE("volume: a slab without a cell's centre is all deficit, poured at the start or later") {
   const Vec3d low(0.2, 0.2, 0.5050), high(0.8, 0.8, 0.5230);  // 0.36 cells thick, between two centres
   for (const double from : {0.0, 1.5 / 24.0}) {
     Options options = tank(20, {box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.1)), box(low, high)});

@@ -8,7 +8,7 @@
 
 using namespace fluidtex::sim;
 
-TEST_CASE("friction: a pool rests, whatever its viscosity and walls, also where walls cut cells") {
+TEST_CASE("viscous step: a pool rests, whatever its viscosity and walls, also where walls cut cells") {
   const WallKind kind = GENERATE(WallKind::slip, WallKind::friction, WallKind::noSlip);
   const double viscosity = GENERATE(0.0, 1.0, 100.0, 1e6);
   Options options = tank(16, {box(Vec3d(0.0), Vec3d(1.0, 0.53, 0.31))});
@@ -26,7 +26,7 @@ TEST_CASE("friction: a pool rests, whatever its viscosity and walls, also where 
   }
 }
 
-TEST_CASE("friction: liquid in a narrow gap between a ball and a wall rests") {
+TEST_CASE("viscous step: liquid in a narrow gap between a ball and a wall rests") {
   const double gap = GENERATE(0.7, 0.8, 0.9, 1.1, 1.3, 1.6);
   constexpr double wide = 0.2;  // 32 cells
   Options options = tank(32, {box(Vec3d(0.0), Vec3d(0.2, 0.2, 0.078))});
@@ -44,7 +44,7 @@ TEST_CASE("friction: liquid in a narrow gap between a ball and a wall rests") {
   }
 }
 
-TEST_CASE("friction: nothing is touched where it is negligible") {
+TEST_CASE("viscous step: nothing is touched where it is negligible") {
   Options options = tank(8, {box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.5))});
   Solver solver(options);
   solver.next();

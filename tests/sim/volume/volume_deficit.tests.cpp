@@ -75,7 +75,7 @@ TEST_CASE("volume deficit: next to none where the surface goes with the flow") {
   CHECK(moment.length() < 0.02 * kVoxel * ballVolume);
 }
 
-TEST_CASE("volume deficit: beside liquid it is the liquid that owes") {
+TEST_CASE("volume deficit: beside liquid it lies in the liquid") {
   const SolidField solid = box();
   // A film around the ball, 1.5 cells thick, is lost.
   const auto before = phiOf([](const Vec3d&x) { return ball(x) - 1.5 * kVoxel; }), after = phiOf(ball);
@@ -111,7 +111,7 @@ TEST_CASE("volume deficit: what leaves the domain and what sources put in is not
   CHECK(volumeDeficit(*nothing, *source.phi, nullptr, still, closed, closed, flows, 0.01)->empty());
 }
 
-TEST_CASE("volume deficit: a source that holds its place owes nothing, wherever cells are cut by its edges") {
+TEST_CASE("volume deficit: a source that holds its place has none, wherever cells are cut by its edges") {
   const SolidField closed = box();
   const double low = 10.4 * kVoxel, high = 20.4 * kVoxel;  // centres lie 0.1 cell outside
   const auto shape = [&](const Vec3d& x) {
@@ -158,7 +158,7 @@ TEST_CASE("volume deficit: a source without velocity in a pool that falls gives 
   CHECK(std::abs(after - before) < 8.0 * std::pow(kVoxel, 3));
 }
 
-TEST_CASE("volume deficit: no cell owes more than it holds, and nothing goes through a wall") {
+TEST_CASE("volume deficit: none in a cell is more than it holds, and nothing goes through a wall") {
   for (const float share : {5.0f, -5.0f}) {
     Options options;
     options.resolution = kCells;
