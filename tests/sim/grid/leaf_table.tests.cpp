@@ -85,4 +85,10 @@ TEST_CASE("leaf_table: tiles of liquid count by the blocks of theirs that lie in
     for (int k = 0; k < 16; k += 8) expected.emplace_back(i, 0, k);
   expected.emplace_back(48, 0, 0);
   CHECK(wet == expected);
+
+  // A tile of the root, of 256 cells.
+  const FloatGrid::Ptr deep = makePhi(0.1, 0.3);
+  deep->tree().addTile(3, Coord(0), -0.3f, false);
+  CHECK(wetLeaves(*deep, openvdb::CoordBBox(Coord(0), Coord(15, 7, 7))) ==
+        std::vector<Coord>{Coord(0), Coord(8, 0, 0)});
 }

@@ -2,13 +2,10 @@
 
 #include "tests/scratch.h"
 #include "tests/tools/output/sample_surface.h"
-#include "tools/base/errors.h"
-#include "tools/output/read_ply.h"
 
 #include <catch2/catch.hpp>
 
 #include <cstring>
-#include <limits>
 #include <sstream>
 
 using namespace fluidtex;
@@ -96,99 +93,4 @@ TEST_CASE("PLY: a folder that is not there is an error that names the file", "[t
   const Scratch scratch;
   CHECK_THROWS_WITH(tools::writePly({}, scratch.path / "no" / "a.ply"),
                     Catch::Contains("a.ply: cannot write"));
-}
-
-TEST_CASE("PLY: what was written is read back, to the file's own steps", "[tools]") {
-  const Scratch scratch;
-  const texture::TexturedSurface surface = sampleSurface();
-  tools::writePly(surface, scratch.path / "a.ply");
-  const texture::TexturedSurface back = tools::readPly(scratch.path / "a.ply", 8, 4);
-  CHECK(back.positions == surface.positions);
-  CHECK(back.normals == surface.normals);
-  CHECK(back.orientation == surface.orientation);
-  CHECK(back.triangles == surface.triangles);
-  CHECK(back.previousPosition == surface.previousPosition);
-  CHECK(back.velocity == surface.velocity);
-  CHECK(back.trust == surface.trust);
-  CHECK(back.age == surface.age);
-  CHECK(back.contact == surface.contact);
-  CHECK((back.exemplarWidth == 8 && back.exemplarHeight == 4));
-  CHECK(back.maps == surface.maps);
-  CHECK(back.fading.weight == surface.fading.weight);
-  for (std::size_t v = 0; v < 4; ++v)
-    if (surface.fading.weight[v] > 0.0f)
-      CHECK((back.fading.coordinate[v] - surface.fading.coordinate[v]).length() < 1e-5f);
-  for (std::size_t v = 0; v < 4; ++v) {
-    CHECK(back.coordinate[v].x() == Approx(surface.coordinate[v].x()).margin(1e-5));
-    CHECK(back.coordinate[v].y() == Approx(surface.coordinate[v].y()).margin(1e-5));
-    for (int c = 0; c < 3; ++c) CHECK(back.color[v][c] == Approx(surface.color[v][c]).margin(0.01));
-    CHECK(back.color[v][3] == Approx(surface.color[v][3]).margin(0.5 / 255));
-  }
-}
-
-TEST_CASE("PLY: a file that is cut short, too long or another one is refused by name", "[tools]") {
-  const Scratch scratch;
-  const std::filesystem::path file = scratch.path / "a.ply", broken = scratch.path / "broken.ply";
-  tools::writePly(sampleSurface(), file);
-  const std::string bytes = readBytes(file);
-  const auto refused = [&](const std::string& content) {
-    std::ofstream(broken, std::ios::binary) << content;
-    CHECK_THROWS_AS(tools::readPly(broken, 8, 4), tools::UsageError);
-    CHECK_THROWS_WITH(tools::readPly(broken, 8, 4), Catch::Contains("broken.ply"));
-  };
-  for (std::size_t length = 0; length < bytes.size(); length += 7) refused(bytes.substr(0, length));
-  refused(bytes + "x");
-  std::string ascii = bytes;
-  refused(ascii.replace(ascii.find("binary_little_endian"), 20, "ascii"));
-  std::string corner = bytes;
-  corner[corner.size() - 1] = 0x7f;  // of the last corner's number
-  refused(corner);
-  std::string without = bytes;
-  refused(without.replace(without.find("float trust"), 11, "float truss"));
-  CHECK_THROWS_AS(tools::readPly(scratch.path / "none.ply", 8, 4), tools::UsageError);
-}
-
-TEST_CASE("PLY: coordinates that are nowhere on the exemplar are refused", "[tools]") {
-  const Scratch scratch;
-  const std::filesystem::path broken = scratch.path / "broken.ply";
-  tools::writePly(sampleSurface(), scratch.path / "a.ply");
-  const std::string bytes = readBytes(scratch.path / "a.ply"), end = "end_header\n";
-  const std::size_t s = bytes.find(end) + end.size() + 6 * sizeof(float) + 4;  // of the first vertex
-  const auto write = [&](float value, int place) {
-    std::string content = bytes;
-    std::memcpy(&content[s + place * sizeof value], &value, sizeof value);
-    std::ofstream(broken, std::ios::binary) << content;
-  };
-  for (const int place : {0, 1}) {
-    for (const float value : {std::numeric_limits<float>::quiet_NaN(), 1e30f, -0.1f}) {
-      write(value, place);
-      CHECK_THROWS_AS(tools::readPly(broken, 8, 4), tools::UsageError);
-      CHECK_THROWS_WITH(tools::readPly(broken, 8, 4), Catch::Contains("not from 0 to 1"));
-    }
-    write(1.0f, place);
-    CHECK_NOTHROW(tools::readPly(broken, 8, 4));
-  }
-}
-
-TEST_CASE("PLY: properties that are not in the order and of the types that are read are refused", "[tools]") {
-  const Scratch scratch;
-  const std::filesystem::path broken = scratch.path / "broken.ply";
-  tools::writePly(sampleSurface(), scratch.path / "a.ply");
-  const std::string bytes = readBytes(scratch.path / "a.ply");
-  const auto refused = [&](const std::string& before, const std::string& after, const char* words) {
-    std::string content = bytes;
-    REQUIRE(content.find(before) != content.npos);
-    std::ofstream(broken, std::ios::binary) << content.replace(content.find(before), before.size(), after);
-    INFO(after);
-    CHECK_THROWS_AS(tools::readPly(broken, 8, 4), tools::UsageError);
-    CHECK_THROWS_WITH(tools::readPly(broken, 8, 4), Catch::Contains(words));
-  };
-  refused("float y\n", "float q\n", "has no property y");
-  refused("float y\nproperty float z\n", "float z\nproperty float y\n", "y that does not follow");
-  refused("element face", "property float x\nelement face", "y that does not follow");  // read past the end
-  refused("uchar alpha\n", "float alpha\n", "alpha that is no uchar");
-  refused("float trust\n", "uchar trust\n", "trust that is no float");
-  refused("float trust\n", "double trust\n", "neither float nor uchar");
-  refused("float trust\n", std::string("float b\0\xff\n", 10), "name is no map's");
-  refused("uchar contact\n", "uchar own\n", "own that is no float");
 }
