@@ -3,9 +3,14 @@
 
 #include "caches/formats/geometry.h"
 
+#include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace fluidtex::caches {
+
+// What readGeometry() gives of a file of this name with these bytes, packed or not. Throws as it does.
+Geometry geometryOf(const std::filesystem::path& file, std::string bytes);
 
 // Each takes all of a file, unpacked, and no more memory than a multiple of that. Points may be infinite.
 // Throws std::runtime_error; the message continues a sentence that begins with the file's name.

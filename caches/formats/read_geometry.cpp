@@ -79,6 +79,16 @@ const Format* formatOf(const std::filesystem::path& file) {
   return nullptr;
 }
 
+const Format& formatOrFail(const std::filesystem::path& file) {
+  if (const std::string advice = adviceFor(file); !advice.empty()) fail(file, advice);
+  const Format* format = formatOf(file);
+  if (!format)
+    fail(file,
+         "is of no kind of geometry file that is read; expected .ply, .obj, .stl, .vtp, .vtk, .bobj, "
+         ".bobj.gz, .bgeo or .bhclassic");
+  return *format;
+}
+
 }  // namespace
 
 bool isGeometryFile(const std::filesystem::path& file) {
@@ -92,18 +102,12 @@ std::string adviceFor(const std::filesystem::path& file) {
   return {};
 }
 
-Geometry readGeometry(const std::filesystem::path& file) {
-  if (const std::string advice = adviceFor(file); !advice.empty()) fail(file, advice);
-  const Format* format = formatOf(file);
-  if (!format)
-    fail(file,
-         "is of no kind of geometry file that is read; expected .ply, .obj, .stl, .vtp, .vtk, .bobj, "
-         ".bobj.gz, "
-         ".bgeo or .bhclassic");
-  const std::string content = contentOf(file);
+Geometry geometryOf(const std::filesystem::path& file, std::string bytes) {
+  const Format& format = formatOrFail(file);
+  const std::string content = unpacked(file, std::move(bytes));
   Geometry geometry;
   try {
-    geometry = format->read(content);
+    geometry = format.read(content);
   } catch (const std::runtime_error& error) {
     fail(file, error.what());
   }
@@ -112,6 +116,11 @@ Geometry readGeometry(const std::filesystem::path& file) {
       fail(file, "point " + std::to_string(n + 1) + " of " + std::to_string(geometry.points.size()) +
                      " is not at finite numbers; write it anew");
   return geometry;
+}
+
+Geometry readGeometry(const std::filesystem::path& file) {
+  formatOrFail(file);
+  return geometryOf(file, bytesOf(file));
 }
 
 }  // namespace fluidtex::caches
