@@ -65,7 +65,7 @@ std::vector<std::string> flowWarnings(const Options& options, const Solids& soli
     warnings.push_back(text.str());
   };
   if (options.liquid.empty() && options.sources.empty()) {
-    warnings.push_back("the scene has no liquid: give it a [[liquid]] or a [[source]]");
+    warnings.emplace_back("the scene has no liquid: give it a [[liquid]] or a [[source]]");
   }
   for (std::size_t n = 0; n < options.liquid.size(); ++n) {
     const LiquidBody& body = options.liquid[n];

@@ -77,6 +77,7 @@ std::array<FloatGrid::Ptr, 3> facesOf(const FloatGrid& phi, const Vec3d& velocit
 
 std::vector<FloatLeaf*> touchLeaves(FloatGrid& phi, const std::vector<Coord>& origins) {
   std::vector<FloatLeaf*> leaves;
+  leaves.reserve(origins.size());
   for (const Coord& origin : origins) leaves.push_back(phi.tree().touchLeaf(origin));
   return leaves;
 }

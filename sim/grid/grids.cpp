@@ -12,7 +12,7 @@ template <typename To, typename From>
 typename To::Ptr converted(const From& from) {
   using Leaf = typename To::TreeType::LeafNodeType;
   static_assert(std::is_same_v<Leaf, typename From::TreeType::LeafNodeType>);
-  const auto to = To::create(from.background());
+  auto to = To::create(from.background());
   auto tile = from.constTree().cbeginValueAll();
   tile.setMaxDepth(From::TreeType::DEPTH - 2);
   for (; tile; ++tile) {

@@ -20,7 +20,8 @@ FloatGrid::Ptr advectTemperature(const FloatGrid& from, const Velocity& velocity
   const double h = from.voxelSize()[0];
   const float step = static_cast<float>(dt / h);
   const int halo = std::min(kLeafDim, static_cast<int>(std::ceil(dt * maxAbs(velocity) / h)) + 2);
-  const FloatGrid::Ptr first = makeTemperature(from, like), result = makeTemperature(from, like);
+  const FloatGrid::Ptr first = makeTemperature(from, like);
+  FloatGrid::Ptr result = makeTemperature(from, like);
   const auto guess = leavesOf(first->tree()), target = leavesOf(result->tree());
   const Vec3f centre(0.5f);
   using Range = tbb::blocked_range<std::size_t>;

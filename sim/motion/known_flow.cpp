@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace fluidtex::sim {
 namespace {
@@ -16,7 +17,7 @@ double square(double x) {
 
 // A flow in the plane from its stream function: u = d psi / dy, v = -d psi / dx.
 std::function<Vec3d(const Vec3d&)> plane(std::function<double(double, double)> stream) {
-  return [stream](const Vec3d& x) { return Vec3d(0.0, 0.0, stream(x[0], x[1])); };
+  return [stream = std::move(stream)](const Vec3d& x) { return Vec3d(0.0, 0.0, stream(x[0], x[1])); };
 }
 
 std::function<double(double)> reversing(double duration) {

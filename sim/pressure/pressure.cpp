@@ -259,7 +259,7 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
 // with it.
 MaskGrid::Ptr separatingCells(const LiquidCells& liquid, const SolidField& solid,
                               const std::vector<char>& detached) {
-  const MaskGrid::Ptr separating = MaskGrid::create();
+  MaskGrid::Ptr separating = MaskGrid::create();
   separating->setTransform(cellTransform(solid.voxelSize));
   const auto distance = solid.phi->getConstAccessor();
   const float deep = -kDeepInSolid * static_cast<float>(solid.voxelSize);
