@@ -59,14 +59,14 @@ XmlArrays arraysOf(const pugi::xml_node& root, std::string_view appended) {
 }
 
 template <class To>
-std::vector<To> named(const pugi::xml_node& parent, const char* name, const XmlArrays& file) {
+std::vector<To> named(const pugi::xml_node& parent, const char* name, XmlArrays& file) {
   const pugi::xml_node array = parent.find_child_by_attribute("DataArray", "Name", name);
   if (!array) throw std::runtime_error(std::string(parent.name()) + " has no array '" + name + "'");
   return numbersOf<To>(array, file);
 }
 
 void takeCells(const pugi::xml_node& piece, const char* name, const char* number, AddCell add,
-               const XmlArrays& file, Geometry& geometry) {
+               XmlArrays& file, Geometry& geometry) {
   const std::uint64_t count = piece.attribute(number) ? countOf(piece, number) : 0;
   if (count == 0) return;
   const pugi::xml_node cells = piece.child(name);
@@ -78,7 +78,7 @@ void takeCells(const pugi::xml_node& piece, const char* name, const char* number
   addCells(corners, ends, add, geometry);
 }
 
-Geometry geometryOf(const pugi::xml_node& piece, const XmlArrays& file) {
+Geometry geometryOf(const pugi::xml_node& piece, XmlArrays& file) {
   Geometry geometry;
   const std::uint64_t points = countOf(piece, "NumberOfPoints");
   if (points > 0) {
@@ -125,7 +125,8 @@ Geometry geometryOfVtp(std::string_view bytes) {
   if (const std::string_view kind = root.attribute("type").value(); kind != "PolyData")
     throw std::runtime_error("is of type " + sim::inQuotes(kind) +
                              "; PolyData is read: extract the surface, or the particles as points");
-  const XmlArrays file = arraysOf(root, appended);
+  XmlArrays file = arraysOf(root, appended);
+  file.room = bytes.size();
   Geometry all;
   for (const pugi::xml_node& node : root.child("PolyData").children("Piece")) {
     Geometry piece = geometryOf(node, file);

@@ -34,17 +34,25 @@ struct Source {
   }
 };
 
-std::string plainBytes(const Source& source, const XmlArrays& file) {
+// Arrays that all begin at one place would take far more memory than the file.
+void takeRoom(std::uint64_t count, XmlArrays& file) {
+  if (count > file.room)
+    throw std::runtime_error("takes bytes that other arrays have taken; each has its own");
+  file.room -= count;
+}
+
+std::string plainBytes(const Source& source, XmlArrays& file) {
   const std::size_t header = sizeOf(file.headerType);
   const std::string length = source.front(header);
   const auto size = numbersOf<std::uint64_t>(length, file.headerType, file.order)[0];
   if (size > source.text.size())
     throw std::runtime_error("says that it takes " + counted(size, "byte") +
                              ", but the file ends before; write or copy it anew");
+  takeRoom(header + size, file);
   return source.front(header + size).substr(header);
 }
 
-std::string unpackedBytes(const Source& source, const XmlArrays& file) {
+std::string unpackedBytes(const Source& source, XmlArrays& file) {
   const std::size_t each = sizeOf(file.headerType);
   const auto header = [&](std::uint64_t count) {
     return numbersOf<std::uint64_t>(source.front(count * each), file.headerType, file.order);
@@ -65,6 +73,7 @@ std::string unpackedBytes(const Source& source, const XmlArrays& file) {
     packed += size;
   }
   const std::size_t begin = (3 + blocks) * each;
+  takeRoom(begin + packed, file);
   const std::string bytes = source.front(begin + packed);
   std::string result((blocks - 1) * full + last, '\0');
   std::size_t from = begin, to = 0;
@@ -90,7 +99,7 @@ std::vector<To> numbersOfText(std::string_view text) {
 }
 
 template <class To>
-std::vector<To> read(const pugi::xml_node& array, const XmlArrays& file) {
+std::vector<To> read(const pugi::xml_node& array, XmlArrays& file) {
   const NumberType type = typeOf(array.attribute("type").value());
   const std::string_view format = array.attribute("format").value();
   std::string_view text = array.text().get();
@@ -119,7 +128,7 @@ std::vector<To> read(const pugi::xml_node& array, const XmlArrays& file) {
 }  // namespace
 
 template <class To>
-std::vector<To> numbersOf(const pugi::xml_node& array, const XmlArrays& file) {
+std::vector<To> numbersOf(const pugi::xml_node& array, XmlArrays& file) {
   try {
     return read<To>(array, file);
   } catch (const std::runtime_error& error) {
@@ -128,8 +137,8 @@ std::vector<To> numbersOf(const pugi::xml_node& array, const XmlArrays& file) {
   }
 }
 
-template std::vector<float> numbersOf<float>(const pugi::xml_node&, const XmlArrays&);
-template std::vector<std::int64_t> numbersOf<std::int64_t>(const pugi::xml_node&, const XmlArrays&);
+template std::vector<float> numbersOf<float>(const pugi::xml_node&, XmlArrays&);
+template std::vector<std::int64_t> numbersOf<std::int64_t>(const pugi::xml_node&, XmlArrays&);
 
 std::uint64_t countOf(const pugi::xml_node& node, const char* attribute) {
   const std::string_view word = node.attribute(attribute).value();
