@@ -1,7 +1,8 @@
-// The source of a scene's frames: solver, analytic flow, or the cache of another program.
+// The source of a scene's frames: solver, analytic flow, the cache of another program, or recorded frames.
 #pragma once
 
 #include "caches/liquid/cached_flow.h"
+#include "caches/recorded/recording.h"
 #include "scenes/scene.h"
 #include "sim/motion/motion.h"
 
@@ -13,9 +14,10 @@
 
 namespace fluidtex::pipeline {
 
-using Motion = std::variant<sim::Motion, caches::CachedFlow>;
+using Motion = std::variant<sim::Motion, caches::CachedFlow, caches::RecordedFlow>;
 
-// From the start or from a state. Throws as sim::makeMotion() and caches::CachedFlow.
+// From the start or from a state. Throws as sim::makeMotion(), caches::CachedFlow and
+// caches::openRecording().
 Motion makeMotion(const scenes::Scene& scene, std::optional<sim::State> state = {});
 
 // The next frame; its number and time are those after the state's. Throws as the source does.

@@ -1,5 +1,8 @@
 #include "pipeline/take_cache.h"
 
+#include "caches/liquid/survey.h"
+#include "caches/recorded/recording.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -16,12 +19,12 @@ double longestOf(const Vec3d& size) {
   return std::max({size[0], size[1], size[2]});
 }
 
-void takeFrames(const caches::Layout& layout, scenes::Scene& scene) {
-  if (scene.frames == 0) scene.frames = std::min(layout.frames(), 9999);
-  if (scene.frames > layout.frames())
+void takeFrames(int frames, int first, scenes::Scene& scene) {
+  if (scene.frames == 0) scene.frames = std::min(frames, 9999);
+  if (scene.frames > frames)
     throw caches::LayoutError(
         fmt::format("{}: has {} frames from number {} on, and the scene {}; give frames = {}",
-                    scene.files.path.string(), layout.frames(), layout.first, scene.frames, layout.frames()));
+                    scene.files.path.string(), frames, first, scene.frames, frames));
   scene.onto.last = scene.onto.first + scene.frames - 1;
 }
 
@@ -41,16 +44,36 @@ void takeView(const openvdb::BBoxd& bounds, render::Camera& camera) {
     camera.from = camera.at + (view.from - view.at) * longestOf(bounds.extents());
 }
 
+// Of the program's own frames: the domain that they were made in, seen as always.
+std::vector<std::string> takeRecording(scenes::Scene& scene) {
+  const caches::Recording recording = caches::openRecording(scene.files.path);
+  takeFrames(recording.frames, 1, scene);
+  if (scene.sim.size[0] == 0.0) {
+    scene.sim.size = recording.sim.size;
+    scene.sim.resolution = recording.sim.resolution;
+    scene.sim.sides = recording.sim.sides;
+    takeView(openvdb::BBoxd(Vec3d(0.0), scene.sim.size), scene.render.camera);
+  }
+  return {fmt::format("cache     recorded by fluidtex, frames 1 to {}", recording.frames)};
+}
+
 }  // namespace
 
-caches::Survey takeCache(scenes::Scene& scene) {
-  caches::Survey survey = caches::survey(scene.files);
+std::vector<std::string> takeCache(scenes::Scene& scene) {
+  if (caches::isRecording(scene.files.path)) return takeRecording(scene);
+  const caches::Survey survey = caches::survey(scene.files);
   scene.files.voxel = survey.voxel;
   scene.files.first = survey.layout.first;
-  takeFrames(survey.layout, scene);
+  takeFrames(survey.layout.frames(), survey.layout.first, scene);
   takeBounds(survey.bounds, survey.voxel, scene);
   takeView(survey.bounds, scene.render.camera);
-  return survey;
+  std::vector<std::string> lines = caches::describe(survey.layout);
+  const Vec3d low = survey.bounds.min(), size = survey.bounds.extents();
+  lines.push_back(fmt::format("size      {:.3g} x {:.3g} x {:.3g} m, from ({:.3g}, {:.3g}, {:.3g}) on",
+                              size[0], size[1], size[2], low[0], low[1], low[2]));
+  lines.push_back(
+      fmt::format("cells     of {:.4g} m; {:g} frames a second", survey.voxel, scene.sim.frameRate));
+  return lines;
 }
 
 }  // namespace fluidtex::pipeline

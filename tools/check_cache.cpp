@@ -3,6 +3,7 @@
 #include "caches/layouts/layout.h"
 #include "caches/liquid/explained.h"
 #include "caches/liquid/read_frame.h"
+#include "caches/recorded/recording.h"
 #include "pipeline/take_cache.h"
 #include "sim/grid/mac_grid.h"
 #include "tools/base/console.h"
@@ -23,10 +24,6 @@ constexpr int kPairs = 5;
 // Factors on velocities that are worth a word.
 constexpr double kWrongBelow = 0.75, kWrongAbove = 1.33;
 
-std::string placeOf(const sim::Vec3d& x) {
-  return fmt::format("({:.3g}, {:.3g}, {:.3g})", x[0], x[1], x[2]);
-}
-
 // Where the distance left is smallest, as far as it is telling: less than half of that at rest.
 bool isTelling(const caches::VelocityFactor& factor) {
   return factor.residual < 0.5 * factor.residualAtRest && factor.residual < 0.8 * factor.residualAsIs &&
@@ -36,6 +33,7 @@ bool isTelling(const caches::VelocityFactor& factor) {
 }  // namespace
 
 void checkMotionOf(const scenes::Scene& scene, int first, int last) {
+  if (caches::isRecording(scene.files.path)) return;
   const caches::Cache cache{scene.files, caches::recognize(scene.files), scene.files.voxel,
                             scene.sim.frameRate};
   if (cache.layout.velocityKind == caches::VelocityKind::none) {
@@ -81,15 +79,11 @@ void checkCache(const CommonOptions& options) {
   overrides.set = options.set;
   overrides.liquidOnly = true;
   scenes::Scene scene = scenes::sceneOfCache(options.scene, overrides);
-  const caches::Survey survey = pipeline::takeCache(scene);
+  const std::vector<std::string> found = pipeline::takeCache(scene);
   int first = 1, last = 0;
   parseFrames(options.frames, scene.frames, first, last);
   if (options.quiet) return;
-  for (const std::string& line : caches::describe(survey.layout)) print("{}\n", line);
-  print("size      {:.3g} x {:.3g} x {:.3g} m, from {} to {}\n", survey.bounds.extents()[0],
-        survey.bounds.extents()[1], survey.bounds.extents()[2], placeOf(survey.bounds.min()),
-        placeOf(survey.bounds.max()));
-  print("cells     of {:.4g} m; {:g} frames a second\n", survey.voxel, scene.sim.frameRate);
+  for (const std::string& line : found) print("{}\n", line);
   checkMotionOf(scene, first, last);
 }
 

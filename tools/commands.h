@@ -19,6 +19,7 @@ struct CommonOptions {
 };
 
 void addRun(CLI::App& app, int& exitCode);
+void addSimulate(CLI::App& app, int& exitCode);
 void addTexture(CLI::App& app, int& exitCode);
 void addApply(CLI::App& app, int& exitCode);
 void addCompare(CLI::App& app, int& exitCode);

@@ -74,12 +74,10 @@ void tryMeshes(const sim::Shape& shape, const openvdb::BBoxd& reach, const sim::
 
 }  // namespace
 
-void addSceneOptions(CLI::App& command, CommonOptions& options) {
+void addSimulationOptions(CLI::App& command, CommonOptions& options) {
   command.add_option("scene", options.scene, "Scene file, or a folder or file of another program's cache")
       ->required()
       ->type_name("SCENE");
-  command.add_option("--out", options.out, "Folder for the results (default: out/SCENE_NAME)")
-      ->type_name("DIR");
   command
       .add_option("--frames", options.frames,
                   "First and last frame, numbered from 1; earlier frames are computed, not written")
@@ -92,15 +90,21 @@ void addSceneOptions(CLI::App& command, CommonOptions& options) {
                   "preview, default or final: settings of the scene's own [quality] tables")
       ->check(CLI::IsMember({"preview", "default", "final"}))
       ->type_name("NAME");
-  command
-      .add_option("--exemplar", options.exemplar, "Image to grow the texture from, instead of the scene's")
-      ->type_name("IMAGE");
   command.add_option("--set", options.set, "Sets any key of the scene, dotted; may be repeated")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_flag("--quiet", options.quiet, "No progress, only errors");
   command.add_flag("--verbose", options.verbose, "More in the log");
+}
+
+void addSceneOptions(CLI::App& command, CommonOptions& options) {
+  addSimulationOptions(command, options);
+  command.add_option("--out", options.out, "Folder for the results (default: out/SCENE_NAME)")
+      ->type_name("DIR");
+  command
+      .add_option("--exemplar", options.exemplar, "Image to grow the texture from, instead of the scene's")
+      ->type_name("IMAGE");
 }
 
 bool isCache(const std::filesystem::path& scene) {
@@ -120,10 +124,10 @@ scenes::Scene loadScene(const CommonOptions& options) {
   scenes::Scene scene =
       ofCache ? scenes::sceneOfCache(options.scene, overrides) : scenes::loadScene(options.scene, overrides);
   if (scene.motion.flow == sim::MotionKind::files) {
-    const caches::Survey survey = pipeline::takeCache(scene);
+    const std::vector<std::string> found = pipeline::takeCache(scene);
     scene.resolved = scenes::resolvedText(scene, overrides.quality);
     if (ofCache && !options.quiet)
-      for (const std::string& line : caches::describe(survey.layout)) print("{}\n", line);
+      for (const std::string& line : found) print("{}\n", line);
   }
   const openvdb::BBoxd domain = sim::domainBox(scene.sim);
   for (const sim::LiquidBody& body : scene.sim.liquid)

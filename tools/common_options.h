@@ -9,6 +9,8 @@
 namespace fluidtex::tools {
 
 void addSceneOptions(CLI::App& command, CommonOptions& options);
+// Those that a simulation alone has a use for: no --out, no --exemplar.
+void addSimulationOptions(CLI::App& command, CommonOptions& options);
 
 // Whether this is the cache of another program and no scene file: a folder, a pattern, or a file that does not
 // end in .toml.

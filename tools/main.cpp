@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
       "final");
   int exitCode = kDone;
   addRun(app, exitCode);
+  addSimulate(app, exitCode);
   addTexture(app, exitCode);
   addCompare(app, exitCode);
   addApply(app, exitCode);

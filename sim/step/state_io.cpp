@@ -1,11 +1,11 @@
 #include "sim/step/state_io.h"
 
+#include "sim/grid/write_grids.h"
+
 #include <openvdb/io/File.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -17,35 +17,6 @@ namespace {
 
 // Grids of every state; others are there only where the liquid has them.
 constexpr std::string_view kAlways[] = {"phi", "u", "v", "w"};
-
-// Writes what openvdb::io::File does, to a stream of ours: File does not check its own after opening it, and
-// does not report when the disk refuses.
-class Archive : public openvdb::io::Archive {
- public:
-  void put(std::ostream& out, const openvdb::GridCPtrVec& grids, const openvdb::MetaMap& metadata) const {
-    openvdb::io::Archive::write(out, grids, true, metadata);
-  }
-};
-
-// Writes to the disk in blocks of its buffer, however large the parts are that it gets. std::filebuf passes
-// each part of a kilobyte or more on by itself, a leaf at a time.
-class BlockBuffer : public std::filebuf {
- protected:
-  std::streamsize xsputn(const char* data, std::streamsize size) override {
-    std::streamsize done = 0;
-    while (done < size) {
-      const auto room = std::min<std::streamsize>(epptr() - pptr(), size - done);
-      if (room > 0) {
-        std::memcpy(pptr(), data + done, static_cast<std::size_t>(room));
-        pbump(static_cast<int>(room));
-        done += room;
-      } else if (overflow(traits_type::to_int_type(data[done++])) == traits_type::eof()) {
-        return done - 1;
-      }
-    }
-    return done;
-  }
-};
 
 // A block as bytes: origin, number of markers, markers.
 void append(std::string& bytes, const MarkerBlock& block) {
@@ -109,18 +80,7 @@ void writeState(const State& state, const std::filesystem::path& file) {
   metadata.insertMeta("poured", openvdb::StringMetadata(poured));
   writeMarkers(state.markers, metadata);
 
-  openvdb::initialize();
-  std::vector<char> buffer(std::size_t{1} << 20);
-  BlockBuffer blocks;
-  blocks.pubsetbuf(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-  std::ostream stream(&blocks);
-  if (blocks.open(file, std::ios::out | std::ios::binary | std::ios::trunc) == nullptr)
-    stream.setstate(std::ios::failbit);
-  Archive archive;
-  archive.setCompression(openvdb::io::COMPRESS_NONE);
-  if (stream) archive.put(stream, out, metadata);
-  if (blocks.close() == nullptr || !stream)
-    throw openvdb::IoError(file.string() + ": cannot be written: " + std::strerror(errno));
+  writeGrids(out, metadata, file);
 }
 
 State readState(const std::filesystem::path& file) {
