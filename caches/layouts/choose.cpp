@@ -60,14 +60,12 @@ const GridHead* surfaceOf(const std::vector<GridHead>& grids, bool& fog) {
 }
 
 std::vector<std::string> velocityOf(const std::vector<GridHead>& grids, bool& onFaces) {
-  const GridHead* vectors = nullptr;
+  const auto one = [&](const GridHead& grid) {
+    onFaces = grid.gridClass == "staggered";
+    return std::vector{grid.name};
+  };
   for (const char* name : kVelocityNames)
-    if (!vectors) vectors = named(grids, name, true);
-  if (!vectors) vectors = firstOf(grids, [](const GridHead& grid) { return grid.readable && grid.vectors; });
-  if (vectors) {
-    onFaces = vectors->gridClass == "staggered";
-    return {vectors->name};
-  }
+    if (const GridHead* grid = named(grids, name, true)) return one(*grid);
   const auto three = [&](const std::array<std::string, 3>& names) {
     std::vector<std::string> found;
     for (const std::string& name : names)
@@ -79,18 +77,24 @@ std::vector<std::string> velocityOf(const std::vector<GridHead>& grids, bool& on
       if (auto names = three({base + between + "x", base + between + "y", base + between + "z"});
           !names.empty())
         return names;
-  return three({"u", "v", "w"});
+  if (auto names = three({"u", "v", "w"}); !names.empty()) return names;
+  if (const GridHead* grid =
+          firstOf(grids, [](const auto& other) { return other.readable && other.vectors; }))
+    return one(*grid);
+  return {};
 }
 
-// "a,b,c" in its parts.
+// "a, b, c" in its parts.
 std::vector<std::string> parts(const std::string& names) {
   std::vector<std::string> result;
-  std::size_t begin = 0;
-  for (std::size_t comma = names.find(','); comma != std::string::npos; comma = names.find(',', begin)) {
-    result.push_back(names.substr(begin, comma - begin));
+  for (std::size_t begin = 0; begin <= names.size();) {
+    const std::size_t comma = std::min(names.find(',', begin), names.size());
+    while (begin < comma && names[begin] == ' ') ++begin;
+    std::size_t end = comma;
+    while (end > begin && names[end - 1] == ' ') --end;
+    result.push_back(names.substr(begin, end - begin));
     begin = comma + 1;
   }
-  result.push_back(names.substr(begin));
   return result;
 }
 
@@ -122,13 +126,15 @@ GridChoice chooseGrids(const std::filesystem::path& file, const Options& options
     throw LayoutError(file.string() + ": " + error.what());
   }
   GridChoice choice;
+  if (grids.empty()) return choice;
   if (options.surfaceName.empty()) {
     if (const GridHead* grid = surfaceOf(grids, choice.fog)) choice.surface = grid->name;
-  } else if (const GridHead* grid =
-                 firstOf(grids, [&](const GridHead& other) { return other.name == options.surfaceName; })) {
-    if (!grid->readable || grid->vectors)
-      throw LayoutError(file.string() + ": its grid \"" + grid->name +
-                        "\" holds no numbers that can be a surface; there are: " + namesOf(grids));
+  } else {
+    const GridHead* grid =
+        firstOf(grids, [&](const GridHead& other) { return other.name == options.surfaceName; });
+    if (!grid || !grid->readable || grid->vectors)
+      throw LayoutError(file.string() + ": holds no grid of numbers named \"" + options.surfaceName +
+                        "\" that can be a surface; there are: " + namesOf(grids));
     choice.surface = grid->name;
     choice.fog = grid->gridClass == "fog volume" || (options.iso != 0.0 && grid->gridClass != "level set");
   }
@@ -145,6 +151,8 @@ GridChoice chooseGrids(const std::filesystem::path& file, const Options& options
 AttributeChoice chooseAttributes(const std::filesystem::path& file, const Options& options) {
   const Geometry geometry = readGeometry(file);
   AttributeChoice choice;
+  choice.points = !geometry.points.empty();
+  if (!choice.points) return choice;
   choice.triangles = !geometry.triangles.empty();
   for (const auto& [name, attribute] : geometry.attributes)
     if (attribute.components == 1) choice.scalars.push_back(name);

@@ -35,8 +35,9 @@ struct Layout {
 };
 
 // Finds out what options.path holds: Blender's (mantaflow) or FLIP Fluids' cache folder, a folder with
-// sequences of OpenVDB, mesh or particle files, one of these files, or a pattern. Names that the options give
-// are taken as they are. Reads what files say of themselves, and the first one of geometry. Throws
+// sequences of OpenVDB, mesh or particle files, one of these files, or a pattern. A file of a known cache
+// stands for the cache, unless velocities are named. Names that the options give are taken as they are. Reads
+// what files say of themselves, and the first one of geometry that holds points. Throws
 // LayoutError: nothing that can be read, a surface or its files missing, or several that it could be.
 Layout recognize(const Options& options);
 

@@ -8,10 +8,32 @@ namespace fluidtex::caches {
 namespace fs = std::filesystem;
 namespace {
 
+// The sequence whose names begin so; empty where there is none. Of several (one an object) an error.
+NumberedFiles named(const fs::path& folder, const std::vector<std::string>& beginnings,
+                    const std::string& ending) {
+  std::error_code unknown;
+  if (!fs::is_directory(folder, unknown)) return {};
+  NumberedFiles found;
+  for (const std::string& beginning : beginnings) {
+    for (NumberedFiles& files : sequencesIn(folder)) {
+      const std::string name = files.pattern.filename().string();
+      if (!name.starts_with(beginning) || !name.ends_with(ending)) continue;
+      if (!found.empty())
+        throw LayoutError(folder.string() + ": holds several sequences, " +
+                          found.pattern.filename().string() + " and " + name + "; leave one of them");
+      found = std::move(files);
+    }
+    if (!found.empty()) break;
+  }
+  return found;
+}
+
+// Without its clock it still is one, as its volumes tell.
 bool isCache(const fs::path& folder) {
   std::error_code unknown;
-  return fs::is_directory(folder / "config", unknown) &&
-         (fs::is_directory(folder / "data", unknown) || fs::is_directory(folder / "mesh", unknown));
+  if (fs::is_directory(folder / "config", unknown))
+    return fs::is_directory(folder / "data", unknown) || fs::is_directory(folder / "mesh", unknown);
+  return !named(folder / "data", {"fluid_data_"}, ".vdb").empty();
 }
 
 // The cache that a folder is, is part of, or holds.
@@ -33,17 +55,13 @@ std::optional<fs::path> cacheAt(const fs::path& folder) {
   return inside.front();
 }
 
-// The sequence whose names begin so; empty where there is none. Of several (one an object) an error.
-NumberedFiles named(const fs::path& folder, const std::vector<std::string>& beginnings,
-                    const std::string& ending) {
-  std::error_code unknown;
-  if (!fs::is_directory(folder, unknown)) return {};
-  for (const std::string& beginning : beginnings)
-    for (NumberedFiles& files : sequencesIn(folder)) {
-      const std::string name = files.pattern.filename().string();
-      if (name.starts_with(beginning) && name.ends_with(ending)) return std::move(files);
-    }
-  return {};
+// The first file that holds anything.
+const fs::path& sampleOf(const NumberedFiles& files) {
+  for (const auto& [number, file] : files.byNumber) {
+    std::error_code unknown;
+    if (fs::file_size(file, unknown) > 0 && !unknown) return file;
+  }
+  return files.byNumber.begin()->second;
 }
 
 bool has(const std::vector<foreign::GridHead>& grids, const std::string& name) {
@@ -66,18 +84,21 @@ std::optional<Layout> mantaflowCache(const fs::path& folder, const Options& opti
         cache->string() +
         ": its folder data holds no fluid_data_####.vdb, and so no velocities; bake the data again "
         "with OpenVDB as the format of the volumes");
-  const fs::path& sample = layout.velocity.byNumber.rbegin()->second;
+  const fs::path& sample = sampleOf(layout.velocity);
   std::vector<foreign::GridHead> grids;
   try {
-    grids = foreign::listGrids(layout.velocity.byNumber.begin()->second);
+    grids = foreign::listGrids(sample);
   } catch (const foreign::Unreadable& error) {
-    throw LayoutError(layout.velocity.byNumber.begin()->second.string() + ": " + error.what());
+    throw LayoutError(sample.string() + ": " + error.what());
   }
   if (!has(grids, "velocity"))
     throw LayoutError(sample.string() + ": holds no grid velocity, so it is not a liquid's; bake a liquid");
   layout.velocityKind = VelocityKind::grids;
   layout.velocityNames = {"velocity"};
   layout.onFaces = true;
+  if (!options.surfaceName.empty() && options.surfaceName != "phi")
+    throw LayoutError("files.surface_name: the surface of Blender's liquid is its mesh, or phi, not \"" +
+                      options.surfaceName + "\"");
   layout.surface = named(*cache / "mesh", {"fluid_mesh_", "lMesh_"}, ".bobj.gz");
   if (!layout.surface.empty() && options.surfaceName.empty()) {
     layout.surfaceKind = SurfaceKind::mesh;

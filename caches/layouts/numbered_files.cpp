@@ -15,15 +15,18 @@ bool isDigit(char c) {
   return c >= '0' && c <= '9';
 }
 
-// Where the ending begins: at the dot before letters, or at that before two such endings of which the second
-// is .gz or .sc.
+// Where the ending begins: at the last dot, or at that before two endings of which the second is .gz or .sc.
+// "0012.gz" has one.
 std::size_t endingOf(const std::string& name) {
   const std::size_t dot = name.rfind('.');
   if (dot == std::string::npos || dot == 0) return name.size();
   const std::string last = name.substr(dot);
   if (last != ".gz" && last != ".sc") return dot;
   const std::size_t before = name.rfind('.', dot - 1);
-  return before == std::string::npos || before == 0 ? dot : before;
+  if (before == std::string::npos || before == 0) return dot;
+  const bool isNumber =
+      std::all_of(name.begin() + std::ptrdiff_t(before) + 1, name.begin() + std::ptrdiff_t(dot), isDigit);
+  return isNumber ? dot : before;
 }
 
 // The place for a number in a pattern: where it begins, and how long it is; 0 where there is none.
@@ -132,11 +135,11 @@ NumberedFiles numberedLike(const fs::path& patternOrFile) {
   return filesBetween(folder, split.before, split.after);
 }
 
-std::vector<NumberedFiles> sequencesIn(const fs::path& folder) {
+std::vector<NumberedFiles> sequencesIn(const fs::path& folder, IsWanted isWanted) {
   std::map<std::string, NumberedFiles> sequences;
   for (const std::string& name : namesIn(folder)) {
     NumberedName split;
-    if (!splitName(name, split)) continue;
+    if ((isWanted && !isWanted(name)) || !splitName(name, split)) continue;
     NumberedFiles& files = sequences[patternOf(split)];
     files.pattern = folder / patternOf(split);
     add(folder, name, split.number, files);

@@ -42,7 +42,10 @@ bool isPattern(const std::filesystem::path& path);
 // Throws LayoutError: no such file, or two files with one number.
 NumberedFiles numberedLike(const std::filesystem::path& patternOrFile);
 
-// The sequences in a folder (not below it), by name; hidden files and those without a number are left out.
-std::vector<NumberedFiles> sequencesIn(const std::filesystem::path& folder);
+// The sequences in a folder (not below it), by name, of files of which `isWanted` says so by their name;
+// hidden files and those without a number are left out. Throws LayoutError: no such folder, or two files with
+// one number.
+using IsWanted = bool (*)(const std::string& name);
+std::vector<NumberedFiles> sequencesIn(const std::filesystem::path& folder, IsWanted isWanted = nullptr);
 
 }  // namespace fluidtex::caches

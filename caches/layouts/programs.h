@@ -17,6 +17,7 @@ std::optional<Layout> mantaflowCache(const std::filesystem::path& folder, const 
 std::optional<Layout> flipFluidsCache(const std::filesystem::path& folder);
 
 // The grids of an OpenVDB file that hold a surface and a velocity, by convention where no name is given.
+// Throws LayoutError: unreadable, or without those that are named, unless it has no grids at all.
 struct GridChoice {
   std::string surface;  // empty: none
   bool fog = false;
@@ -27,7 +28,9 @@ struct GridChoice {
 GridChoice chooseGrids(const std::filesystem::path& file, const Options& options);
 
 // The attribute of a geometry file that holds velocity, by convention where no name is given; empty: none.
+// Throws FormatError, and LayoutError where one is named and missing, unless there are no points.
 struct AttributeChoice {
+  bool points = false;  // whether there are any; without them the rest says nothing
   bool triangles = false;
   std::string velocity;
   std::vector<std::string> scalars;

@@ -2,6 +2,8 @@
 #include "caches/layouts/programs.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <limits>
 #include <set>
 #include <system_error>
@@ -11,17 +13,34 @@ namespace fluidtex::caches {
 namespace fs = std::filesystem;
 namespace {
 
-bool isGrids(const NumberedFiles& files) {
-  return files.pattern.extension() == ".vdb";
+bool isGrids(const fs::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return ending == ".vdb";
 }
 
-// The first file that holds anything: programs leave empty ones for frames before the liquid.
-const fs::path& sampleOf(const NumberedFiles& files) {
+// What `choose` finds in the first file that holds anything: programs leave empty files, and files with
+// nothing in them, for frames before the liquid.
+template <class Choose, class HoldsAnything>
+auto firstChoice(const NumberedFiles& files, fs::path& sample, const Choose& choose,
+                 const HoldsAnything& holdsAnything) {
   for (const auto& [number, file] : files.byNumber) {
     std::error_code unknown;
-    if (fs::file_size(file, unknown) > 0 && !unknown) return file;
+    if (fs::file_size(file, unknown) == 0 && !unknown) continue;
+    sample = file;
+    if (auto choice = choose(file); holdsAnything(choice)) return choice;
   }
-  return files.byNumber.begin()->second;
+  if (sample.empty()) sample = files.byNumber.begin()->second;
+  return choose(sample);
+}
+
+GridChoice gridsOf(const NumberedFiles& files, const Options& options, fs::path& sample) {
+  return firstChoice(
+      files, sample, [&](const fs::path& file) { return chooseGrids(file, options); },
+      [](const GridChoice& choice) {
+        return !choice.surface.empty() || !choice.velocity.empty() || !choice.scalars.empty();
+      });
 }
 
 std::string patternsOf(const std::vector<NumberedFiles>& sequences) {
@@ -47,8 +66,8 @@ NumberedFiles theOne(std::vector<NumberedFiles> candidates, const fs::path& fold
 }
 
 void takeGrids(const NumberedFiles& files, const Options& options, Layout& layout) {
-  const fs::path& sample = sampleOf(files);
-  GridChoice choice = chooseGrids(sample, options);
+  fs::path sample;
+  GridChoice choice = gridsOf(files, options, sample);
   if (choice.surface.empty())
     throw LayoutError(
         sample.string() +
@@ -68,7 +87,10 @@ void takeGrids(const NumberedFiles& files, const Options& options, Layout& layou
 void takeGeometry(const NumberedFiles& files, const Options& options, Layout& layout) {
   Options surfaceOnly = options;
   if (!options.velocity.empty()) surfaceOnly.velocityName.clear();
-  AttributeChoice choice = chooseAttributes(sampleOf(files), surfaceOnly);
+  fs::path sample;
+  AttributeChoice choice = firstChoice(
+      files, sample, [&](const fs::path& file) { return chooseAttributes(file, surfaceOnly); },
+      [](const AttributeChoice& found) { return found.points; });
   layout.surface = files;
   layout.surfaceKind = choice.triangles ? SurfaceKind::mesh : SurfaceKind::particles;
   layout.scalars = choice.scalars;
@@ -81,9 +103,10 @@ void takeGeometry(const NumberedFiles& files, const Options& options, Layout& la
 void takeVelocity(const NumberedFiles& files, const Options& options, Layout& layout) {
   Options velocityOnly = options;
   velocityOnly.surfaceName.clear();
-  const GridChoice choice = chooseGrids(sampleOf(files), velocityOnly);
+  fs::path sample;
+  const GridChoice choice = gridsOf(files, velocityOnly, sample);
   if (choice.velocity.empty())
-    throw LayoutError(sampleOf(files).string() +
+    throw LayoutError(sample.string() +
                       ": holds no grid that can be a velocity; name it with files.velocity_name");
   layout.velocity = files;
   layout.velocityKind = VelocityKind::grids;
@@ -93,12 +116,9 @@ void takeVelocity(const NumberedFiles& files, const Options& options, Layout& la
 
 Layout fromFolder(const fs::path& folder, const Options& options) {
   std::vector<NumberedFiles> grids, geometry;
-  for (NumberedFiles& files : sequencesIn(folder)) {
-    if (isGrids(files))
-      grids.push_back(std::move(files));
-    else if (isGeometryFile(files.pattern))
-      geometry.push_back(std::move(files));
-  }
+  const auto isRead = [](const std::string& name) { return isGrids(name) || isGeometryFile(name); };
+  for (NumberedFiles& files : sequencesIn(folder, isRead))
+    (isGrids(files.pattern) ? grids : geometry).push_back(std::move(files));
   Layout layout;
   if (!geometry.empty()) {
     takeGeometry(theOne(std::move(geometry), folder, "meshes or particles"), options, layout);
@@ -118,37 +138,66 @@ Layout fromFolder(const fs::path& folder, const Options& options) {
 Layout fromFiles(const fs::path& path, const Options& options) {
   Layout layout;
   const NumberedFiles files = numberedLike(path);
-  if (isGrids(files))
+  if (isGrids(files.pattern))
     takeGrids(files, options, layout);
   else
     takeGeometry(files, options, layout);  // says what is wrong with any other file
   return layout;
 }
 
+// The known cache that a file, or a pattern, is part of: only there its place and unit are known.
+std::optional<Layout> cacheOfFile(const fs::path& file, const Options& options) {
+  if (!options.velocity.empty()) return std::nullopt;
+  const fs::path folder = file.parent_path();
+  const std::string name = folder.filename().string();
+  if (name == "mesh" || name == "data" || name == "config") return mantaflowCache(folder, options);
+  if (name == "bakefiles") return flipFluidsCache(folder);
+  return std::nullopt;
+}
+
 Layout layoutAt(const Options& options) {
   std::error_code unknown;
-  if (!fs::is_directory(options.path, unknown)) return fromFiles(options.path, options);
-  const fs::path folder = fs::absolute(options.path).lexically_normal();
-  const fs::path plain = folder.filename().empty() ? folder.parent_path() : folder;
+  const fs::path path = fs::absolute(options.path).lexically_normal();
+  if (!fs::is_directory(path, unknown)) {
+    if (std::optional<Layout> layout = cacheOfFile(path, options)) return *layout;
+    return fromFiles(options.path, options);
+  }
+  const fs::path plain = path.filename().empty() ? path.parent_path() : path;
   if (std::optional<Layout> layout = mantaflowCache(plain, options)) return *layout;
   if (std::optional<Layout> layout = flipFluidsCache(plain)) return *layout;
   return fromFolder(plain, options);
 }
 
+std::string rangeOf(const NumberedFiles& files) {
+  return std::to_string(files.first()) + " to " + std::to_string(files.last());
+}
+
+bool haveCommon(const NumberedFiles& a, const NumberedFiles& b) {
+  return std::max(a.first(), b.first()) <= std::min(a.last(), b.last());
+}
+
 // Frames that have all files.
 void findFrames(const Options& options, Layout& layout) {
+  const std::array<const NumberedFiles*, 3> sources{&layout.surface, &layout.velocity, &layout.config};
   int first = layout.surface.first(), last = layout.surface.last();
-  for (const NumberedFiles* files : {&layout.velocity, &layout.config}) {
+  for (const NumberedFiles* files : sources) {
     if (files->empty()) continue;
     first = std::max(first, files->first());
     last = std::min(last, files->last());
   }
-  if (first > last)
-    throw LayoutError(layout.surface.pattern.string() + " and " + layout.velocity.pattern.string() +
-                      ": have no number in common (" + std::to_string(layout.surface.first()) + " to " +
-                      std::to_string(layout.surface.last()) + ", " + std::to_string(layout.velocity.first()) +
-                      " to " + std::to_string(layout.velocity.last()) + "); write both for the same frames");
-  if (options.first >= 0 && (options.first < first || options.first > last))
+  if (first > last) {
+    const NumberedFiles& other =
+        layout.velocity.empty() || (!layout.config.empty() && haveCommon(layout.surface, layout.velocity))
+            ? layout.config
+            : layout.velocity;
+    throw LayoutError(layout.surface.pattern.string() + " and " + other.pattern.string() +
+                      ": have no number in common (" + rangeOf(layout.surface) + ", " + rangeOf(other) +
+                      "); write both for the same frames");
+  }
+  const bool isThere = std::all_of(sources.begin(), sources.end(), [&](const NumberedFiles* files) {
+    return files->empty() || files->byNumber.contains(options.first);
+  });
+  if (options.first >= 0 && (options.first < first || options.first > last || !isThere))
     throw LayoutError("files.first: there is no frame " + std::to_string(options.first) + "; there are " +
                       std::to_string(first) + " to " + std::to_string(last));
   layout.first = options.first >= 0 ? options.first : first;
