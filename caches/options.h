@@ -27,7 +27,7 @@ struct Options {
   Vec3d turn{0.0};
   double scale = 1.0;
   Vec3d move{0.0};
-  double iso = 0.0;            // value of densities at the surface; 0: half of the largest of the first frame
+  double iso = 0.0;            // value of densities at the surface; 0: half of the largest of each frame
   double velocityScale = 1.0;  // factor on the velocities of the files
   double radius = 0.0;         // of particles, in the files' unit
   double voxel = 0.0;          // side of the level set's cells, metres

@@ -2,8 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace fluidtex::pipeline {
+
+const sim::FloatGrid& temperatureOf(const sim::Frame& frame) {
+  const auto found = frame.fields.find("temperature");
+  if (found == frame.fields.end())
+    throw std::runtime_error("frame " + std::to_string(frame.index) +
+                             ": has no temperature, by which the texture is to be guided or scaled; the "
+                             "files hold none of that name");
+  return *found->second;
+}
 
 double curveAt(const std::vector<texture::CurvePoint>& points, double value) {
   const auto after =

@@ -1,6 +1,7 @@
 // Scalar fields of a frame at positions on its surface, for the texture's scale and guidance.
 #pragma once
 
+#include "sim/frame/frame.h"
 #include "texture/loops/parallel.h"
 #include "texture/options.h"
 #include "texture/surface.h"
@@ -27,6 +28,9 @@ std::vector<float> alongCurve(const std::vector<texture::CurvePoint>& points,
                     });
   return results;
 }
+
+// The frame's temperature, K. Throws std::runtime_error where it has none, as liquid out of files may.
+const sim::FloatGrid& temperatureOf(const sim::Frame& frame);
 
 // Makes functions that sample a scalar grid linearly.
 template <typename Grid>

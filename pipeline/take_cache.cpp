@@ -13,6 +13,9 @@ namespace {
 
 using sim::Vec3d;
 
+// Of a liquid that fills the picture in the default view.
+constexpr double kDiagonalOfView = 1.6;
+
 constexpr int kFewestCells = 8, kMostCells = 4096;  // of domain.resolution
 
 double longestOf(const Vec3d& size) {
@@ -28,8 +31,16 @@ void takeFrames(int frames, int first, scenes::Scene& scene) {
   scene.onto.last = scene.onto.first + scene.frames - 1;
 }
 
+// A file that is missing is better known now than in the middle of the run.
+void requireFiles(const caches::Layout& layout, int frames) {
+  for (int number = layout.first; number < layout.first + frames; ++number)
+    for (const caches::NumberedFiles* files : {&layout.surface, &layout.velocity, &layout.config})
+      if (!files->empty()) files->at(number);
+}
+
 void takeBounds(const openvdb::BBoxd& bounds, double voxel, scenes::Scene& scene) {
   if (scene.sim.size[0] > 0.0) return;
+  scene.domainOrigin = bounds.min();
   const Vec3d extents = bounds.extents();
   for (int axis = 0; axis < 3; ++axis) scene.sim.size[axis] = std::max(extents[axis], 4.0 * voxel);
   scene.sim.resolution =
@@ -41,7 +52,7 @@ void takeView(const openvdb::BBoxd& bounds, render::Camera& camera) {
   const render::Camera view;
   if (std::isnan(camera.at[0])) camera.at = bounds.getCenter();
   if (std::isnan(camera.from[0]))
-    camera.from = camera.at + (view.from - view.at) * longestOf(bounds.extents());
+    camera.from = camera.at + (view.from - view.at) * (bounds.extents().length() / kDiagonalOfView);
 }
 
 // Of the program's own frames: the domain that they were made in, seen as always.
@@ -65,6 +76,7 @@ std::vector<std::string> takeCache(scenes::Scene& scene) {
   scene.files.voxel = survey.voxel;
   scene.files.first = survey.layout.first;
   takeFrames(survey.layout.frames(), survey.layout.first, scene);
+  requireFiles(survey.layout, scene.frames);
   takeBounds(survey.bounds, survey.voxel, scene);
   takeView(survey.bounds, scene.render.camera);
   std::vector<std::string> lines = caches::describe(survey.layout);

@@ -52,7 +52,7 @@ std::vector<float> levelsOn(const TextureGuidance& guidance, const sim::Frame& f
     case GuidanceBy::height:
       return alongCurve(points, mesh.positions, [] { return [](const openvdb::Vec3d& x) { return x.z(); }; });
     case GuidanceBy::temperature:
-      return alongCurve(points, mesh.positions, sampler(*frame.fields.at("temperature")));
+      return alongCurve(points, mesh.positions, sampler(temperatureOf(frame)));
     case GuidanceBy::speed:
       return along(speeds(mesh.positions, frame));
     case GuidanceBy::vorticity:

@@ -46,7 +46,7 @@ texture::PointScale scaleIn(const TextureScale& scale, const sim::Frame& frame) 
         };
       });
     case ScaleBy::temperature:
-      return mapped(points, sampler(*frame.fields.at("temperature")));
+      return mapped(points, sampler(temperatureOf(frame)));
     case ScaleBy::height:
       return mapped(points, [] { return [](const sim::Vec3d& x) { return x.z(); }; });
     case ScaleBy::field:

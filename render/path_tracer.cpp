@@ -265,9 +265,12 @@ void buildWorld(World& world, const texture::TexturedSurface& surface, const std
     stage.bumped = bumpedNormals(surface, options.bump);
   stage.colorBetween = view.colorBetween;
   stage.meshes = surroundingMeshes(options.surroundings, view.domainSize);
+  for (Mesh& mesh : stage.meshes)
+    for (Vec3f& x : mesh.positions) x += Vec3f(view.domainOrigin);
   for (const Solid& solid : solids)
     stage.meshes.push_back({MeshKind::matt, solid.positions, solid.triangles, Vec3f(solid.color)});
   stage.domainSize = Vec3f(view.domainSize);
+  stage.domainOrigin = Vec3f(view.domainOrigin);
   stage.gloss = std::clamp(static_cast<float>(options.gloss), 0.0f, 1.0f);
   stage.roughness = std::clamp(static_cast<float>(options.roughness), 0.005f, 1.0f);
   stage.seeThrough = view.seeThrough || std::any_of(surface.color.begin(), surface.color.end(),

@@ -28,12 +28,13 @@ struct Solid {
 using ColorBetween = std::function<std::optional<texture::Vec4f>(std::uint32_t, const texture::Vec3f&)>;
 
 struct View {
-  Vec3d domainSize;  // the domain is [0, domainSize], with tank and ground around it
+  Vec3d domainSize;  // metres; the domain has tank and ground around it
   // Position of a turning camera: 0 at the first, 1 at the last frame of the animation.
   double progress = 0.0;
   int frame = 1;              // keys the random numbers
   ColorBetween colorBetween;  // empty: the vertices' colours, interpolated
   bool seeThrough = false;    // colorBetween may give alpha below 1
+  Vec3d domainOrigin{0.0};    // the domain's lowest corner
 };
 
 // Renders a picture; the result does not depend on the number of threads. An empty surface gives the

@@ -12,7 +12,7 @@ namespace fluidtex::render {
 struct Stage {
   const texture::TexturedSurface* liquid = nullptr;
   std::vector<Mesh> meshes;
-  Vec3f domainSize{1.0f};
+  Vec3f domainSize{1.0f}, domainOrigin{0.0f};
   float gloss = 1.0f, roughness = 0.05f;  // of the liquid's coat
   std::vector<Vec3f> bumped;              // normals to shade by; empty: the liquid's own
   bool seeThrough = false;                // some of the liquid has alpha < 1

@@ -11,6 +11,11 @@
 namespace fluidtex::scenes {
 namespace {
 
+// Files may hold one, which is seen when they are read.
+bool hasTemperature(const Scene& scene) {
+  return scene.sim.heat.simulated || scene.motion.flow == sim::MotionKind::files;
+}
+
 // As many as texture.points may be.
 constexpr double kMostPoints = 50e6;
 
@@ -57,7 +62,7 @@ void checkScale(const Scene& scene, Reader& reader) {
                  "give one [[texture.scale.point]] or more, each with a value and a factor");
   if (scale.by == texture::ScaleBy::distance && scene.scaleFrom.empty())
     reader.fault(by, "\"distance\" is from nothing", "give a shape or more as [[texture.scale.from]]");
-  if (scale.by == texture::ScaleBy::temperature && !scene.sim.heat.simulated)
+  if (scale.by == texture::ScaleBy::temperature && !hasTemperature(scene))
     reader.fault(by, "\"temperature\" is not computed", "give simulate = true in [heat] too");
 }
 
@@ -69,7 +74,7 @@ void checkGuidance(const Scene& scene, Reader& reader) {
   if (guidance.points.empty())
     reader.fault(by, "is of no use without a level",
                  "give one [[texture.guidance.point]] or more, each with a value and a level");
-  if (guidance.by == texture::GuidanceBy::temperature && !scene.sim.heat.simulated)
+  if (guidance.by == texture::GuidanceBy::temperature && !hasTemperature(scene))
     reader.fault(by, "\"temperature\" is not computed", "give simulate = true in [heat] too");
   const std::string full = path + ".foam.full";
   if (reader.clean(full) && !(guidance.foam.full > guidance.foam.from))

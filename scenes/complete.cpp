@@ -65,7 +65,7 @@ void complete(Scene& scene, const Reader& reader) {
   // A floor would hide what falls through it, and a rim would bound what has no bounds.
   const auto& sides = scene.sim.sides;
   render::Surroundings& around = scene.render.surroundings;
-  if (sides[4] == sim::Side::unbounded && !reader.given("render.ground")) around.ground = false;
+  if (sides[4] == sim::Side::unbounded && !found && !reader.given("render.ground")) around.ground = false;
   if (std::find(sides.begin(), sides.end(), sim::Side::unbounded) != sides.end() &&
       !reader.given("render.tank"))
     around.tank = false;

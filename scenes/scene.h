@@ -28,6 +28,8 @@ struct Scene {
   sim::Options sim;
   sim::MotionOptions motion;
   caches::Options files;  // with MotionKind::files
+  // The lowest corner of the domain, metres; other than 0 where it was found in files.
+  sim::Vec3d domainOrigin{0.0};
   texture::Options texture;
   std::vector<sim::Shape> scaleFrom;  // what ScaleBy::distance is measured from
   std::vector<sim::Shape> keepClear;  // places where the orientation field should have no singularities

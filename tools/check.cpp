@@ -45,12 +45,14 @@ void check(const CommonOptions& options) {
   print("frames    {} to {} of {}, {:g} a second, {:.3g} s in all\n", first, last, scene.frames,
         scene.sim.frameRate, (scene.frames - 1) / scene.sim.frameRate);
   const bool endless = sim::isEndless(sim::domainCells(scene.sim));
-  print("grid      {} x {} x {} cells of {:.4g} m{}\n", cells.x(), cells.y(), cells.z(), h,
-        endless ? ", and on without bounds where liquid gets to" : "");
-  print("liquid    {} cells at the start, {:.4g} m3", liquid.atStart,
-        static_cast<double>(liquid.atStart) * h * h * h);
-  if (liquid.cells != liquid.atStart) print("; {} cells once all is poured", liquid.cells);
-  print("\n");
+  if (scene.motion.flow != sim::MotionKind::files) {
+    print("grid      {} x {} x {} cells of {:.4g} m{}\n", cells.x(), cells.y(), cells.z(), h,
+          endless ? ", and on without bounds where liquid gets to" : "");
+    print("liquid    {} cells at the start, {:.4g} m3", liquid.atStart,
+          static_cast<double>(liquid.atStart) * h * h * h);
+    if (liquid.cells != liquid.atStart) print("; {} cells once all is poured", liquid.cells);
+    print("\n");
+  }
   const double spacing = scene.texture.spacing, foreseen = pipeline::foreseenSurface(scene);
   const std::optional<double> points = plannedPoints(scene, liquid);
   if (!points) {

@@ -14,6 +14,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <system_error>
@@ -121,6 +122,16 @@ scenes::Scene loadScene(const CommonOptions& options) {
   overrides.set = options.set;
   overrides.exemplar = options.exemplar;
   const bool ofCache = isCache(options.scene);
+  if (std::error_code unknown;
+      !ofCache && options.scene.extension() != ".toml" && !std::filesystem::exists(options.scene, unknown))
+    throw UsageError(
+        fmt::format("{}: there is no such scene file, and no such cache", options.scene.string()));
+  const auto givesExemplar = [](const std::string& set) { return set.starts_with("texture.exemplar"); };
+  if (ofCache && options.exemplar.empty() &&
+      std::none_of(options.set.begin(), options.set.end(), givesExemplar))
+    throw UsageError(
+        fmt::format("{}: what it should be textured with is missing; give a picture, --exemplar IMAGE",
+                    options.scene.string()));
   scenes::Scene scene =
       ofCache ? scenes::sceneOfCache(options.scene, overrides) : scenes::loadScene(options.scene, overrides);
   if (scene.motion.flow == sim::MotionKind::files) {

@@ -72,9 +72,10 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
     }
     const double progress = scene.frames > 1 ? double(frame - 1) / (scene.frames - 1) : 0.0;
     nowAt(kOnPicture, frame);
-    const render::Picture picture = render::render(
-        surface, solids.at((frame - 1) / scene.sim.frameRate), scene.render,
-        {scene.sim.size, progress, frame, colorBetween(detail, surface), detail && detail->seeThrough});
+    const render::Picture picture =
+        render::render(surface, solids.at((frame - 1) / scene.sim.frameRate), scene.render,
+                       {scene.sim.size, progress, frame, colorBetween(detail, surface),
+                        detail && detail->seeThrough, scene.domainOrigin});
     writeAtomically(out / "frames" / (render::frameName(frame) + ".png"),
                     [&](const fs::path& file) { writePng(picture, file); });
     if (!options.quiet) say("frame {}\n", frame);

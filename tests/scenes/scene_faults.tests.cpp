@@ -208,7 +208,7 @@ TEST_CASE("scene faults: a flow in closed form and what it knows nothing of", "[
   checkWholeFiles({
       {"motion.flow = 'swirl'\n" + kGoodScene,
        "s.toml:1:8: error: motion.flow: \"swirl\" is unknown; give \"solver\", \"rest\", \"rotation\", "
-       "\"vortex\", \"deformation\", \"stretch\" or \"source_sink\""},
+       "\"vortex\", \"deformation\", \"stretch\", \"source_sink\" or \"files\""},
       {"motion.period = 2\n" + kGoodScene,
        "s.toml:1:8: error: motion.period: is of no use here; give it together with flow = \"vortex\" or "
        "\"deformation\""},

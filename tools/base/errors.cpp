@@ -1,5 +1,7 @@
 #include "tools/base/errors.h"
 
+#include "caches/formats/format_error.h"
+#include "caches/layouts/numbered_files.h"
 #include "scenes/faults.h"
 #include "scenes/scene.h"
 #include "sim/meshes/read_mesh.h"
@@ -47,6 +49,10 @@ int guarded(const std::function<void()>& body) {
   } catch (const sim::MeshError& error) {
     return fault(error.what(), kInputWrong);
   } catch (const sim::HeightError& error) {
+    return fault(error.what(), kInputWrong);
+  } catch (const caches::LayoutError& error) {
+    return fault(error.what(), kInputWrong);
+  } catch (const caches::FormatError& error) {
     return fault(error.what(), kInputWrong);
   } catch (const UsageError& error) {
     return fault(error.what(), kInputWrong);

@@ -203,7 +203,7 @@ class FrameLoop {
         const double progress = m_scene.frames > 1 ? double(frame - 1) / (m_scene.frames - 1) : 0.0;
         picture = render::render(m_surface, m_solids.at(time), m_scene.render,
                                  {m_scene.sim.size, progress, frame, colorBetween(m_detail, m_surface),
-                                  m_detail && m_detail->seeThrough},
+                                  m_detail && m_detail->seeThrough, m_scene.domainOrigin},
                                  reporter("render"));
       }
       Stopwatch watch(seconds.write);

@@ -1,5 +1,7 @@
 #include "tools/run_folder/input_files.h"
 
+#include "caches/layouts/layout.h"
+#include "caches/recorded/recording.h"
 #include "scenes/schema.h"
 #include "tools/base/errors.h"
 #include "tools/base/fingerprint.h"
@@ -110,6 +112,38 @@ Fingerprint contentOf(const sim::MeshSequence& files) {
   return all;
 }
 
+// The cache's files of all frames. They may be large: told apart by names, sizes and times of change.
+Fingerprint contentOfCache(const scenes::Scene& scene) {
+  std::vector<fs::path> files;
+  if (caches::isRecording(scene.files.path)) {
+    for (int frame = 1; frame <= scene.frames; ++frame)
+      files.push_back(caches::recordedFrame(scene.files.path, frame));
+  } else {
+    const caches::Layout layout = caches::recognize(scene.files);
+    for (int number = layout.first; number < layout.first + scene.frames; ++number)
+      for (const caches::NumberedFiles* source :
+           {&layout.surface, &layout.velocity, &layout.config, &layout.blur})
+        if (const auto file = source->byNumber.find(number); file != source->byNumber.end())
+          files.push_back(file->second);
+  }
+  Fingerprint all;
+  std::string text;
+  for (const fs::path& file : files) {
+    std::error_code unknown;
+    const std::uintmax_t bytes = fs::file_size(file, unknown);
+    if (unknown) throw UsageError(fmt::format("{}: cannot be read ({})", file.string(), unknown.message()));
+    all.bytes += bytes;
+    text += fmt::format("{} {} {}\n", file.filename().string(), bytes,
+                        fs::last_write_time(file, unknown).time_since_epoch().count());
+  }
+  all.hash = hashOf(text);
+  return all;
+}
+
+bool isOutOfFiles(const scenes::Scene& scene) {
+  return scene.motion.flow == sim::MotionKind::files;
+}
+
 Fingerprint fingerprintIn(const Json& entry) {
   return {entry.value("bytes", std::uint64_t{0}), entry.value("hash", "")};
 }
@@ -129,6 +163,13 @@ Json contentsOf(const scenes::Scene& scene) {
     entry["bytes"] = content.bytes;
     entry["hash"] = content.hash;
   }
+  if (isOutOfFiles(scene)) {
+    const Fingerprint content = contentOfCache(scene);
+    contents["files.path"] = {{"file", fs::absolute(scene.files.path).lexically_normal().generic_string()},
+                              {"frames", scene.frames},
+                              {"bytes", content.bytes},
+                              {"hash", content.hash}};
+  }
   return contents;
 }
 
@@ -145,6 +186,13 @@ std::string contentDifference(const Json& before, const Json& current, const sce
     }
     if (now != fingerprintIn(then))
       return fmt::format("{} ({}) has changed since the run began", files.files.string(), key);
+  }
+  if (isOutOfFiles(scene) && before.contains("files.path")) {
+    const Json& then = before.at("files.path");
+    scenes::Scene asThen = scene;  // more frames have more files
+    asThen.frames = then.value("frames", scene.frames);
+    if (contentOfCache(asThen) != fingerprintIn(then))
+      return fmt::format("{} (files.path) has changed since the run began", scene.files.path.string());
   }
   return {};
 }
