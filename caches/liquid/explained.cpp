@@ -17,6 +17,8 @@ namespace {
 constexpr std::size_t kPoints = 2000;
 constexpr std::size_t kFewest = 30;
 constexpr double kMoved = 0.25;  // cells
+// What a weight other than 1/2 has to explain more: below that it is no more than chance.
+constexpr double kBetter = 0.005;
 constexpr int kMostSteps = 64;
 constexpr double kStep = 0.5;  // cells
 
@@ -152,7 +154,9 @@ FrameMotion bestMotion(const openvdb::FloatGrid& last, const openvdb::FloatGrid&
   for (const double weight : {0.5, 0.25, 0.75, 0.0, 1.0}) {
     const std::optional<double> explained =
         explainedShare(points, displacements(points, begin, end, weight, seconds), phi);
-    if (explained && (!best.explained || *explained > *best.explained)) best = {weight, explained};
+    if (!explained) continue;
+    const double least = best.explained.value_or(-1e30) + (best.meanWeight == 0.5 ? kBetter : 0.0);
+    if (!best.explained || *explained > least) best = {weight, explained};
   }
   return best;
 }

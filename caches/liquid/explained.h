@@ -31,7 +31,8 @@ std::vector<Vec3d> displacements(const std::vector<Vec3d>& points, const sim::Fa
 std::optional<double> explainedShare(const std::vector<Vec3d>& points, const std::vector<Vec3d>& displacement,
                                      const openvdb::FloatGrid& phi);
 
-// The mean weight of 0, 1/4, 1/2, 3/4, 1 that explains most, and how much.
+// The mean weight of 0, 1/4, 1/2, 3/4, 1 that explains most, and how much: 1/2 where none explains more by
+// half a percent.
 struct FrameMotion {
   double meanWeight = 0.5;
   std::optional<double> explained;

@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace fluidtex::caches {
 namespace {
@@ -97,7 +98,7 @@ std::vector<openvdb::FloatGrid::Ptr> continuedOff(const SurfaceTriangles& surfac
         double value = 0.0;
         for (int corner = 0; corner < 3; ++corner)
           value += weights[corner] * values[std::size_t(t[corner]) * components + c];
-        made[c][n]->setValueOn(index.pos(), float(value));
+        if (std::isfinite(value)) made[c][n]->setValueOn(index.pos(), float(value));
       }
     }
   });

@@ -21,7 +21,7 @@ LevelSet levelSetOf(const SurfaceTriangles& surface, double h);
 
 // Values at the surface's points, continued off it: each cell within `band` cells of the surface has those of
 // the closest point, linear within its triangle. values: #P x components. One grid a component, active where
-// known, at the cells' centres.
+// known, at the cells' centres: not where a value is no number.
 std::vector<openvdb::FloatGrid::Ptr> continuedOff(const SurfaceTriangles& surface,
                                                   const std::vector<float>& values, int components, double h,
                                                   int band);

@@ -16,8 +16,7 @@ Mat3d turned(const Options& options) {
     openvdb::Vec3d about(0.0);
     about[axis] = 1.0;
     const double angle = options.turn[axis] * std::numbers::pi / 180.0;
-    // rotation() is of column vectors.
-    upright = upright * openvdb::math::rotation<Mat3d>(about, angle).transpose();
+    upright = upright * openvdb::math::rotation<Mat3d>(about, angle);
   }
   return upright;
 }

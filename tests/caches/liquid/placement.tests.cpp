@@ -28,7 +28,8 @@ TEST_CASE("placement: Y up becomes Z up, and right-handed stays so", "[caches]")
   CHECK(world.getMat3().det() == Approx(1.0));
 }
 
-TEST_CASE("placement: turned about x, then y, then z, against the clock seen from the axis' end", "[caches]") {
+TEST_CASE("placement: turned about x, then y, then z, against the clock seen from the axis' end",
+          "[caches]") {
   Options options;
   options.turn = Vec3d(90, 0, 0);
   checkNear(worldFromFile(options).transform(Vec3d(0, 1, 0)), Vec3d(0, 0, 1));
