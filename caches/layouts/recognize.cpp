@@ -172,28 +172,23 @@ std::string rangeOf(const NumberedFiles& files) {
   return std::to_string(files.first()) + " to " + std::to_string(files.last());
 }
 
-bool haveCommon(const NumberedFiles& a, const NumberedFiles& b) {
-  return std::max(a.first(), b.first()) <= std::min(a.last(), b.last());
-}
-
 // Frames that have all files.
 void findFrames(const Options& options, Layout& layout) {
-  const std::array<const NumberedFiles*, 3> sources{&layout.surface, &layout.velocity, &layout.config};
+  const std::array<const NumberedFiles*, 4> sources{&layout.surface, &layout.velocity, &layout.config,
+                                                    &layout.blur};
   int first = layout.surface.first(), last = layout.surface.last();
   for (const NumberedFiles* files : sources) {
     if (files->empty()) continue;
     first = std::max(first, files->first());
     last = std::min(last, files->last());
   }
-  if (first > last) {
-    const NumberedFiles& other =
-        layout.velocity.empty() || (!layout.config.empty() && haveCommon(layout.surface, layout.velocity))
-            ? layout.config
-            : layout.velocity;
-    throw LayoutError(layout.surface.pattern.string() + " and " + other.pattern.string() +
-                      ": have no number in common (" + rangeOf(layout.surface) + ", " + rangeOf(other) +
-                      "); write both for the same frames");
-  }
+  // Of ranges that have nothing in common, two have not.
+  for (const NumberedFiles* a : sources)
+    for (const NumberedFiles* b : sources)
+      if (!a->empty() && !b->empty() && a->last() < b->first())
+        throw LayoutError(a->pattern.string() + " and " + b->pattern.string() +
+                          ": have no number in common (" + rangeOf(*a) + ", " + rangeOf(*b) +
+                          "); write both for the same frames");
   const bool isThere = std::all_of(sources.begin(), sources.end(), [&](const NumberedFiles* files) {
     return files->empty() || files->byNumber.contains(options.first);
   });

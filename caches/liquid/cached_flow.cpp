@@ -67,12 +67,15 @@ void CachedFlow::judge(const LiquidFrame& now, const FrameMotion& motion, int nu
       bestFactor(*m_last->phi, *now.phi, m_last->velocity, now.velocity, motion.meanWeight, seconds);
   std::string advice = "check that surface and velocities are of the same frames";
   if (factor && factor->residual < 0.5 * factor->residualAtRest)
-    advice = fmt::format("with files.velocity_scale={:.3g} they would explain it", factor->factor);
+    advice = fmt::format("with files.velocity_scale={:.3g} they would explain it",
+                         factor->factor * m_cache.options.velocityScale);
+  const double explained = median(m_explained);
   throw LayoutError(
-      fmt::format("{}: up to frame {} the velocities explain only {:.0f}% of the surface's motion "
-                  "(files.least_explained is "
-                  "{:.0f}%); {}, or go on with files.least_explained=0",
-                  m_cache.layout.surface.pattern.string(), number, 100.0 * median(m_explained),
+      fmt::format("{}: up to frame {} the velocities explain {} of the surface's motion "
+                  "(files.least_explained is {:.0f}%); "
+                  "{}, or go on with files.least_explained=0",
+                  m_cache.layout.surface.pattern.string(), number,
+                  explained > 0.0 ? fmt::format("only {:.0f}%", 100.0 * explained) : "nothing",
                   100.0 * m_cache.options.leastExplained, advice));
 }
 
@@ -116,8 +119,9 @@ sim::Frame CachedFlow::next(const std::function<void(double)>& progress) {
   LiquidFrame now = readFrame(m_cache, number);
   if (progress) progress(0.7);
   if (now.isSheet)
-    warnOnce(m_cache.layout.surface.at(number).string() +
-             ": encloses no volume; open surfaces are taken as sheets, one and a half cells thick");
+    warnOnce(
+        m_cache.layout.surface.pattern.string() +
+        ": encloses no volume in some frames; open surfaces are taken as sheets, one and a half cells thick");
   if (m_last) addSubsteps(now, frame);
   frame.surfacePhi = now.phi;
   frame.fields = now.fields;

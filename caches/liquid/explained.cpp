@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace fluidtex::caches {
 namespace {
@@ -20,7 +21,9 @@ constexpr double kMoved = 0.25;  // cells
 // What a weight other than 1/2 has to explain more: below that it is no more than chance.
 constexpr double kBetter = 0.005;
 constexpr int kMostSteps = 64;
-constexpr double kStep = 0.5;  // cells
+constexpr double kMostCells = 1e4;  // that a point moves in a frame: nothing lies farther
+constexpr double kStep = 0.5;       // cells
+constexpr double kShort = 1e-3;     // of a frame: in that, paths are straight
 
 using Accessor = openvdb::FloatGrid::ConstAccessor;
 
@@ -40,10 +43,18 @@ Vec3d gradient(const openvdb::FloatGrid& phi, const Accessor& accessor, const Ve
 
 class Flow {
  public:
-  Flow(const sim::FaceGrids& begin, const sim::FaceGrids& end, double meanWeight)
-      : m_begin(begin), m_end(end), m_meanWeight(meanWeight) {}
+  // Velocities above `fastest` (m/s) are cut to that.
+  Flow(const sim::FaceGrids& begin, const sim::FaceGrids& end, double meanWeight, double fastest)
+      : m_begin(begin), m_end(end), m_meanWeight(meanWeight), m_fastest(fastest) {}
 
   Vec3d at(const Vec3d& x, double t) const {
+    const Vec3d v = velocityAt(x, t);
+    const double speed = v.length();
+    return speed > m_fastest ? v * (m_fastest / speed) : v;
+  }
+
+ private:
+  Vec3d velocityAt(const Vec3d& x, double t) const {
     const double w = weightAt(m_meanWeight, t);
     Vec3d a(0.0), b(0.0);
     const bool inBegin = w < 1.0 && m_begin.at(x, a), inEnd = w > 0.0 && m_end.at(x, b);
@@ -51,9 +62,8 @@ class Flow {
     return inBegin ? a : b;
   }
 
- private:
   FaceSampler m_begin, m_end;
-  double m_meanWeight;
+  double m_meanWeight, m_fastest;
 };
 
 // Distances to phi = 0 of the points moved by `factor` times their displacements, clamped to the band, m.
@@ -113,7 +123,7 @@ std::vector<Vec3d> displacements(const std::vector<Vec3d>& points, const sim::Fa
   const double h = std::min({voxel[0], voxel[1], voxel[2]});
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 64),
                     [&](const tbb::blocked_range<std::size_t>& range) {
-                      const Flow flow(begin, end, meanWeight);
+                      const Flow flow(begin, end, meanWeight, kMostCells * h / seconds);
                       for (std::size_t n = range.begin(); n != range.end(); ++n) {
                         const double cells = flow.at(points[n], 0.5).length() * seconds / h;
                         const int steps = int(std::clamp(std::ceil(cells / kStep), 1.0, double(kMostSteps)));
@@ -167,29 +177,41 @@ std::optional<VelocityFactor> bestFactor(const openvdb::FloatGrid& last, const o
   std::vector<Vec3d> points = surfacePoints(last, kPoints);
   keepMoved(phi, points);
   if (points.size() < kFewest) return std::nullopt;
-  const std::vector<Vec3d> displacement = displacements(points, begin, end, meanWeight, seconds);
-  const auto residual = [&](double factor) { return mean(distances(points, displacement, factor, phi)); };
-  // Evenly in the logarithm, in steps of 2.4%; then finer around the best.
+  const auto traced = [&](double factor) {
+    return mean(distances(points, displacements(points, begin, end, meanWeight, factor * seconds), 1.0, phi));
+  };
+  // First along straight lines, since paths of velocities that are much too fast leave what is known; evenly
+  // in the logarithm, in steps of 2.4%.
+  const std::vector<Vec3d> straight = displacements(points, begin, end, meanWeight, kShort * seconds);
   constexpr int kSteps = 240;
   const double largest = std::log(300.0);
-  double best = 0.0, least = residual(1.0);
+  double best = 0.0, least = std::numeric_limits<double>::max();
   for (int n = -kSteps; n <= kSteps; ++n) {
-    const double at = largest * n / kSteps, here = residual(std::exp(at));
+    const double at = largest * n / kSteps;
+    const double here = mean(distances(points, straight, std::exp(at) / kShort, phi));
     if (here < least) {
       least = here;
       best = at;
     }
   }
-  for (double width = largest / kSteps; width > 1e-3; width *= 0.5)
-    for (const double side : {-0.5, 0.5}) {
-      const double here = residual(std::exp(best + side * width));
-      if (here < least) {
-        least = here;
-        best += side * width;
-      }
+  const double asIs = traced(1.0);
+  least = traced(std::exp(best));
+  if (asIs < least) {
+    least = asIs;
+    best = 0.0;
+  }
+  // Then finer, and as they are traced.
+  for (double width = 0.1; width > 2e-3; width *= 0.5)
+    for (const double side : {-1.0, 1.0}) {
+      const double here = traced(std::exp(best + side * width));
+      if (here >= least) continue;
+      least = here;
+      best += side * width;
+      break;
     }
   const double h = phi.voxelSize()[0];
-  return VelocityFactor{std::exp(best), least / h, residual(1.0) / h, residual(0.0) / h};
+  const std::vector<Vec3d> none(points.size(), Vec3d(0.0));
+  return VelocityFactor{std::exp(best), least / h, asIs / h, mean(distances(points, none, 1.0, phi)) / h};
 }
 
 }  // namespace fluidtex::caches

@@ -40,7 +40,7 @@ struct FrameMotion {
 FrameMotion bestMotion(const openvdb::FloatGrid& last, const openvdb::FloatGrid& phi,
                        const sim::FaceGrids& begin, const sim::FaceGrids& end, double seconds);
 
-// The factor on displacements with which they end nearest to the surface, 1/300 to 300; nothing where too few
+// The factor on velocities with which points end nearest to the surface, 1/300 to 300; nothing where too few
 // points move. For velocities in another unit. residual: mean distance that is left, in cells.
 struct VelocityFactor {
   double factor = 1.0, residual = 0.0, residualAsIs = 0.0, residualAtRest = 0.0;

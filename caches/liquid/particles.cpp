@@ -1,5 +1,6 @@
 #include "caches/liquid/particles.h"
 
+#include "caches/liquid/level_set.h"
 #include "caches/liquid/velocity_grids.h"
 
 #include <openvdb/tools/Filter.h>
@@ -25,7 +26,7 @@ using openvdb::Vec3f;
 // In particle spacings: radius of the balls, side of the voxels, and how far the smoothed surface of the
 // balls is drawn in, so that it lies half a spacing outside of the centres.
 constexpr double kBall = 1.0, kVoxel = 0.5, kDrawnIn = 0.45;
-constexpr int kSmoothings = 8;
+constexpr int kSmoothings = 4;
 constexpr int kLayers = 3;
 // Velocity of particles: radius in which they count, in spacings; the weight below which nothing is known;
 // and what is added to their spread, in squared spacings, so that few of them make no slope.
@@ -161,10 +162,10 @@ SurfaceTriangles surfaceOfParticles(const std::vector<Vec3f>& points, double spa
   raster.setRmin(0.0);
   raster.rasterizeSpheres(Balls{points, kBall * spacing});
   raster.finalize(true);
-  // Means of the values and another level, not a level set that is tracked: ten times as fast, and the distances
-  // are made anew from the triangles.
-  openvdb::tools::Filter<openvdb::FloatGrid>(*phi).mean(1, kSmoothings);
-  return surfaceOfGrid(*phi, -kDrawnIn * spacing);
+  // Inside of the balls their distances are those to single balls; made anew, they can be smoothed and cut.
+  const openvdb::FloatGrid::Ptr smooth = levelSetOf(surfaceOfGrid(*phi, 0.0), voxel).phi;
+  openvdb::tools::Filter<openvdb::FloatGrid>(*smooth).mean(1, kSmoothings);
+  return surfaceOfGrid(*smooth, -kDrawnIn * spacing);
 }
 
 openvdb::Vec3SGrid::Ptr velocityOfParticles(const std::vector<Vec3f>& points,

@@ -9,6 +9,8 @@
 #include "caches/liquid/placement.h"
 #include "caches/liquid/velocity_grids.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <system_error>
@@ -25,6 +27,9 @@ using openvdb::Vec3f;
 
 // Cells around the surface in which attributes at its points become velocities: at least, and at most.
 constexpr int kLeastReach = 6, kMostReach = 24;
+// Cells that a surface can cross: at 100 bytes each this is 5 GB. Farther from the origin, in cells, single
+// precision does not tell places within a cell apart.
+constexpr double kMostCells = 5e7, kFarthest = 4e6;
 // Level of densities where nothing is said: this share of the largest.
 constexpr float kIsoShare = 0.5f;
 
@@ -91,6 +96,25 @@ Raw readRaw(const Cache& cache, int number) {
   return raw;
 }
 
+// A stray vertex, or cells in another unit than the files, must not take all memory.
+void checkSize(const Cache& cache, int number, const SurfaceTriangles& surface) {
+  const double h = cache.voxel;
+  double cells = 0.0, farthest = 0.0;
+  for (const openvdb::Vec3I& t : surface.triangles) {
+    const Vec3d a(surface.points[t[0]]), b(surface.points[t[1]]), c(surface.points[t[2]]);
+    const double longest = std::max({(b - a).length(), (c - b).length(), (a - c).length()});
+    cells += std::max(0.5 * (b - a).cross(c - a).length() / (h * h), longest / h);
+    for (const Vec3d& x : {a, b, c})
+      farthest = std::max({farthest, std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
+  }
+  if (cells <= kMostCells && farthest <= kFarthest * h) return;
+  throw LayoutError(
+      fmt::format("{}: its surface crosses {:.3g} cells of {:.3g} m, up to {:.3g} m from the origin, which "
+                  "is too many or "
+                  "too far; look for stray points in it, or give larger cells with files.voxel",
+                  cache.layout.surface.at(number).string(), cells, h, farthest));
+}
+
 // Largest length of vectors at points but for the fastest hundredth, which are stray drops.
 double mostSpeed(const std::vector<float>& vectors) {
   std::vector<float> squares;
@@ -130,6 +154,12 @@ void velocityOfAttribute(const Cache& cache, int number, const Raw& raw, LiquidF
     throw LayoutError(cache.layout.surface.at(number).string() + ": lacks the attribute " + name +
                       ", which other frames have; write it for all frames");
   const std::vector<float>& values = attribute->second.values;
+  if (const auto bad =
+          std::find_if_not(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+      bad != values.end())
+    throw FormatError(cache.layout.surface.at(number).string() + ": its attribute " + name +
+                      " is no number at point " + std::to_string((bad - values.begin()) / 3) +
+                      "; write finite velocities");
   if (cache.layout.surfaceKind == SurfaceKind::particles) {
     RawVelocity grids;
     grids.vectors =
@@ -151,10 +181,13 @@ void velocityOfFlipFluids(const Cache& cache, int number, const Raw& raw, Liquid
     throw LayoutError(file.string() + ": holds " + std::to_string(velocity.size()) + " vectors, the mesh " +
                       std::to_string(raw.geometry.points.size()) + " points; bake both anew");
   double factor = 1.0;
-  if (cache.layout.blur.byNumber.contains(number)) {
+  if (!cache.layout.blur.empty()) {
     const std::vector<Vec3f> blur = readFlipVectors(cache.layout.blur.at(number));
+    if (blur.size() != velocity.size())
+      throw LayoutError(cache.layout.blur.at(number).string() + ": holds " + std::to_string(blur.size()) +
+                        " vectors, the mesh " + std::to_string(velocity.size()) + " points; bake both anew");
     double both = 0.0, squares = 0.0;
-    for (std::size_t n = 0; n < std::min(blur.size(), velocity.size()); ++n) {
+    for (std::size_t n = 0; n < velocity.size(); ++n) {
       both += double(blur[n].dot(velocity[n]));
       squares += double(velocity[n].lengthSqr());
     }
@@ -167,7 +200,23 @@ void velocityOfFlipFluids(const Cache& cache, int number, const Raw& raw, Liquid
   atPoints(cache, raw.surface, inWorld(std::move(values), velocityFromFile(cache.options)), frame);
 }
 
-void velocityInGrids(const Cache& cache, int number, LiquidFrame& frame) {
+std::string placeOf(const openvdb::BBoxd& box) {
+  return fmt::format("from ({:.3g}, {:.3g}, {:.3g}) to ({:.3g}, {:.3g}, {:.3g}) m", box.min()[0],
+                     box.min()[1], box.min()[2], box.max()[0], box.max()[1], box.max()[2]);
+}
+
+// Velocities that lie elsewhere are those of another unit, or of other axes.
+void checkPlaces(const fs::path& file, const RawVelocity& raw, const SurfaceTriangles& surface,
+                 double margin) {
+  const openvdb::BBoxd velocities = boundsOf(raw), liquid = boundsOf(surface);
+  openvdb::BBoxd near = liquid;
+  near.expand(margin);
+  if (velocities.empty() || near.hasOverlap(velocities)) return;
+  throw LayoutError(file.string() + ": its velocities lie " + placeOf(velocities) + ", and the surface " +
+                    placeOf(liquid) + "; write both in one unit, with one axis up");
+}
+
+void velocityInGrids(const Cache& cache, int number, const SurfaceTriangles& surface, LiquidFrame& frame) {
   const fs::path& file = cache.layout.velocity.at(number);
   RawVelocity raw;
   raw.onFaces = cache.layout.onFaces;
@@ -185,6 +234,7 @@ void velocityInGrids(const Cache& cache, int number, LiquidFrame& frame) {
     raw.worldFromFile = place.worldFromIndex * raw.worldFromFile;
     raw.velocityFromFile = place.metersPerSecond * raw.velocityFromFile;
   }
+  checkPlaces(file, raw, surface, kLeastReach * cache.voxel);
   frame.velocity = velocityGrids(raw, cache.voxel, *leavesNear(*frame.phi, kMostReach * cache.voxel));
 }
 
@@ -199,7 +249,7 @@ void readVelocity(const Cache& cache, int number, const Raw& raw, LiquidFrame& f
       if (!raw.geometry.points.empty()) velocityOfFlipFluids(cache, number, raw, frame);
       return;
     case VelocityKind::grids:
-      if (!isEmptyFile(cache.layout.velocity.at(number))) velocityInGrids(cache, number, frame);
+      if (!isEmptyFile(cache.layout.velocity.at(number))) velocityInGrids(cache, number, raw.surface, frame);
       return;
   }
 }
@@ -229,6 +279,7 @@ SurfaceTriangles readSurface(const Cache& cache, int number) {
 LiquidFrame readFrame(const Cache& cache, int number) {
   Raw raw = readRaw(cache, number);
   LiquidFrame frame;
+  checkSize(cache, number, raw.surface);
   LevelSet levelSet = levelSetOf(raw.surface, cache.voxel);
   frame.phi = std::move(levelSet.phi);
   frame.isSheet = levelSet.isSheet;
@@ -251,6 +302,9 @@ double suitingVoxel(const Cache& cache, int number, const SurfaceTriangles& surf
         (grid->transform().baseMap()->getAffineMap()->getMat4() * worldFromFile(cache.options)).getMat3();
     return std::cbrt(std::abs(voxel.det()));
   }
+  if (kind == SurfaceKind::particles)
+    return 2.0 * radiusOf(cache, readGeometry(cache.layout.surface.at(number)).points) * cache.options.unit *
+           cache.options.scale;
   return meanEdge(surface);
 }
 

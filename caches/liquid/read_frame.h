@@ -13,7 +13,8 @@ SurfaceTriangles readSurface(const Cache& cache, int number);
 // All of it. Velocities are known within two frames' motion of the surface, or wherever the files have them.
 LiquidFrame readFrame(const Cache& cache, int number);
 
-// Side of the cells that suit a frame of this surface, metres: the voxels of grids, else the mean edge.
+// Side of the cells that suit a frame of this surface, metres: the voxels of grids, the spacing of particles,
+// else the mean edge.
 double suitingVoxel(const Cache& cache, int number, const SurfaceTriangles& surface);
 
 }  // namespace fluidtex::caches

@@ -25,6 +25,11 @@ std::vector<const typename Tree::LeafNodeType*> leavesOf(const Tree& tree) {
   return leaves;
 }
 
+const openvdb::GridBase& gridOf(const RawVelocity& raw, int axis) {
+  if (raw.vectors) return *raw.vectors;
+  return *raw.numbers[std::size_t(axis)];
+}
+
 // The index-to-world matrix of a grid's component, in the world's axes. face: the axis along which it is
 // shifted by half a voxel, or -1.
 Mat4d worldFromIndex(const openvdb::GridBase& grid, const Mat4d& worldFromFile, int face) {
@@ -164,12 +169,27 @@ sim::FaceGrids resampledVelocity(const RawVelocity& raw, const std::array<Mat4d,
 
 }  // namespace
 
+openvdb::BBoxd boundsOf(const RawVelocity& raw) {
+  openvdb::BBoxd bounds;
+  for (int axis = 0; axis < (raw.vectors ? 1 : 3); ++axis) {
+    const openvdb::GridBase& grid = gridOf(raw, axis);
+    const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+    if (box.empty()) continue;
+    const Mat4d matrix = worldFromIndex(grid, raw.worldFromFile, -1);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Coord at(corner & 1 ? box.max()[0] : box.min()[0], corner & 2 ? box.max()[1] : box.min()[1],
+                     corner & 4 ? box.max()[2] : box.min()[2]);
+      bounds.expand(matrix.transform(at.asVec3d()));
+    }
+  }
+  return bounds;
+}
+
 sim::FaceGrids velocityGrids(const RawVelocity& raw, double h, const sim::MaskTree& near) {
   std::array<Mat4d, 3> matrices;
   bool aligned = scalesOnly(raw.velocityFromFile);
   for (int axis = 0; axis < 3; ++axis) {
-    const openvdb::GridBase& grid =
-        raw.vectors ? static_cast<openvdb::GridBase&>(*raw.vectors) : *raw.numbers[std::size_t(axis)];
+    const openvdb::GridBase& grid = gridOf(raw, axis);
     matrices[axis] = worldFromIndex(grid, raw.worldFromFile, raw.vectors && raw.onFaces ? axis : -1);
     aligned = aligned && scalesOnly(matrices[axis].getMat3());
   }

@@ -19,6 +19,9 @@ struct RawVelocity {
   openvdb::Mat3d velocityFromFile;  // v_world = m.transform(v)
 };
 
+// Where its active values lie, in the world; empty where there are none.
+openvdb::BBoxd boundsOf(const RawVelocity& raw);
+
 // One grid a component, each with a transform of its own, active where the file's is. Where the grids' axes
 // are the world's (not turned, sheared or mirrored), values are copied and keep their places; else they are
 // interpolated linearly at the centres of cells of side h in the leaves that `near` has.

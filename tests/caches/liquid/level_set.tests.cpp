@@ -116,17 +116,19 @@ TEST_CASE("level_set: values are continued off the surface from its closest poin
   for (const Vec3f& x : surface.points) values.insert(values.end(), {float(field(Vec3d(x))), x[2]});
   const std::vector<openvdb::FloatGrid::Ptr> grids = continuedOff(surface, values, 2, kCell, 4);
   REQUIRE(grids.size() == 2);
-  double widest = 0.0;
+  double widest = 0.0, sum = 0.0;
   for (auto value = grids[0]->cbeginValueOn(); value; ++value) {
     const Vec3d x = grids[0]->indexToWorld(value.getCoord());
     const Vec3d closest = kBall.center + kBall.radius * (x - kBall.center).unit();
-    // The library's closest triangle is the next but one at times, far from the surface.
-    const double off = (std::abs(kBall.distance(x)) < 1.5 * kCell ? 0.1 : 1.5) * kCell;
-    CHECK(*value == Approx(field(closest)).margin(2.3 * off));
-    CHECK(grids[1]->tree().getValue(value.getCoord()) == Approx(closest[2]).margin(off));
+    const double error = std::max(std::abs(*value - field(closest)) / 2.3,
+                                  std::abs(grids[1]->tree().getValue(value.getCoord()) - closest[2]));
+    if (std::abs(kBall.distance(x)) < kCell) CHECK(error < 0.1 * kCell);
+    sum += error;
     widest = std::max(widest, std::abs(kBall.distance(x)));
   }
   CHECK(grids[0]->activeVoxelCount() > 4000);
+  // Far from the surface the library's closest triangle is one beside it at times.
+  CHECK(sum / double(grids[0]->activeVoxelCount()) < 0.2 * kCell);
   CHECK(widest > 3.5 * kCell);
   CHECK(widest < 5.0 * kCell);
 }

@@ -1,0 +1,67 @@
+#include "caches/liquid/survey.h"
+
+#include "tests/caches/liquid/cache_files.h"
+
+#include <catch2/catch.hpp>
+
+using namespace fluidtex::caches;
+using Catch::Matchers::Contains;
+
+namespace {
+
+Clip falling() {
+  Clip clip;
+  clip.flow = freeFall();
+  clip.frames = 5;
+  return clip;
+}
+
+}  // namespace
+
+TEST_CASE("survey: bounds of the first, a middle and the last frame, and cells as the files have them",
+          "[caches]") {
+  const Clip clip = falling();
+  for (const Way way : {Way::staggered, Way::turned, Way::yUpMillimeters, Way::ply, Way::mantaflowGrids,
+                        Way::mantaflowMesh, Way::vtk}) {
+    INFO(nameOf(way));
+    const Scratch scratch;
+    const Survey found = survey(writeCache(way, clip, scratch.path).options);
+    CHECK(found.layout.frames() == 5);
+    const double slack = (way == Way::vtk ? 1.0 : 0.2) * clip.h;
+    const Vec3d low = clip.at(5).center - Vec3d(clip.ball.radius),
+                high = clip.ball.center + Vec3d(clip.ball.radius);
+    INFO(found.bounds);
+    CHECK(found.bounds.min().eq(low, slack));
+    CHECK(found.bounds.max().eq(high, slack));
+    const bool isMesh = way == Way::ply || way == Way::mantaflowMesh;
+    CHECK(found.voxel == Approx(clip.h).epsilon(isMesh ? 0.5 : way == Way::vtk ? 0.02 : 1e-3));
+  }
+}
+
+TEST_CASE("survey: cells that are given stay", "[caches]") {
+  const Scratch scratch;
+  Options options = writeCache(Way::staggered, falling(), scratch.path).options;
+  options.voxel = 0.123;
+  CHECK(survey(options).voxel == 0.123);
+}
+
+TEST_CASE("survey: the first frames may hold no surface, not all", "[caches]") {
+  const Clip clip = falling();
+  const Scratch scratch;
+  const Options options = writeCache(Way::ply, clip, scratch.path).options;
+  writeBytes(scratch.path / "water.0001.ply", "");
+  writeBytes(scratch.path / "water.0002.ply", plyBytes({}, {}, {}));
+  const Survey found = survey(options);
+  CHECK(found.layout.first == 1);
+  CHECK(found.bounds.max()[2] == Approx(clip.at(3).center[2] + clip.ball.radius).margin(0.2 * clip.h));
+  for (int number = 3; number <= 5; ++number)
+    writeBytes(scratch.path / ("water.000" + std::to_string(number) + ".ply"), plyBytes({}, {}, {}));
+  CHECK_THROWS_WITH(survey(options), Contains("no frame holds a surface"));
+}
+
+TEST_CASE("survey: a middle frame that is missing is no matter yet", "[caches]") {
+  const Scratch scratch;
+  const Options options = writeCache(Way::ply, falling(), scratch.path).options;
+  std::filesystem::remove(scratch.path / "water.0003.ply");
+  CHECK(survey(options).layout.last == 5);
+}
