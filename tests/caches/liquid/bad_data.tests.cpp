@@ -73,7 +73,7 @@ bool isEmpty(const sim::Frame& frame) {
 
 }  // namespace
 
-TEST_CASE("bad_data: a frame cut short or replaced ends a run with the file's name", "[caches]") {
+TEST_CASE("bad_data: a frame cut short or replaced ends a run with the file's name", "[caches][slow]") {
   const Clip clip = moving();
   for (const Way way : kWays) {
     const Scratch scratch;

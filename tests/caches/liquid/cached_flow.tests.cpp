@@ -91,7 +91,7 @@ TEST_CASE("cached_flow: free fall, in each way that a cache is written", "[cache
   }
 }
 
-TEST_CASE("cached_flow: a quarter turn in 24 frames brings points home", "[caches]") {
+TEST_CASE("cached_flow: a quarter turn in 24 frames brings points home", "[caches][slow]") {
   Clip clip;
   clip.flow = rotation(Vec3d(0.5), std::numbers::pi / 2.0);
   clip.ball = {Vec3d(0.5, 0.25, 0.5), 0.2};
