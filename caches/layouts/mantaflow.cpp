@@ -132,8 +132,6 @@ std::optional<Layout> flipFluidsCache(const fs::path& folder) {
       layout.velocity = std::move(sequence);
     else if (name == "blur####.bobj")
       layout.blur = std::move(sequence);
-    else if (name.ends_with("####.data"))
-      layout.scalars.push_back(name.substr(0, name.size() - std::string("####.data").size()));
   }
   if (layout.surface.empty())
     throw LayoutError(files.string() + ": holds no ######.bobj, the surface's meshes; bake the simulation");

@@ -7,7 +7,7 @@
 using fluidtex::transport::withinReach;
 using openvdb::Vec3d;
 
-TEST_CASE("within reach: indices that an int holds, on each axis; no NaN", "[transport]") {
+TEST_CASE("within reach: indices that an int holds, on each axis, and no NaN", "[transport]") {
   CHECK(withinReach(Vec3d(0.0)));
   CHECK(withinReach(Vec3d(1e9, -1e9, 1e9)));
   for (int axis = 0; axis < 3; ++axis) {
