@@ -31,6 +31,8 @@ constexpr int kLayers = 3;
 // Velocity of particles: radius in which they count, in spacings; the weight below which nothing is known;
 // and what is added to their spread, in squared spacings, so that few of them make no slope.
 constexpr double kVelocityReach = 3.0, kLeastWeight = 1e-3, kLeastSpread = 0.01;
+// Of the velocities around a place, that its own may lie from their mean.
+constexpr double kMostDeviations = 3.0;
 // Density of particles: radius in which they count, in spacings; how many are asked, and what share of these
 // has neighbours to all sides at least; how often the radius is set anew.
 constexpr double kReach = 3.0;
@@ -100,7 +102,7 @@ class Buckets {
 // holds at the surface too, where all particles are to one side.
 bool velocityAt(const Vec3d& x, const Buckets& buckets, const std::vector<Vec3f>& points,
                 const std::vector<float>& velocity, double spacing, Vec3d& result) {
-  double weights = 0.0;
+  double weights = 0.0, squaredSpeed = 0.0;
   Vec3d middle(0.0), mean(0.0);
   Mat3d squares = Mat3d::zero(), both = Mat3d::zero();
   buckets.near(x, [&](std::uint32_t n, double weight) {
@@ -109,6 +111,7 @@ bool velocityAt(const Vec3d& x, const Buckets& buckets, const std::vector<Vec3f>
     weights += weight;
     middle += weight * d;
     mean += weight * v;
+    squaredSpeed += weight * v.lengthSqr();
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         squares[i][j] += weight * d[i] * d[j];
@@ -123,7 +126,12 @@ bool velocityAt(const Vec3d& x, const Buckets& buckets, const std::vector<Vec3f>
       squares[i][j] = squares[i][j] / weights - middle[i] * middle[j] + (i == j ? kLeastSpread : 0.0);
       both[i][j] = both[i][j] / weights - mean[i] * middle[j];
     }
-  result = mean - both * squares.inverse() * middle;
+  // No farther from the mean than some deviations: where few particles of a splash fly apart, the slope means
+  // nothing.
+  const double most = kMostDeviations * std::sqrt(std::max(squaredSpeed / weights - mean.lengthSqr(), 0.0));
+  Vec3d slope = both * squares.inverse() * middle;
+  if (const double length = slope.length(); length > most) slope *= most / length;
+  result = mean - slope;
   return true;
 }
 
