@@ -29,11 +29,6 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Grids that know nothing.
-sim::FaceGrids unknownVelocity(double h) {
-  return sim::makeVelocity(h);
-}
-
 }  // namespace
 
 CachedFlow::CachedFlow(Cache cache) : m_cache(std::move(cache)) {
@@ -84,8 +79,8 @@ void CachedFlow::addSubsteps(const LiquidFrame& now, sim::Frame& frame) {
   const auto add = [&](double dt, const sim::FaceGrids& grids) {
     frame.substeps.push_back({dt, grids.component[0], grids.component[1], grids.component[2]});
   };
-  const sim::FaceGrids begin = m_last->velocity ? m_last->velocity : unknownVelocity(m_cache.voxel);
-  const sim::FaceGrids end = now.velocity ? now.velocity : unknownVelocity(m_cache.voxel);
+  const sim::FaceGrids begin = m_last->velocity ? m_last->velocity : sim::makeVelocity(m_cache.voxel);
+  const sim::FaceGrids end = now.velocity ? now.velocity : sim::makeVelocity(m_cache.voxel);
   FrameMotion motion;
   if (m_last->velocity && now.velocity) {
     motion = bestMotion(*m_last->phi, *now.phi, begin, end, seconds);
@@ -127,6 +122,7 @@ sim::Frame CachedFlow::next(const std::function<void(double)>& progress) {
   frame.fields = now.fields;
   frame.stats.cells = cellsInside(*now.phi);
   frame.stats.volume = double(frame.stats.cells) * std::pow(m_cache.voxel, 3);
+  now.surface = {};  // the next frame asks for grids only
   m_last = std::move(now);
   m_state.frame = frame.index;
   m_state.time = frame.time;

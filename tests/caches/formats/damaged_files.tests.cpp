@@ -2,6 +2,7 @@
 #include "caches/formats/format_error.h"
 #include "caches/formats/geometry_formats.h"
 #include "tests/caches/formats/pyramid_files.h"
+#include "tests/mutated.h"
 
 #include <catch2/catch.hpp>
 
@@ -11,56 +12,20 @@ using namespace fluidtex::caches;
 
 namespace {
 
-// A generator of which only the seed counts, on any machine.
-struct Dice {
-  std::uint64_t state;
-  std::uint32_t operator()(std::uint32_t sides) {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return static_cast<std::uint32_t>((state >> 33) % sides);
-  }
-};
-
-// One to eight bytes, words or pieces changed.
-std::string mutated(std::string bytes, std::uint64_t seed) {
-  Dice dice{seed * 2654435761u + 1};
-  static const std::vector<std::string> kWords{"-1",
-                                               "0",
-                                               "4294967295",
-                                               "1e308",
-                                               "nan",
-                                               "18446744073709551615",
-                                               "\n",
-                                               std::string(4, '\xFF'),
-                                               std::string(4, '\0'),
-                                               std::string("\x7f\xff\xff\xff"),
-                                               std::string(8, '\xFF'),
-                                               "OFFSETS",
-                                               "_"};
-  for (std::uint32_t n = dice(8) + 1; n > 0 && !bytes.empty(); --n) {
-    const std::size_t at = dice(static_cast<std::uint32_t>(bytes.size()));
-    const std::size_t length = dice(12);
-    switch (dice(6)) {
-      case 0:
-        bytes[at] = static_cast<char>(dice(256));
-        break;
-      case 1:
-        bytes[at] = static_cast<char>(bytes[at] ^ (1 << dice(8)));
-        break;
-      case 2:
-        bytes.erase(at, length);
-        break;
-      case 3:
-        bytes.insert(at, bytes.substr(dice(static_cast<std::uint32_t>(bytes.size())), length));
-        break;
-      case 4:
-        bytes.replace(at, std::min(length, bytes.size() - at), kWords[dice(std::uint32_t(kWords.size()))]);
-        break;
-      default:
-        if (dice(8) == 0) bytes.resize(at);
-    }
-  }
-  return bytes;
-}
+// What readers of these formats stumble over.
+const std::vector<std::string> kWords{"-1",
+                                      "0",
+                                      "4294967295",
+                                      "1e308",
+                                      "nan",
+                                      "18446744073709551615",
+                                      "\n",
+                                      std::string(4, '\xFF'),
+                                      std::string(4, '\0'),
+                                      std::string("\x7f\xff\xff\xff"),
+                                      std::string(8, '\xFF'),
+                                      "OFFSETS",
+                                      "_"};
 
 std::vector<std::pair<std::string, std::string>> goodFiles() {
   std::vector<std::pair<std::string, std::string>> files{
@@ -111,7 +76,7 @@ void readMutated(int count) {
     for (int n = 0; n < count; ++n) {
       CAPTURE(name, n);
       const auto start = std::chrono::steady_clock::now();
-      good += isRead(name, mutated(bytes, std::uint64_t(n)));
+      good += isRead(name, mutated(bytes, std::uint64_t(n), kWords));
       longest =
           std::max(longest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     }

@@ -1,5 +1,7 @@
 #include "tests/caches/liquid/cache_files.h"
 
+#include "tests/caches/liquid/geometry_bytes.h"
+
 #include <fmt/core.h>
 
 namespace fluidtex::caches {
@@ -16,8 +18,6 @@ using Transform = openvdb::math::Transform;
 
 // Voxels beyond the ball that hold velocities, and half width of level sets.
 constexpr int kVelocityReach = 6, kHalfWidth = 3;
-constexpr std::endian kBig = std::endian::big;
-
 // How a file's numbers lie in the world: world = origin + unit * (x axes[0] + y axes[1] + z axes[2]).
 struct Axes {
   Vec3d axes[3]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -162,33 +162,6 @@ Mesh meshOf(const Axes& axes, const Clip& clip, int frame) {
   return mesh;
 }
 
-std::vector<double> numbersOf(const std::vector<Vec3d>& vectors, double factor = 1.0) {
-  std::vector<double> numbers;
-  for (const Vec3d& v : vectors)
-    for (int axis = 0; axis < 3; ++axis) numbers.push_back(factor * v[axis]);
-  return numbers;
-}
-
-std::vector<double> numbersOf(const std::vector<Vec3I>& triangles) {
-  std::vector<double> numbers;
-  for (const Vec3I& t : triangles)
-    for (int corner = 0; corner < 3; ++corner) numbers.push_back(t[corner]);
-  return numbers;
-}
-
-std::string counted(std::size_t count, const std::string& bytes) {
-  std::string result;
-  put(result, std::int32_t(count));
-  return result + bytes;
-}
-
-// Blender's and FLIP Fluids' binary mesh; normals are Blender's.
-std::string bobjBytes(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles, bool normals) {
-  std::string bytes = counted(points.size(), bytesOf<float>(numbersOf(points)));
-  if (normals) bytes += counted(points.size(), bytesOf<float>(numbersOf(points)));
-  return bytes + counted(triangles.size(), bytesOf<std::int32_t>(numbersOf(triangles)));
-}
-
 // A domain of Blender's liquid around the scene, of cells of side h.
 struct Domain {
   Axes axes;
@@ -271,27 +244,12 @@ void writeFlipFluids(const Clip& clip, const fs::path& folder) {
     };
     write("", bobjBytes(mesh.points, mesh.triangles, false));
     const auto vectors = [&](double factor) {
-      return counted(mesh.points.size(), bytesOf<float>(numbersOf(mesh.velocities, factor))) + counted(0, "");
+      return withCount(mesh.points.size(), bytesOf<float>(numbersOf(mesh.velocities, factor))) +
+             withCount(0, "");
     };
     write("velocity", vectors(1.0 / kSimulationUnit));
     write("blur", vectors(1.0 / clip.frameRate));
   }
-}
-
-std::string vtkBytes(const std::vector<Vec3d>& points, const std::vector<Vec3d>& velocities) {
-  const std::size_t count = points.size();
-  std::string bytes = "# vtk DataFile Version 4.1\nparticles\nBINARY\nDATASET UNSTRUCTURED_GRID\n";
-  bytes +=
-      fmt::format("POINTS {} float\n", count) + fluidtex::caches::bytesOf<float>(numbersOf(points), kBig);
-  bytes += fmt::format("\nCELLS {} {}\n", count, 2 * count);
-  for (std::size_t n = 0; n < count; ++n) {
-    put(bytes, std::int32_t(1), kBig);
-    put(bytes, std::int32_t(n), kBig);
-  }
-  bytes += fmt::format("\nCELL_TYPES {}\n", count);
-  for (std::size_t n = 0; n < count; ++n) put(bytes, std::int32_t(1), kBig);
-  bytes += fmt::format("\nPOINT_DATA {}\nFIELD FieldData 1\nvelocity 3 {} float\n", count, count);
-  return bytes + fluidtex::caches::bytesOf<float>(numbersOf(velocities), kBig) + "\n";
 }
 
 // Particles a cell apart that move as if they were frozen into the flow.
@@ -350,27 +308,6 @@ std::string nameOf(Way way) {
 void writeBytes(const fs::path& file, const std::string& bytes) {
   fs::create_directories(file.parent_path());
   std::ofstream(file, std::ios::binary) << bytes;
-}
-
-std::string plyBytes(const std::vector<Vec3d>& points, const std::vector<Vec3I>& triangles,
-                     const std::vector<Vec3d>& velocities) {
-  std::string bytes = "ply\nformat binary_little_endian 1.0\n";
-  bytes += fmt::format("element vertex {}\n", points.size());
-  for (const char* name : {"x", "y", "z"}) bytes += fmt::format("property float {}\n", name);
-  if (!velocities.empty())
-    for (const char* name : {"vx", "vy", "vz"}) bytes += fmt::format("property float {}\n", name);
-  bytes +=
-      fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", triangles.size());
-  for (std::size_t n = 0; n < points.size(); ++n) {
-    bytes += fluidtex::caches::bytesOf<float>({points[n][0], points[n][1], points[n][2]});
-    if (!velocities.empty())
-      bytes += fluidtex::caches::bytesOf<float>({velocities[n][0], velocities[n][1], velocities[n][2]});
-  }
-  for (const Vec3I& t : triangles) {
-    put(bytes, std::uint8_t(3));
-    bytes += fluidtex::caches::bytesOf<std::int32_t>({double(t[0]), double(t[1]), double(t[2])});
-  }
-  return bytes;
 }
 
 CacheFiles writeCache(Way way, const Clip& clip, const fs::path& folder) {

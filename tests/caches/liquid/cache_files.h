@@ -4,6 +4,7 @@
 #include "caches/options.h"
 #include "tests/caches/formats/written_bytes.h"
 #include "tests/caches/liquid/flows.h"
+#include "tests/caches/liquid/geometry_bytes.h"
 
 #include <openvdb/openvdb.h>
 
@@ -65,9 +66,6 @@ struct Clip {
 };
 CacheFiles writeCache(Way way, const Clip& clip, const std::filesystem::path& folder);
 
-// Parts of these, for files that are wrong on purpose.
-std::string plyBytes(const std::vector<openvdb::Vec3d>& points, const std::vector<openvdb::Vec3I>& triangles,
-                     const std::vector<openvdb::Vec3d>& velocities);
 void writeBytes(const std::filesystem::path& file, const std::string& bytes);
 
 }  // namespace fluidtex::caches

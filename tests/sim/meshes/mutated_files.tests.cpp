@@ -3,6 +3,7 @@
 #include "sim/shapes/moving_mesh.h"
 #include "sim/shapes/read_heights.h"
 #include "sim/shapes/shape_distance.h"
+#include "tests/mutated.h"
 #include "tests/sim/meshes/mesh_files.h"
 #include "tests/sim/meshes/written_files.h"
 
@@ -15,46 +16,10 @@ using namespace fluidtex::sim;
 
 namespace {
 
-// A generator of which only the seed counts, on any machine.
-struct Dice {
-  std::uint64_t state;
-  std::uint32_t operator()(std::uint32_t sides) {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return static_cast<std::uint32_t>((state >> 33) % sides);
-  }
-};
-
-// One to eight bytes, words or pieces changed.
-std::string mutated(std::string bytes, std::uint64_t seed) {
-  Dice dice{seed * 2654435761u + 1};
-  static const std::vector<std::string> kWords{
-      "-1", "0",  "4294967295",           "4000000000",        "1e308", "nan", "-0", "65535", "2147483648",
-      " ",  "\n", std::string(4, '\xFF'), std::string(4, '\0')};
-  for (std::uint32_t n = dice(8) + 1; n > 0 && !bytes.empty(); --n) {
-    const std::size_t at = dice(static_cast<std::uint32_t>(bytes.size()));
-    const std::size_t length = dice(12);
-    switch (dice(6)) {
-      case 0:
-        bytes[at] = static_cast<char>(dice(256));
-        break;
-      case 1:
-        bytes[at] = static_cast<char>(bytes[at] ^ (1 << dice(8)));
-        break;
-      case 2:
-        bytes.erase(at, length);
-        break;
-      case 3:
-        bytes.insert(at, bytes.substr(dice(static_cast<std::uint32_t>(bytes.size())), length));
-        break;
-      case 4:
-        bytes.replace(at, std::min(length, bytes.size() - at), kWords[dice(std::uint32_t(kWords.size()))]);
-        break;
-      default:
-        if (dice(8) == 0) bytes.resize(at);
-    }
-  }
-  return bytes;
-}
+// What readers of these formats stumble over.
+const std::vector<std::string> kWords{
+    "-1", "0",  "4294967295",           "4000000000",        "1e308", "nan", "-0", "65535", "2147483648",
+    " ",  "\n", std::string(4, '\xFF'), std::string(4, '\0')};
 
 std::string binaryPly() {
   std::string bytes =
@@ -139,7 +104,7 @@ int readable(const std::string& name, const std::string& bytes, int count, doubl
              const Read& read) {
   int good = 0;
   for (int n = 0; n < count; ++n) {
-    const WrittenFile file(name, mutated(bytes, std::uint64_t(n)));
+    const WrittenFile file(name, mutated(bytes, std::uint64_t(n), kWords));
     CAPTURE(name, n);
     const auto start = std::chrono::steady_clock::now();
     try {

@@ -1,6 +1,8 @@
 // Frames of flows known in closed form: velocity and surface against the formulas.
 #include "sim/motion/analytic_flow.h"
 
+#include "tests/sim/motion/ball.h"
+
 #include <openvdb/tools/Interpolation.h>
 
 #include <catch2/catch.hpp>
@@ -12,14 +14,6 @@ using namespace fluidtex::sim;
 using Catch::Matchers::WithinAbs;
 
 namespace {
-
-Options ball(const Vec3d& center, double radius) {
-  Options options;
-  options.resolution = 32;
-  options.cfl = 1.0;
-  options.liquid = {{Shape{Sphere{center, radius}}}};
-  return options;
-}
 
 Options sheet() {
   Options options;

@@ -2,22 +2,11 @@
 
 #include "sim/step/state_io.h"
 #include "tests/scratch.h"
+#include "tests/sim/motion/ball.h"
 
 #include <catch2/catch.hpp>
 
 using namespace fluidtex::sim;
-
-namespace {
-
-Options ball(const Vec3d& center, double radius) {
-  Options options;
-  options.resolution = 32;
-  options.cfl = 1.0;
-  options.liquid = {{Shape{Sphere{center, radius}}}};
-  return options;
-}
-
-}  // namespace
 
 TEST_CASE("motion: a flow goes on from its state as if it had not stopped", "[sim]") {
   Options options = ball(Vec3d(0.35), 0.15);
