@@ -1,7 +1,7 @@
 #include "caches/liquid/particles.h"
 
+#include "caches/liquid/continue_outwards.h"
 #include "caches/liquid/level_set.h"
-#include "caches/liquid/velocity_grids.h"
 
 #include <openvdb/tools/Filter.h>
 #include <openvdb/tools/Morphology.h>

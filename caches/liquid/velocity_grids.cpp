@@ -1,7 +1,6 @@
 #include "caches/liquid/velocity_grids.h"
 
 #include <openvdb/tools/Interpolation.h>
-#include <openvdb/tools/Morphology.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
@@ -201,36 +200,6 @@ sim::FaceGrids velocityGrids(const std::vector<openvdb::FloatGrid::Ptr>& compone
   for (int axis = 0; axis < 3; ++axis)
     velocity.component[axis] = sim::fromOpenVdb(*components[std::size_t(axis)]);
   return velocity;
-}
-
-void continueOutwards(openvdb::Vec3SGrid& velocity, int layers) {
-  openvdb::Vec3STree& tree = velocity.tree();
-  tree.voxelizeActiveTiles();
-  for (int layer = 0; layer < layers; ++layer) {
-    const openvdb::MaskTree before(tree, false, true, openvdb::TopologyCopy());
-    openvdb::tools::dilateActiveValues(tree, 1, openvdb::tools::NN_FACE, openvdb::tools::IGNORE_TILES);
-    std::vector<openvdb::Vec3STree::LeafNodeType*> leaves;
-    tree.getNodes(leaves);
-    tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-      const openvdb::tree::ValueAccessor<const openvdb::MaskTree> was(before);
-      const openvdb::Vec3SGrid::ConstAccessor values(tree);
-      for (auto voxel = leaves[n]->beginValueOn(); voxel; ++voxel) {
-        const Coord at = voxel.getCoord();
-        if (was.isValueOn(at)) continue;
-        Vec3d sum(0.0);
-        int count = 0;
-        for (int axis = 0; axis < 3; ++axis)
-          for (const int side : {-1, 1}) {
-            Coord next = at;
-            next[axis] += side;
-            if (!was.isValueOn(next)) continue;
-            sum += Vec3d(values.getValue(next));
-            ++count;
-          }
-        voxel.setValue(Vec3f(sum / double(std::max(count, 1))));
-      }
-    });
-  }
 }
 
 sim::MaskTree::Ptr leavesNear(const openvdb::FloatGrid& phi, double reach) {

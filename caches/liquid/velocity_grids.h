@@ -30,10 +30,6 @@ sim::FaceGrids velocityGrids(const RawVelocity& raw, double h, const sim::MaskTr
 // From grids of vectors at the centres of cells, as continuedOff() makes them.
 sim::FaceGrids velocityGrids(const std::vector<openvdb::FloatGrid::Ptr>& components);
 
-// `layers` more layers of active voxels around those there are, each with the mean of its active neighbours
-// of the layers before (across faces): for velocities that end at the surface.
-void continueOutwards(openvdb::Vec3SGrid& velocity, int layers);
-
 // Leaves (8 cells of side h) within `reach` metres of the level set's active cells.
 sim::MaskTree::Ptr leavesNear(const openvdb::FloatGrid& phi, double reach);
 

@@ -1,5 +1,6 @@
 #include "caches/liquid/velocity_grids.h"
 
+#include "caches/liquid/continue_outwards.h"
 #include "caches/liquid/placement.h"
 #include "tests/caches/liquid/flows.h"
 
