@@ -22,6 +22,8 @@ void describe(Visitor& visitor, Scene& scene, Need texture = Need::required);
 
 // The shape keys of one liquid, solid or part: kShapeKeys.
 void describeShape(Visitor& visitor, sim::Shape& shape);
+// Visits the keys of where a mesh from a file lies, in the table that is open.
+void describePlace(Visitor& visitor, sim::MeshPlace& place);
 
 // The domain [0, size], infinite on unbounded sides.
 sim::Box domainOf(const sim::Options& options);

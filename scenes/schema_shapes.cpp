@@ -81,6 +81,13 @@ bool overlaps(const sim::Difference& shape, const sim::Box& domain) {
 
 }  // namespace
 
+void describePlace(Visitor& visitor, sim::MeshPlace& place) {
+  choice(visitor, "up", place.up, {"z", "y"});
+  visitor.vector("rotate", place.rotate, {.low = -360.0, .high = 360.0});
+  visitor.number("scale", place.scale, kPositive);
+  visitor.vector("translate", place.translate, kAny);
+}
+
 void describeShape(Visitor& visitor, sim::Shape& shape) {
   const int kind = visitor.alternative(int(shape.kind.index()), kShapeKeys, Need::required);
   if (kind < 0) return;
@@ -114,8 +121,7 @@ void describeShape(Visitor& visitor, sim::Shape& shape) {
     auto& mesh = as<sim::MeshShape>(shape);
     visitor.table(key, [&] {
       visitor.file("file", mesh.file, {".obj", ".ply", ".stl"});
-      visitor.number("scale", mesh.scale, kPositive);
-      visitor.vector("translate", mesh.translate, kAny);
+      describePlace(visitor, mesh.place);
     });
   } else if (key == "mesh_sequence") {
     auto& sequence = as<sim::MeshSequence>(shape);
@@ -125,8 +131,7 @@ void describeShape(Visitor& visitor, sim::Shape& shape) {
       visitor.integer("last", sequence.last, kFileNumber, Need::required);
       visitor.number("frame_rate", sequence.frameRate, {.low = 0.001, .high = 1000.0});
       visitor.number("start", sequence.start, kNotNegative);
-      visitor.number("scale", sequence.scale, kPositive);
-      visitor.vector("translate", sequence.translate, kAny);
+      describePlace(visitor, sequence.place);
     });
   } else if (key == "height_field") {
     auto& ground = as<sim::HeightField>(shape);

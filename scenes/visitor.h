@@ -86,4 +86,12 @@ class Visitor {
   }
 };
 
+// One of an enumeration whose values stand in the order of the words.
+template <class Enum>
+void choice(Visitor& visitor, const std::string& key, Enum& value, const std::vector<std::string>& words) {
+  int index = int(value);
+  visitor.choice(key, index, words);
+  value = Enum(index);
+}
+
 }  // namespace fluidtex::scenes

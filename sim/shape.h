@@ -1,6 +1,7 @@
 // Shapes of liquid, solids, sources and drains, as a scene gives them. Metres, world space.
 #pragma once
 
+#include "sim/mesh_place.h"
 #include "sim/vec3.h"
 
 #include <cstddef>
@@ -31,11 +32,10 @@ struct HalfSpace {
   Vec3d point{0.0}, normal{0.0, 0.0, 1.0};
 };
 
-// A closed triangle mesh from a file (OBJ, PLY or STL); x_world = scale * x_file + translate.
+// A closed triangle mesh from a file (OBJ, PLY or STL).
 struct MeshShape {
   std::filesystem::path file;
-  double scale = 1.0;
-  Vec3d translate{0.0};
+  MeshPlace place{};
 };
 
 // A surface that changes its shape: closed meshes in numbered files of the same formats. The file with number
@@ -47,18 +47,17 @@ struct MeshSequence {
   std::filesystem::path files;  // with a place for the number in its last part: %d, or %04d for four digits
   int first = 1, last = 1;
   double frameRate = 24.0, start = 0.0;
-  double scale = 1.0;
-  Vec3d translate{0.0};
+  MeshPlace place{};
 
   // The time of the n-th file, counted from 0, s.
   double timeOf(int n) const { return start + n / frameRate; }
   std::filesystem::path fileOf(int n) const {
     std::string name = files.filename().string(), number = std::to_string(first + n);
-    const std::size_t place = name.find('%'), letter = name.find('d', place);
-    if (place == std::string::npos || letter == std::string::npos) return files;
-    const std::size_t digits = letter == place + 3 ? std::size_t(name[place + 2] - '0') : 0;
+    const std::size_t at = name.find('%'), letter = name.find('d', at);
+    if (at == std::string::npos || letter == std::string::npos) return files;
+    const std::size_t digits = letter == at + 3 ? std::size_t(name[at + 2] - '0') : 0;
     if (number.size() < digits) number.insert(0, digits - number.size(), '0');
-    return files.parent_path() / name.replace(place, letter + 1 - place, number);
+    return files.parent_path() / name.replace(at, letter + 1 - at, number);
   }
   int count() const { return last - first + 1; }
 };

@@ -67,6 +67,9 @@ void checkClosed(const std::filesystem::path& file, const std::vector<Polygon>& 
   if (open.ofMore > 0)
     what += "at " + edges(open.ofMore) +
             " three faces meet, or another odd number: a wall of one face ends there";
+  what +=
+      "; close it, in Blender with Mesh > Clean Up > Fill Holes, or give a sheet thickness with a Solidify "
+      "modifier";
   fail(file, what);
 }
 
@@ -78,12 +81,13 @@ std::vector<Vec3I> outwardTriangles(const std::filesystem::path& file, const Tri
   return std::move(*triangles);
 }
 
-std::vector<Vec3f> placedPoints(const std::filesystem::path& file, const MeshSoup& soup, double scale,
-                                const Vec3d& translate) {
+std::vector<Vec3f> placedPoints(const std::filesystem::path& file, const MeshSoup& soup,
+                                const MeshPlace& place) {
+  const openvdb::Mat3d rotation = rotationOf(place.up, place.rotate);
   std::vector<Vec3f> positions;
   positions.reserve(soup.points.size());
   for (const Vec3d& p : soup.points) {
-    const Vec3d x = scale * p + translate;
+    const Vec3d x = place.scale * rotation.transform(p) + place.translate;
     positions.emplace_back(x);
     // Squares of what is farther away than the universe overflow.
     constexpr double kFarthest = 1e18;
@@ -135,7 +139,7 @@ MeshSoup readSoup(const std::filesystem::path& file) {
 
 TriangleMesh readMesh(const MeshShape& shape) {
   const MeshSoup soup = readSoup(shape.file);
-  const std::vector<Vec3f> positions = placedPoints(shape.file, soup, shape.scale, shape.translate);
+  const std::vector<Vec3f> positions = placedPoints(shape.file, soup, shape.place);
   const std::vector<std::size_t> vertexOf = joined(positions);
   std::vector<Polygon> polygons;
   for (Polygon polygon : soup.polygons) {

@@ -22,9 +22,9 @@ struct MeshSoup {
 };
 MeshSoup readSoup(const std::filesystem::path& file);
 
-// scale * x + translate of a file's points, metres. Throws MeshError where that exceeds single precision.
+// A file's points in the world, metres. Throws MeshError where they exceed single precision.
 std::vector<openvdb::Vec3f> placedPoints(const std::filesystem::path& file, const MeshSoup& soup,
-                                         double scale, const Vec3d& translate);
+                                         const MeshPlace& place);
 
 // Throws MeshError where the file's polygons do not form a closed surface.
 void checkClosed(const std::filesystem::path& file, const std::vector<std::vector<std::size_t>>& polygons);

@@ -115,8 +115,7 @@ MovingMesh::MovingMesh(const MeshSequence& sequence, int begin, int end) : m_beg
   }
   std::erase_if(m_triangles, [](const Vec3I& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
   for (int n = begin; n <= end; ++n)
-    m_positions.push_back(
-        placedPoints(sequence.fileOf(n), files[std::size_t(n - begin)], sequence.scale, sequence.translate));
+    m_positions.push_back(placedPoints(sequence.fileOf(n), files[std::size_t(n - begin)], sequence.place));
   // As it is turned where it is largest: elsewhere it may be folded flat.
   const auto largest =
       std::max_element(m_positions.begin(), m_positions.end(), [&](const auto& a, const auto& b) {

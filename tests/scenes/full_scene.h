@@ -85,7 +85,7 @@ velocity = [1, 2, 3]
 from = 0.25
 temperature = 1500
 [[liquid]]
-union = [ { sphere = { center = [1, 1, 1], radius = 0.5 } }, { difference = [ { half_space = { point = [0, 0, 0.1], normal = [0, 0, 2] } }, { mesh = { file = "m.obj", scale = 2, translate = [3, 2, 1] } } ] } ]
+union = [ { sphere = { center = [1, 1, 1], radius = 0.5 } }, { difference = [ { half_space = { point = [0, 0, 0.1], normal = [0, 0, 2] } }, { mesh = { file = "m.obj", up = "y", rotate = [0, 0, 45], scale = 2, translate = [3, 2, 1] } } ] } ]
 [[solid]]
 name = "gate"
 mesh = { file = "m.obj" }
@@ -108,7 +108,7 @@ time = 1.5
 move = [0, 0, 1]
 turn = 720
 [[solid]]
-mesh_sequence = { files = "m_%d.obj", first = 0, last = 2, frame_rate = 12, start = 0.5, scale = 3, translate = [1, 0, 2] }
+mesh_sequence = { files = "m_%d.obj", first = 0, last = 2, frame_rate = 12, start = 0.5, up = "y", rotate = [1, 2, 3], scale = 3, translate = [1, 0, 2] }
 [[source]]
 cylinder = { from = [0, 0, 1], to = [1, 0, 1], radius = 0.25 }
 velocity = [1, 0, 0]
@@ -199,6 +199,8 @@ orientation = "scalars"
 [texture.onto]
 files = "t_%d.obj"
 first = 0
+up = "y"
+rotate = [3, 2, 1]
 scale = 2
 translate = [1, 2, 3]
 [camera]

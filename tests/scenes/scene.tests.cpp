@@ -104,8 +104,10 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(std::get<sim::HalfSpace>(rest.parts[0].kind).normal == sim::Vec3d(0, 0, 2));
   const auto& mesh = std::get<sim::MeshShape>(rest.parts[1].kind);
   CHECK(mesh.file == folder.path() / "m.obj");
-  CHECK(mesh.scale == 2.0);
-  CHECK(mesh.translate == sim::Vec3d(3, 2, 1));
+  CHECK(mesh.place.up == sim::UpAxis::y);
+  CHECK(mesh.place.rotate == sim::Vec3d(0, 0, 45));
+  CHECK(mesh.place.scale == 2.0);
+  CHECK(mesh.place.translate == sim::Vec3d(3, 2, 1));
   REQUIRE(sim.solids.size() == 3);
   CHECK(sim.solids[0].name == "gate");
   CHECK(sim.solids[0].from == 0.5);
@@ -127,8 +129,8 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(sequence.count() == 3);
   CHECK(sequence.frameRate == 12.0);
   CHECK(sequence.start == 0.5);
-  CHECK(sequence.scale == 3.0);
-  CHECK(sequence.translate == sim::Vec3d(1, 0, 2));
+  CHECK(sequence.place.scale == 3.0);
+  CHECK(sequence.place.translate == sim::Vec3d(1, 0, 2));
   using sim::Side;
   CHECK(sim.sides ==
         std::array<Side, 6>{Side::stream, Side::open, Side::open, Side::stream, Side::open, Side::stream});
@@ -185,8 +187,8 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(scene.onto.files.filename() == "t_%d.obj");
   CHECK(scene.onto.first == 0);
   CHECK(scene.onto.last == 4);
-  CHECK(scene.onto.scale == 2.0);
-  CHECK(scene.onto.translate == sim::Vec3d(1, 2, 3));
+  CHECK(scene.onto.place.scale == 2.0);
+  CHECK(scene.onto.place.translate == sim::Vec3d(1, 2, 3));
   const render::Options& render = scene.render;
   CHECK(render.camera.from == sim::Vec3d(9, 8, 7));
   CHECK(render.camera.at == sim::Vec3d(1, 2, 3));

@@ -116,7 +116,7 @@ inline double volumeOf(const TriangleMesh& mesh) {
 
 inline TriangleMesh meshOf(const std::string& name, const std::string& content, double scale = 1.0) {
   const WrittenFile file(name, content);
-  return readMesh(MeshShape{file.path, scale});
+  return readMesh(MeshShape{file.path, {.scale = scale}});
 }
 
 inline Solid solidOf(const MeshSequence& sequence) {

@@ -111,10 +111,30 @@ TEST_CASE("mesh formats: inside-out faces are turned, polygons are split, negati
   const WrittenFile cube("cube.obj",
                          "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
                          "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
-  const TriangleMesh mesh = readMesh(MeshShape{cube.path, -2.0, Vec3d(0.0)});
+  const TriangleMesh mesh = readMesh(MeshShape{cube.path, {.scale = -2.0}});
   CHECK(mesh.triangles.size() == 12);
   CHECK(isClosed(mesh));
   CHECK_THAT(volumeOf(mesh), WithinAbs(8.0, 1e-5));
+}
+
+TEST_CASE("mesh formats: y up becomes z, then the mesh is turned, scaled and moved", "[sim]") {
+  const WrittenFile file("wedge.obj",
+                         "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 2 3\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const auto placed = [&](const MeshPlace& place) { return readMesh(MeshShape{file.path, place}).positions; };
+  const auto holds = [](const std::vector<openvdb::Vec3f>& positions, const Vec3d& x) {
+    return std::any_of(positions.begin(), positions.end(),
+                       [&](const openvdb::Vec3f& p) { return (Vec3d(p) - x).length() < 1e-6; });
+  };
+  const auto upright = placed({.up = UpAxis::y});
+  CHECK(holds(upright, Vec3d(1, 0, 0)));
+  CHECK(holds(upright, Vec3d(0, 0, 2)));
+  CHECK(holds(upright, Vec3d(0, -3, 0)));
+  CHECK_THAT(volumeOf(readMesh(MeshShape{file.path, {.up = UpAxis::y}})), WithinAbs(1.0, 1e-6));
+  // About x first: z comes to lie along -y, and about z then along x.
+  const auto turned = placed({.rotate = Vec3d(90, 0, 90), .scale = 2.0, .translate = Vec3d(1, 1, 1)});
+  CHECK(holds(turned, Vec3d(1, 3, 1)));  // x
+  CHECK(holds(turned, Vec3d(1, 1, 5)));  // y
+  CHECK(holds(turned, Vec3d(7, 1, 1)));  // z
 }
 
 TEST_CASE("mesh formats: faults name the file and what is wrong", "[sim]") {
@@ -133,7 +153,8 @@ TEST_CASE("mesh formats: faults name the file and what is wrong", "[sim]") {
   const WrittenFile kind("mesh.fbx", "x");
   CHECK_THAT(faultOf(kind.path), Contains(".fbx") && Contains(".stl"));
   const WrittenFile open("open.obj", asObj(3));
-  CHECK_THAT(faultOf(open.path), Contains("open.obj") && Contains("not closed: 3 edges"));
+  CHECK_THAT(faultOf(open.path),
+             Contains("open.obj") && Contains("not closed: 3 edges") && Contains("; close it, in Blender"));
   const WrittenFile pointsOnly("points.obj", asObj(0));
   CHECK_THAT(faultOf(pointsOnly.path), Contains("no faces"));
   const WrittenFile outOfRange("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");

@@ -18,8 +18,8 @@ TEST_CASE("moving mesh: vertices go in straight lines") {
   CHECK(mesh.change(0)[0] == Vec3f(0.0f));
   CHECK(mesh.change(0)[6] == Vec3f(1.0f, 0.0f, 2.0f));
   MeshSequence placed = files.sequence;
-  placed.scale = 2.0;
-  placed.translate = Vec3d(1.0, 2.0, 3.0);
+  placed.place.scale = 2.0;
+  placed.place.translate = Vec3d(1.0, 2.0, 3.0);
   CHECK(MovingMesh(placed).at(1, 0.0).positions[6] == Vec3f(5.0f, 4.0f, 9.0f));
   // Two files alone are the same.
   CHECK(MovingMesh(files.sequence, 1, 1).at(1, 0.0).positions == mesh.at(1, 0.0).positions);

@@ -64,7 +64,7 @@ TEST_CASE("shape distances: a mesh as its closed form, to a voxel's curvature", 
              WithinAbs(0.09 / std::sqrt(3.0), 1e-3));  // x+y+z = 0.9 is the slanted face
   CHECK(mesh(Vec3d(5, 5, 5)) > 0.0);
 
-  const ShapeDistance moved(Shape{MeshShape{file.path, 2.0, Vec3d(1, 0, 0)}}, h);
+  const ShapeDistance moved(Shape{MeshShape{file.path, {.scale = 2.0, .translate = Vec3d(1, 0, 0)}}}, h);
   CHECK_THAT(moved(Vec3d(1.5, 0.5, 0.3)), WithinAbs(0.1, 1e-3));
 }
 
