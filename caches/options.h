@@ -1,6 +1,7 @@
 // Settings of a liquid that another program has simulated: [files] of a scene.
 #pragma once
 
+#include "sim/mesh_place.h"
 #include "sim/vec3.h"
 
 #include <filesystem>
@@ -8,9 +9,8 @@
 
 namespace fluidtex::caches {
 
+using sim::UpAxis;
 using sim::Vec3d;
-
-enum class UpAxis { z, y };
 
 // Where the files are, what is taken of them, and where it is placed. Whatever is empty or 0 here is found
 // out from the files (caches/layouts/layout.h).
@@ -34,6 +34,10 @@ struct Options {
   double leastPiece = 0.0;     // m3: pieces of less volume are left out
   // Below this share of the surface's motion that its velocity explains, a run ends.
   double leastExplained = 0.3;
+  // Where the files have no velocities: motion across the surface alone, see fittedVelocity().
+  bool fit = false;
+  // Whether files that are not there yet are waited for, as the other program still runs.
+  bool follow = false;
 };
 
 }  // namespace fluidtex::caches

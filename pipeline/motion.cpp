@@ -29,10 +29,21 @@ sim::Frame nextFrame(Motion& motion, const std::function<void(double)>& progress
   return sim::nextFrame(std::get<sim::Motion>(motion), progress);
 }
 
+std::optional<std::filesystem::path> awaitedFile(Motion& motion) {
+  auto* cached = std::get_if<caches::CachedFlow>(&motion);
+  return cached != nullptr ? cached->awaited() : std::nullopt;
+}
+
 const sim::State& stateOf(const Motion& motion) {
   if (const auto* cached = std::get_if<caches::CachedFlow>(&motion)) return cached->state();
   if (const auto* recorded = std::get_if<caches::RecordedFlow>(&motion)) return recorded->state();
   return sim::stateOf(std::get<sim::Motion>(motion));
+}
+
+std::optional<caches::CachedMesh> meshOf(const Motion& motion, int frame) {
+  const auto* cached = std::get_if<caches::CachedFlow>(&motion);
+  if (cached == nullptr || !cached->comesAsMeshes()) return std::nullopt;
+  return cached->mesh(frame);
 }
 
 std::vector<std::string> warningsOf(const Motion& motion) {

@@ -1,6 +1,8 @@
 #include "pipeline/orientation_guide.h"
 
+#include "caches/liquid/placement.h"
 #include "pipeline/read_grid.h"
+#include "pipeline/scalars.h"
 #include "sim/grid/mac_grid.h"
 #include "sim/solids/domain.h"
 #include "texture/loops/parallel.h"
@@ -8,6 +10,7 @@
 #include "transport/carry.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -23,6 +26,21 @@ constexpr double kSlowFrames = 20.0;
 // root.
 constexpr float kStiff = 100.0f;
 
+// Of the liquid's own vectors.
+std::vector<Vec3f> vectorsAt(const std::vector<Vec3f>& positions, const OrientationGuide& guide,
+                             const sim::Frame& frame) {
+  std::vector<openvdb::Vec3d> vectors(positions.size(), openvdb::Vec3d(0.0));
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string name = guide.options.attribute + std::array{"_x", "_y", "_z"}[std::size_t(axis)];
+    const auto values = sampled(fieldOf(frame, name), positions);
+    texture::forEachIndex(vectors.size(), [&](std::uint32_t v) { vectors[v][axis] = values[v]; });
+  }
+  std::vector<Vec3f> result(vectors.size());
+  texture::forEachIndex(
+      vectors.size(), [&](std::uint32_t v) { result[v] = Vec3f(guide.worldFromFile.transform(vectors[v])); });
+  return result;
+}
+
 std::vector<Vec3f> directions(const OrientationGuide& guide, const sim::Frame& frame,
                               const texture::SurfaceMesh& mesh) {
   switch (guide.options.align) {
@@ -37,6 +55,8 @@ std::vector<Vec3f> directions(const OrientationGuide& guide, const sim::Frame& f
       return texture::alongDirection(mesh, Vec3f(guide.options.direction));
     case Align::field:
       return texture::alongField(mesh, *guide.field);
+    case Align::attribute:
+      return texture::alongVectors(mesh, vectorsAt(mesh.positions, guide, frame));
     case Align::none:
       break;
   }
@@ -59,7 +79,12 @@ std::vector<float> stiffness(const OrientationGuide& guide, const texture::Surfa
 }  // namespace
 
 OrientationGuide orientationGuide(const scenes::Scene& scene) {
-  OrientationGuide guide{scene.texture.orientation, scene.sim.gravity, scene.sim.frameRate, nullptr, {}};
+  OrientationGuide guide{scene.texture.orientation,
+                         scene.sim.gravity,
+                         scene.sim.frameRate,
+                         nullptr,
+                         caches::worldFromFile(scene.files).getMat3(),
+                         {}};
   if (guide.options.align == Align::field) guide.field = readGrid<openvdb::Vec3SGrid>(guide.options.field);
   for (const sim::Shape& shape : scene.keepClear)
     guide.keepClear.emplace_back(shape, scene.sim.voxelSize(), sim::domainBox(scene.sim));

@@ -17,6 +17,7 @@ struct OrientationGuide {
   openvdb::Vec3d gravity{0.0};
   double frameRate = 24.0;
   openvdb::Vec3SGrid::Ptr field;              // of Align::field
+  openvdb::Mat3d worldFromFile;               // of vectors, for Align::attribute
   std::vector<sim::ShapeDistance> keepClear;  // regions to keep free of singularities
 };
 

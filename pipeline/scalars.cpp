@@ -7,13 +7,23 @@
 
 namespace fluidtex::pipeline {
 
-const sim::FloatGrid& temperatureOf(const sim::Frame& frame) {
-  const auto found = frame.fields.find("temperature");
+const sim::FloatGrid& fieldOf(const sim::Frame& frame, const std::string& name) {
+  const auto found = frame.fields.find(name);
   if (found == frame.fields.end())
-    throw std::runtime_error("frame " + std::to_string(frame.index) +
-                             ": has no temperature, by which the texture is to be guided or scaled; the "
-                             "files hold none of that name");
+    throw std::runtime_error("frame " + std::to_string(frame.index) + ": has no " + name +
+                             ", which the texture is to follow; the files hold none of that name");
   return *found->second;
+}
+
+std::vector<float> sampled(const sim::FloatGrid& field, const std::vector<texture::Vec3f>& positions) {
+  std::vector<float> values(positions.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, positions.size(), texture::kGrain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      const auto value = sampler(field)();
+                      for (std::size_t i = range.begin(); i != range.end(); ++i)
+                        values[i] = float(value(openvdb::Vec3d(positions[i])));
+                    });
+  return values;
 }
 
 double curveAt(const std::vector<texture::CurvePoint>& points, double value) {

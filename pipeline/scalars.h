@@ -8,6 +8,7 @@
 
 #include <openvdb/tools/Interpolation.h>
 
+#include <string>
 #include <vector>
 
 namespace fluidtex::pipeline {
@@ -29,8 +30,11 @@ std::vector<float> alongCurve(const std::vector<texture::CurvePoint>& points,
   return results;
 }
 
-// The frame's temperature, K. Throws std::runtime_error where it has none, as liquid out of files may.
-const sim::FloatGrid& temperatureOf(const sim::Frame& frame);
+// The frame's scalar of this name. Throws std::runtime_error where it has none, as liquid out of files may.
+const sim::FloatGrid& fieldOf(const sim::Frame& frame, const std::string& name);
+
+// Its values at positions, interpolated linearly.
+std::vector<float> sampled(const sim::FloatGrid& field, const std::vector<texture::Vec3f>& positions);
 
 // Makes functions that sample a scalar grid linearly.
 template <typename Grid>

@@ -3,7 +3,7 @@
 #include "caches/liquid/survey.h"
 #include "caches/recorded/recording.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +23,13 @@ double longestOf(const Vec3d& size) {
 }
 
 void takeFrames(int frames, int first, scenes::Scene& scene) {
+  if (scene.frames == 0 && scene.files.follow)
+    throw caches::LayoutError(fmt::format(
+        "{}: {} frames are there, and it is not known how many there will be; give --set frames=N with "
+        "--follow",
+        scene.files.path.string(), frames));
   if (scene.frames == 0) scene.frames = std::min(frames, 9999);
-  if (scene.frames > frames)
+  if (scene.frames > frames && !scene.files.follow)
     throw caches::LayoutError(
         fmt::format("{}: has {} frames from number {} on, and the scene {}; give frames = {}",
                     scene.files.path.string(), frames, first, scene.frames, frames));
@@ -36,6 +41,29 @@ void requireFiles(const caches::Layout& layout, int frames) {
   for (int number = layout.first; number < layout.first + frames; ++number)
     for (const caches::NumberedFiles* files : {&layout.surface, &layout.velocity, &layout.config})
       if (!files->empty()) files->at(number);
+}
+
+// What the texture is to follow should be among what the files have.
+void requireAttributes(const caches::Layout& layout, const scenes::Scene& scene) {
+  std::vector<std::string> there;
+  for (const caches::Field& field : layout.fields)
+    for (const std::string& name : caches::scalarNames(field)) there.push_back(name);
+  const auto require = [&](bool used, const char* key, const std::string& name) {
+    if (!used || std::find(there.begin(), there.end(), name) != there.end()) return;
+    throw caches::LayoutError(fmt::format("{}: the liquid in {} has no {}; there {}", key,
+                                          scene.files.path.string(), name,
+                                          there.empty() ? "is nothing besides surface and velocity"
+                                                        : fmt::format("are: {}", fmt::join(there, ", "))));
+  };
+  const texture::GuidanceOptions& guidance = scene.texture.guidance;
+  require(guidance.by == texture::GuidanceBy::attribute, "texture.guidance.attribute", guidance.attribute);
+  require(guidance.by == texture::GuidanceBy::temperature, "texture.guidance.by", "temperature");
+  const texture::ScaleOptions& scale = scene.texture.scale;
+  require(scale.by == texture::ScaleBy::attribute, "texture.scale.attribute", scale.attribute);
+  require(scale.by == texture::ScaleBy::temperature, "texture.scale.by", "temperature");
+  const texture::OrientationOptions& orientation = scene.texture.orientation;
+  require(orientation.align == texture::Align::attribute, "texture.orientation.attribute",
+          orientation.attribute + "_x");
 }
 
 void takeBounds(const openvdb::BBoxd& bounds, double voxel, scenes::Scene& scene) {
@@ -76,7 +104,9 @@ std::vector<std::string> takeCache(scenes::Scene& scene) {
   scene.files.voxel = survey.voxel;
   scene.files.first = survey.layout.first;
   takeFrames(survey.layout.frames(), survey.layout.first, scene);
-  requireFiles(survey.layout, scene.frames);
+  requireFiles(survey.layout, std::min(scene.frames, survey.layout.frames()));
+  requireAttributes(survey.layout, scene);
+  scene.comesAsMeshes = survey.layout.surfaceKind == caches::SurfaceKind::mesh;
   takeBounds(survey.bounds, survey.voxel, scene);
   takeView(survey.bounds, scene.render.camera);
   std::vector<std::string> lines = caches::describe(survey.layout);

@@ -1,6 +1,7 @@
 #include "pipeline/texture_frame.h"
 
 #include "pipeline/foreseen_surface.h"
+#include "pipeline/liquid_values.h"
 #include "texture/frames/renewal.h"
 #include "texture/labels/fresh.h"
 #include "texture/mesh/prepare.h"
@@ -178,6 +179,7 @@ TexturedFrame textureFrame(Texturing& texturing, const TexturedSurface& last, co
     const StageWatch stage(watch, seconds.transport);
     result.surface.velocity = transport::velocityAt(result.surface.positions, frame);
     result.surface.contact = transport::contactAt(result.surface.positions, frame);
+    addLiquidValues(frame, result.surface);
   }
   return result;
 }

@@ -52,7 +52,7 @@ std::vector<float> levelsOn(const TextureGuidance& guidance, const sim::Frame& f
     case GuidanceBy::height:
       return alongCurve(points, mesh.positions, [] { return [](const openvdb::Vec3d& x) { return x.z(); }; });
     case GuidanceBy::temperature:
-      return alongCurve(points, mesh.positions, sampler(temperatureOf(frame)));
+      return alongCurve(points, mesh.positions, sampler(fieldOf(frame, "temperature")));
     case GuidanceBy::speed:
       return along(speeds(mesh.positions, frame));
     case GuidanceBy::vorticity:
@@ -67,6 +67,8 @@ std::vector<float> levelsOn(const TextureGuidance& guidance, const sim::Frame& f
       return along(mesh.foam);
     case GuidanceBy::field:
       return alongCurve(points, mesh.positions, sampler(*guidance.field));
+    case GuidanceBy::attribute:
+      return alongCurve(points, mesh.positions, sampler(fieldOf(frame, guidance.options.attribute)));
   }
   return {};
 }

@@ -46,11 +46,13 @@ texture::PointScale scaleIn(const TextureScale& scale, const sim::Frame& frame) 
         };
       });
     case ScaleBy::temperature:
-      return mapped(points, sampler(temperatureOf(frame)));
+      return mapped(points, sampler(fieldOf(frame, "temperature")));
     case ScaleBy::height:
       return mapped(points, [] { return [](const sim::Vec3d& x) { return x.z(); }; });
     case ScaleBy::field:
       return mapped(points, sampler(*scale.field));
+    case ScaleBy::attribute:
+      return mapped(points, sampler(fieldOf(frame, scale.options.attribute)));
   }
   return {};
 }

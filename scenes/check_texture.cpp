@@ -16,6 +16,19 @@ bool hasTemperature(const Scene& scene) {
   return scene.sim.heat.simulated || scene.motion.flow == sim::MotionKind::files;
 }
 
+// The solver's own liquid has a temperature at most; what files hold is seen when they are read.
+void checkAttribute(const Scene& scene, const std::string& path, const std::string& attribute,
+                    Reader& reader) {
+  const std::string key = path + ".attribute";
+  if (!reader.clean(key)) return;
+  if (attribute.empty())
+    reader.fault(path, "names no attribute", "give attribute = \"NAME\", one that `fluidtex check` lists");
+  else if (scene.motion.flow != sim::MotionKind::files &&
+           !(attribute == "temperature" && hasTemperature(scene)))
+    reader.fault(key, "the liquid has no \"" + attribute + "\"",
+                 "give \"temperature\" with simulate = true in [heat], or a liquid out of files");
+}
+
 // As many as texture.points may be.
 constexpr double kMostPoints = 50e6;
 
@@ -37,6 +50,8 @@ void checkOrientation(const Scene& scene, Reader& reader) {
   if (reader.clean(path + ".direction") && orientation.align == texture::Align::direction &&
       orientation.direction.length() == 0.0)
     reader.fault(path + ".direction", "has no length", "give a vector that points somewhere");
+  if (reader.clean(path + ".align") && orientation.align == texture::Align::attribute)
+    checkAttribute(scene, path, orientation.attribute, reader);
   for (std::size_t i = 0; i < scene.keepClear.size(); ++i)
     checkShape(scene.keepClear[i], path + ".keep_clear." + std::to_string(i), reader);
 }
@@ -64,6 +79,7 @@ void checkScale(const Scene& scene, Reader& reader) {
     reader.fault(by, "\"distance\" is from nothing", "give a shape or more as [[texture.scale.from]]");
   if (scale.by == texture::ScaleBy::temperature && !hasTemperature(scene))
     reader.fault(by, "\"temperature\" is not computed", "give simulate = true in [heat] too");
+  if (scale.by == texture::ScaleBy::attribute) checkAttribute(scene, path, scale.attribute, reader);
 }
 
 void checkGuidance(const Scene& scene, Reader& reader) {
@@ -76,6 +92,7 @@ void checkGuidance(const Scene& scene, Reader& reader) {
                  "give one [[texture.guidance.point]] or more, each with a value and a level");
   if (guidance.by == texture::GuidanceBy::temperature && !hasTemperature(scene))
     reader.fault(by, "\"temperature\" is not computed", "give simulate = true in [heat] too");
+  if (guidance.by == texture::GuidanceBy::attribute) checkAttribute(scene, path, guidance.attribute, reader);
   const std::string full = path + ".foam.full";
   if (reader.clean(full) && !(guidance.foam.full > guidance.foam.from))
     reader.fault(full, written(guidance.foam.full) + " is not above from, " + written(guidance.foam.from),
@@ -149,8 +166,7 @@ void checkWindows(const Scene& scene, Reader& reader) {
 }
 
 void checkSpacing(const Scene& scene, Reader& reader) {
-  if (!reader.clean("texture.spacing") || !reader.clean("domain.size") || !isSizeKnown(scene))
-    return;
+  if (!reader.clean("texture.spacing") || !reader.clean("domain.size") || !isSizeKnown(scene)) return;
   const Vec3d& size = scene.sim.size;
   const double spacing = scene.texture.spacing, shortest = std::min({size[0], size[1], size[2]});
   if (spacing >= shortest) {
@@ -175,6 +191,9 @@ void checkTexture(const Scene& scene, Reader& reader) {
   checkMaps(scene, reader);
   checkOrientation(scene, reader);
   if (!scene.onto.files.empty() && reader.clean("frames")) checkSequence(scene.onto, "texture.onto", reader);
+  if (reader.clean("motion.flow") && reader.given("texture.onto.source") &&
+      scene.motion.flow != sim::MotionKind::files)
+    reader.fault("texture.onto.source", "is of no use here", "give it together with motion.flow = \"files\"");
   checkWindows(scene, reader);
   checkSpacing(scene, reader);
 }

@@ -34,10 +34,17 @@ struct Scene {
   std::vector<sim::Shape> scaleFrom;  // what ScaleBy::distance is measured from
   std::vector<sim::Shape> keepClear;  // places where the orientation field should have no singularities
   transport::Options transport;
-  sim::MeshSequence onto;  // meshes that get the texture too, one a frame; no name: none
+  sim::MeshSequence onto;      // meshes that get the texture too, one a frame; no name: those of `ontoSource`
+  bool ontoSource = true;      // that the liquid comes as, where it comes as meshes
+  bool comesAsMeshes = false;  // out of files; found by pipeline::takeCache()
   render::Options render;
   std::string resolved;  // the whole scene after quality and overrides, every key with its value, as JSON
 };
+
+// Whether other meshes than the textured surface's own get the texture too.
+inline bool putsOnto(const Scene& scene) {
+  return !scene.onto.files.empty() || (scene.comesAsMeshes && scene.ontoSource);
+}
 
 // What the command line adds to a scene file.
 struct Overrides {

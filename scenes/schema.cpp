@@ -4,13 +4,6 @@ namespace fluidtex::scenes {
 
 namespace {
 
-template <class Enum>
-void choice(Visitor& visitor, const std::string& key, Enum& value, const std::vector<std::string>& words) {
-  int index = int(value);
-  visitor.choice(key, index, words);
-  value = Enum(index);
-}
-
 // Of what ends at a time, or never.
 constexpr Limits kUntil{.low = 0.0, .aboveLow = true, .infinite = true};
 void describeWall(Visitor& visitor, sim::Wall& wall) {
@@ -46,6 +39,7 @@ void describeFiles(Visitor& visitor, caches::Options& files) {
     visitor.number("voxel", files.voxel, kNotNegative);
     visitor.number("least_piece", files.leastPiece, kNotNegative);
     visitor.number("least_explained", files.leastExplained, kShare);
+    visitor.flag("fit", files.fit);
   });
 }
 
@@ -135,11 +129,20 @@ void describeLiquid(Visitor& visitor, sim::Options& sim, bool solved) {
   });
 }
 
+// The name of a scalar, or of vectors, that the liquid has of its own.
+void describeAttribute(Visitor& visitor, bool used, std::string& attribute) {
+  if (used)
+    visitor.text("attribute", attribute);
+  else
+    visitor.absent("attribute");
+}
+
 void describeOrientation(Visitor& visitor, Scene& scene) {
   texture::OrientationOptions& orientation = scene.texture.orientation;
   visitor.integer("symmetry", orientation.symmetry, {.low = 1, .high = 4});
   visitor.flag("mirrored", orientation.mirrored);
-  choice(visitor, "align", orientation.align, {"none", "gravity", "flow", "curvature", "direction", "field"});
+  choice(visitor, "align", orientation.align,
+         {"none", "gravity", "flow", "curvature", "direction", "field", "attribute"});
   visitor.number("weight", orientation.weight, kShare);
   visitor.number("angle", orientation.angle, {.low = -360.0, .high = 360.0});
   visitor.vector("direction", orientation.direction, kAny);
@@ -147,12 +150,13 @@ void describeOrientation(Visitor& visitor, Scene& scene) {
     visitor.file("field", orientation.field, {".vdb"});
   else
     visitor.absent("field");
+  describeAttribute(visitor, orientation.align == texture::Align::attribute, orientation.attribute);
   visitor.list("keep_clear", scene.keepClear, [&](sim::Shape& shape) { describeShape(visitor, shape); });
 }
 
 void describeScale(Visitor& visitor, Scene& scene) {
   texture::ScaleOptions& scale = scene.texture.scale;
-  choice(visitor, "by", scale.by, {"none", "distance", "temperature", "height", "field"});
+  choice(visitor, "by", scale.by, {"none", "distance", "temperature", "height", "field", "attribute"});
   visitor.list("point", scale.points, [&](texture::CurvePoint& point) {
     visitor.number("value", point.value, kAny, Need::required);
     visitor.number("factor", point.result, {.low = texture::kLeastScale, .high = texture::kLargestScale},
@@ -162,6 +166,7 @@ void describeScale(Visitor& visitor, Scene& scene) {
     visitor.file("field", scale.field, {".vdb"});
   else
     visitor.absent("field");
+  describeAttribute(visitor, scale.by == texture::ScaleBy::attribute, scale.attribute);
   visitor.list("from", scene.scaleFrom, [&](sim::Shape& shape) { describeShape(visitor, shape); });
 }
 
@@ -169,7 +174,7 @@ void describeGuidance(Visitor& visitor, texture::Options& texture) {
   texture::GuidanceOptions& guidance = texture.guidance;
   choice(visitor, "by", guidance.by,
          {"none", "height", "temperature", "speed", "vorticity", "curvature", "age", "renewal", "foam",
-          "field"});
+          "field", "attribute"});
   if (guidance.by != texture::GuidanceBy::none)
     visitor.file("map", texture.exemplar.guidance, {});
   else
@@ -183,6 +188,7 @@ void describeGuidance(Visitor& visitor, texture::Options& texture) {
     visitor.file("field", guidance.field, {".vdb"});
   else
     visitor.absent("field");
+  describeAttribute(visitor, guidance.by == texture::GuidanceBy::attribute, guidance.attribute);
   visitor.table("foam", [&] {
     visitor.number("from", guidance.foam.from, kNotNegative);
     visitor.number("full", guidance.foam.full, kPositive);
@@ -253,10 +259,10 @@ void describeTexture(Visitor& visitor, Scene& scene, Need need) {
           choice(visitor, "orientation", scene.transport.orientation, {"vector", "scalars"});
         });
         visitor.table("onto", [&] {
+          visitor.flag("source", scene.ontoSource);
           visitor.files("files", scene.onto.files, {".obj", ".ply", ".stl"});
           visitor.integer("first", scene.onto.first, {.low = 0, .high = 1e9});
-          visitor.number("scale", scene.onto.scale, kPositive);
-          visitor.vector("translate", scene.onto.translate, kAny);
+          describePlace(visitor, scene.onto.place);
         });
       },
       need);

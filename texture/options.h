@@ -44,6 +44,7 @@ enum class Align {
   curvature,  // principal direction of the larger curvature; a line, so it needs a symmetry of 2 or 4
   direction,  // one direction in space
   field,      // vector field from a file
+  attribute,  // vectors of the liquid's own, by name
 };
 
 struct OrientationOptions {
@@ -54,6 +55,7 @@ struct OrientationOptions {
   double angle = 0.0;   // degrees from the alignment to the rows, counter-clockwise seen from outside
   openvdb::Vec3d direction{1.0, 0.0, 0.0};
   std::filesystem::path field;  // OpenVDB file; its first grid of float vectors
+  std::string attribute;        // scalars of sim::Frame::fields, each with _x, _y and _z behind this name
 };
 
 // Quantity that the scale of the texture depends on.
@@ -63,6 +65,7 @@ enum class ScaleBy {
   temperature,  // K
   height,       // z, metres
   field,        // scalar grid from a file
+  attribute,    // scalar of the liquid's own, by name
 };
 
 // Scale factors are clamped to this range.
@@ -77,6 +80,7 @@ struct ScaleOptions {
   ScaleBy by = ScaleBy::none;
   std::vector<CurvePoint> points;  // to a factor on the side of an exemplar pixel
   std::filesystem::path field;     // OpenVDB file; its first float grid
+  std::string attribute;           // of sim::Frame::fields
 };
 
 // Quantity that steers which parts of the exemplar appear where.
@@ -91,6 +95,7 @@ enum class GuidanceBy {
   renewal,      // s since its texture was last renewed
   foam,         // 0..1, see Foam
   field,        // scalar grid from a file
+  attribute,    // scalar of the liquid's own, by name
 };
 
 // Foam arises where |grad u| is large, is advected with the surface and decays.
@@ -103,6 +108,7 @@ struct GuidanceOptions {
   GuidanceBy by = GuidanceBy::none;
   std::vector<CurvePoint> points;  // to a level of the guidance map, 0 (black) to 1 (white)
   std::filesystem::path field;     // OpenVDB file; its first float grid
+  std::string attribute;           // of sim::Frame::fields
   Foam foam;
 };
 

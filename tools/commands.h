@@ -15,7 +15,7 @@ struct CommonOptions {
   std::string frames, quality = "default";
   std::vector<std::string> set;
   int threads = 0;  // 0: one per core
-  bool resume = false, noRender = false, quiet = false, verbose = false;
+  bool resume = false, noRender = false, follow = false, quiet = false, verbose = false;
 };
 
 void addRun(CLI::App& app, int& exitCode);

@@ -67,7 +67,7 @@ void tryMeshes(const sim::Shape& shape, const openvdb::BBoxd& reach, const sim::
     if (!quiet && !warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
   };
   if (const auto* mesh = std::get_if<sim::MeshShape>(&shape.kind))
-    warn(farAway(mesh->file, mesh->scale, sim::readMesh(*mesh), reach, size));
+    warn(farAway(mesh->file, mesh->place.scale, sim::readMesh(*mesh), reach, size));
   if (const auto* sequence = std::get_if<sim::MeshSequence>(&shape.kind)) sim::MovingMesh{*sequence};
   if (const auto* both = std::get_if<sim::Union>(&shape.kind)) tryParts(both->parts);
   if (const auto* rest = std::get_if<sim::Difference>(&shape.kind)) tryParts(rest->parts);
@@ -80,8 +80,9 @@ void addSimulationOptions(CLI::App& command, CommonOptions& options) {
       ->required()
       ->type_name("SCENE");
   command
-      .add_option("--frames", options.frames,
-                  "First and last frame, numbered from 1; earlier frames are computed, not written")
+      .add_option(
+          "--frames", options.frames,
+          "First and last frame, numbered from 1, such as 1:24; earlier ones are computed, not written")
       ->type_name("A:B");
   command.add_option("--threads", options.threads, "How many threads (default: one a core)")
       ->check(CLI::Range(1, 4096))
@@ -115,12 +116,18 @@ bool isCache(const std::filesystem::path& scene) {
           (std::filesystem::exists(scene, unknown) || caches::isPattern(scene)));
 }
 
-scenes::Scene loadScene(const CommonOptions& options) {
+scenes::Overrides overridesOf(const CommonOptions& options, bool liquidOnly) {
   scenes::Overrides overrides;
   if (options.quality == "preview") overrides.quality = scenes::Quality::preview;
   if (options.quality == "final") overrides.quality = scenes::Quality::final;
   overrides.set = options.set;
   overrides.exemplar = options.exemplar;
+  overrides.liquidOnly = liquidOnly;
+  return overrides;
+}
+
+scenes::Scene loadScene(const CommonOptions& options) {
+  const scenes::Overrides overrides = overridesOf(options);
   const bool ofCache = isCache(options.scene);
   if (std::error_code unknown;
       !ofCache && options.scene.extension() != ".toml" && !std::filesystem::exists(options.scene, unknown))
@@ -134,6 +141,9 @@ scenes::Scene loadScene(const CommonOptions& options) {
                     options.scene.string()));
   scenes::Scene scene =
       ofCache ? scenes::sceneOfCache(options.scene, overrides) : scenes::loadScene(options.scene, overrides);
+  scene.files.follow = options.follow;
+  if (options.follow && scene.motion.flow != sim::MotionKind::files)
+    throw UsageError("--follow: the scene's liquid does not come out of files that could be waited for");
   if (scene.motion.flow == sim::MotionKind::files) {
     const std::vector<std::string> found = pipeline::takeCache(scene);
     scene.resolved = scenes::resolvedText(scene, overrides.quality);
@@ -148,9 +158,9 @@ scenes::Scene loadScene(const CommonOptions& options) {
   return scene;
 }
 
-void parseFrames(const std::string& text, int frames, int& first, int& last) {
+void parseFrames(const std::string& text, const scenes::Scene& scene, int& first, int& last) {
   first = 1;
-  last = frames;
+  last = scene.frames;
   if (text.empty()) return;
   const std::size_t colon = text.find(':');
   first = parseNumber(text.substr(0, colon), text);
@@ -159,9 +169,12 @@ void parseFrames(const std::string& text, int frames, int& first, int& last) {
   else if (colon + 1 < text.size())
     last = parseNumber(text.substr(colon + 1), text);
   if (last < first) throw UsageError(fmt::format("--frames {}: ends before it begins", text));
-  if (last > frames)
-    throw UsageError(
-        fmt::format("--frames {}: the scene has {} frames; --set frames={} makes more", text, frames, last));
+  if (last <= scene.frames) return;
+  if (scene.motion.flow == sim::MotionKind::files)
+    throw UsageError(fmt::format("--frames {}: the files of {} are of {} frames; give 1:{} at most", text,
+                                 scene.files.path.string(), scene.frames, scene.frames));
+  throw UsageError(fmt::format("--frames {}: the scene has {} frames; --set frames={} makes more", text,
+                               scene.frames, last));
 }
 
 }  // namespace fluidtex::tools

@@ -48,7 +48,7 @@ std::string neededBy(const scenes::Scene& scene) {
 void runInto(const std::filesystem::path& out, const scenes::Scene& scene, const CommonOptions& options) {
   RunOptions run;
   run.out = out;
-  parseFrames(options.frames, scene.frames, run.firstFrame, run.lastFrame);
+  parseFrames(options.frames, scene, run.firstFrame, run.lastFrame);
   run.resume = options.resume;
   run.render = !options.noRender;
   run.quiet = options.quiet;
@@ -71,6 +71,9 @@ void addRunOptions(CLI::App& command, const std::shared_ptr<CommonOptions>& opti
   addSceneOptions(command, *options);
   command.add_flag("--resume", options->resume,
                    "Go on from the last frame that an earlier, unfinished run has left in the folder");
+  command.add_flag(
+      "--follow", options->follow,
+      "Wait for files of another program that still runs; --set frames=N says how many there will be");
   command.add_flag("--no-render", options->noRender, "Write surfaces only, no pictures and no video");
   command.callback([options, &exitCode] {
     exitCode = guarded([&] {

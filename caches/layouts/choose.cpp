@@ -23,6 +23,12 @@ constexpr std::array kDistanceNames{"surface",  "liquid_surface", "fluid_surface
                                     "levelset", "level_set",      "phi",           "distance"};
 constexpr std::array kDensityNames{"density", "fluid", "liquid", "fluid_density"};
 constexpr std::array kVelocityNames{"vel", "v", "velocity", "velocities"};
+constexpr std::array kNormalNames{"n", "normal", "normals"};
+
+template <class Names>
+bool isOneOf(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 template <class Fits>
 const GridHead* firstOf(const std::vector<GridHead>& grids, const Fits& fits) {
@@ -116,6 +122,24 @@ std::vector<std::string> givenVelocity(const std::filesystem::path& file, const 
   return names;
 }
 
+std::string velocityOf(const Geometry& geometry) {
+  for (const char* wanted : kVelocityNames)
+    for (const auto& [name, attribute] : geometry.attributes)
+      if (attribute.components == 3 && lower(name) == wanted) return name;
+  return {};
+}
+
+std::string givenVelocity(const std::filesystem::path& file, const Geometry& geometry,
+                          const std::string& given) {
+  const auto found = geometry.attributes.find(given);
+  if (found != geometry.attributes.end() && found->second.components == 3) return given;
+  std::string there;
+  for (const auto& [name, attribute] : geometry.attributes)
+    if (attribute.components == 3) there += (there.empty() ? "" : ", ") + name;
+  throw LayoutError(file.string() + ": has no attribute of vectors \"" + given +
+                    "\"; there are: " + (there.empty() ? "none" : there));
+}
+
 }  // namespace
 
 GridChoice chooseGrids(const std::filesystem::path& file, const Options& options) {
@@ -142,9 +166,9 @@ GridChoice chooseGrids(const std::filesystem::path& file, const Options& options
                         ? velocityOf(grids, choice.onFaces)
                         : givenVelocity(file, grids, options.velocityName, choice.onFaces);
   for (const GridHead& grid : grids)
-    if (grid.readable && !grid.vectors && grid.name != choice.surface && !grid.name.empty() &&
+    if (grid.readable && grid.name != choice.surface && !grid.name.empty() &&
         std::find(choice.velocity.begin(), choice.velocity.end(), grid.name) == choice.velocity.end())
-      choice.scalars.push_back(grid.name);
+      (grid.vectors ? choice.vectors : choice.scalars).push_back(grid.name);
   return choice;
 }
 
@@ -154,25 +178,13 @@ AttributeChoice chooseAttributes(const std::filesystem::path& file, const Option
   choice.points = !geometry.points.empty();
   if (!choice.points) return choice;
   choice.triangles = !geometry.triangles.empty();
-  for (const auto& [name, attribute] : geometry.attributes)
+  choice.velocity = options.velocityName.empty() ? velocityOf(geometry)
+                                                 : givenVelocity(file, geometry, options.velocityName);
+  for (const auto& [name, attribute] : geometry.attributes) {
     if (attribute.components == 1) choice.scalars.push_back(name);
-  if (!options.velocityName.empty()) {
-    const auto found = geometry.attributes.find(options.velocityName);
-    if (found != geometry.attributes.end() && found->second.components == 3) {
-      choice.velocity = found->first;
-    } else {
-      std::string there;
-      for (const auto& [name, attribute] : geometry.attributes)
-        if (attribute.components == 3) there += (there.empty() ? "" : ", ") + name;
-      throw LayoutError(file.string() + ": has no attribute of vectors \"" + options.velocityName +
-                        "\"; there are: " + (there.empty() ? "none" : there));
-    }
-    return choice;
+    if (attribute.components == 3 && name != choice.velocity && !isOneOf(kNormalNames, lower(name)))
+      choice.vectors.push_back(name);
   }
-  for (const char* wanted : kVelocityNames)
-    for (const auto& [name, attribute] : geometry.attributes)
-      if (choice.velocity.empty() && attribute.components == 3 && lower(name) == wanted)
-        choice.velocity = name;
   return choice;
 }
 

@@ -17,6 +17,18 @@ enum class SurfaceKind { mesh, levelSet, fog, mantaflow, particles };
 // attribute: values at the points of the surface's own files. flipFluids: the points of velocity######.bobj.
 enum class VelocityKind { none, grids, attribute, flipFluids };
 
+// A further grid, or attribute at points: temperature, age, colour.
+struct Field {
+  std::string name;           // as in the file
+  bool vectors = false;       // three numbers, else one
+  bool withVelocity = false;  // a grid of the files that hold the velocity, else one of the surface's files
+  friend bool operator==(const Field&, const Field&) = default;
+};
+
+// What a field's numbers are called from here on: its name in letters, digits and _; of vectors each with _x,
+// _y and _z ("Cd_x").
+std::vector<std::string> scalarNames(const Field& field);
+
 struct Layout {
   Program program = Program::unknown;
   SurfaceKind surfaceKind = SurfaceKind::mesh;
@@ -27,9 +39,9 @@ struct Layout {
   std::string surfaceName;          // of the grid
   // Of the attribute; of one grid of vectors, or of three grids.
   std::vector<std::string> velocityNames;
-  bool onFaces = false;              // a grid of vectors holds the components at the voxels' lower faces
-  std::vector<std::string> scalars;  // further grids or attributes, by name
-  int first = 1, last = 0;           // numbers of the frames that can be textured
+  bool onFaces = false;  // a grid of vectors holds the components at the voxels' lower faces
+  std::vector<Field> fields;
+  int first = 1, last = 0;  // numbers of the frames that can be textured
 
   int frames() const { return last - first + 1; }
 };

@@ -23,7 +23,7 @@ struct GridChoice {
   bool fog = false;
   std::vector<std::string> velocity;  // none, one of vectors, or three
   bool onFaces = false;
-  std::vector<std::string> scalars;
+  std::vector<std::string> scalars, vectors;  // all others, by name
 };
 GridChoice chooseGrids(const std::filesystem::path& file, const Options& options);
 
@@ -33,7 +33,7 @@ struct AttributeChoice {
   bool points = false;  // whether there are any; without them the rest says nothing
   bool triangles = false;
   std::string velocity;
-  std::vector<std::string> scalars;
+  std::vector<std::string> scalars, vectors;  // all others, by name, but for normals
 };
 AttributeChoice chooseAttributes(const std::filesystem::path& file, const Options& options);
 

@@ -1,4 +1,5 @@
 #include "caches/formats/read_geometry.h"
+#include "caches/layouts/nothing_here.h"
 #include "caches/layouts/programs.h"
 
 #include <algorithm>
@@ -39,7 +40,8 @@ GridChoice gridsOf(const NumberedFiles& files, const Options& options, fs::path&
   return firstChoice(
       files, sample, [&](const fs::path& file) { return chooseGrids(file, options); },
       [](const GridChoice& choice) {
-        return !choice.surface.empty() || !choice.velocity.empty() || !choice.scalars.empty();
+        return !choice.surface.empty() || !choice.velocity.empty() || !choice.scalars.empty() ||
+               !choice.vectors.empty();
       });
 }
 
@@ -65,6 +67,17 @@ NumberedFiles theOne(std::vector<NumberedFiles> candidates, const fs::path& fold
   return std::move(*most);
 }
 
+// Adds the further grids or attributes of a choice, but for names that there are already.
+template <class Choice>
+void addFields(const Choice& choice, bool withVelocity, Layout& layout) {
+  const auto add = [&](const Field& field) {
+    const auto known = [&](const Field& other) { return scalarNames(other) == scalarNames(field); };
+    if (std::none_of(layout.fields.begin(), layout.fields.end(), known)) layout.fields.push_back(field);
+  };
+  for (const std::string& name : choice.scalars) add({name, false, withVelocity});
+  for (const std::string& name : choice.vectors) add({name, true, withVelocity});
+}
+
 void takeGrids(const NumberedFiles& files, const Options& options, Layout& layout) {
   fs::path sample;
   GridChoice choice = gridsOf(files, options, sample);
@@ -76,7 +89,7 @@ void takeGrids(const NumberedFiles& files, const Options& options, Layout& layou
   layout.surface = files;
   layout.surfaceKind = choice.fog ? SurfaceKind::fog : SurfaceKind::levelSet;
   layout.surfaceName = choice.surface;
-  layout.scalars = choice.scalars;
+  addFields(choice, false, layout);
   if (choice.velocity.empty()) return;
   layout.velocity = files;
   layout.velocityKind = VelocityKind::grids;
@@ -93,7 +106,7 @@ void takeGeometry(const NumberedFiles& files, const Options& options, Layout& la
       [](const AttributeChoice& found) { return found.points; });
   layout.surface = files;
   layout.surfaceKind = choice.triangles ? SurfaceKind::mesh : SurfaceKind::particles;
-  layout.scalars = choice.scalars;
+  addFields(choice, false, layout);
   if (choice.velocity.empty()) return;
   layout.velocityKind = VelocityKind::attribute;
   layout.velocityNames = {choice.velocity};
@@ -112,6 +125,7 @@ void takeVelocity(const NumberedFiles& files, const Options& options, Layout& la
   layout.velocityKind = VelocityKind::grids;
   layout.velocityNames = choice.velocity;
   layout.onFaces = choice.onFaces;
+  addFields(choice, true, layout);
 }
 
 Layout fromFolder(const fs::path& folder, const Options& options) {
@@ -126,11 +140,7 @@ Layout fromFolder(const fs::path& folder, const Options& options) {
       takeVelocity(theOne(std::move(grids), folder, "OpenVDB files"), options, layout);
     return layout;
   }
-  if (grids.empty())
-    throw LayoutError(
-        folder.string() +
-        ": holds nothing that can be read as a liquid; give Blender's or FLIP Fluids' cache folder, or "
-        "a folder of numbered files: .vdb, .ply, .obj, .stl, .vtp, .vtk, .bobj, .bgeo");
+  if (grids.empty()) throw LayoutError(nothingHere(folder));
   takeGrids(theOne(std::move(grids), folder, "OpenVDB files"), options, layout);
   return layout;
 }
@@ -209,6 +219,12 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
+std::string namesOf(const std::vector<Field>& fields) {
+  std::vector<std::string> names;
+  for (const Field& field : fields) names.push_back(field.name);
+  return joined(names);
+}
+
 const char* nameOf(SurfaceKind kind) {
   switch (kind) {
     case SurfaceKind::mesh:
@@ -251,6 +267,15 @@ Layout recognize(const Options& options) {
   return layout;
 }
 
+std::vector<std::string> scalarNames(const Field& field) {
+  std::string name = field.name;
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front()))) name = "_" + name;
+  if (!field.vectors) return {name};
+  return {name + "_x", name + "_y", name + "_z"};
+}
+
 std::vector<std::string> describe(const Layout& layout) {
   const char* program = layout.program == Program::mantaflow    ? "Blender's liquid (mantaflow)"
                         : layout.program == Program::flipFluids ? "FLIP Fluids"
@@ -260,7 +285,7 @@ std::vector<std::string> describe(const Layout& layout) {
                                      nameOf(layout.surfaceKind) +
                                      (layout.surfaceName.empty() ? "" : ", grid " + layout.surfaceName),
                                  "velocity  " + velocityText(layout)};
-  if (!layout.scalars.empty()) lines.push_back("further   " + joined(layout.scalars));
+  if (!layout.fields.empty()) lines.push_back("further   " + namesOf(layout.fields));
   return lines;
 }
 

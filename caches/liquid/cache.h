@@ -23,7 +23,7 @@ struct LiquidFrame {
   bool isSheet = false;         // it encloses nothing
   // Each component with a transform of its own; no grids where nothing is known.
   sim::FaceGrids velocity;
-  std::map<std::string, sim::FloatGrid::ConstPtr> fields;  // further scalars, by their names in the files
+  std::map<std::string, sim::FloatGrid::ConstPtr> fields;  // further scalars, see furtherFields()
 };
 
 }  // namespace fluidtex::caches

@@ -1,5 +1,7 @@
 #include "caches/liquid/cached_flow.h"
 
+#include "caches/layouts/follow.h"
+#include "caches/liquid/fitted_velocity.h"
 #include "caches/liquid/read_frame.h"
 #include "caches/liquid/velocity_grids.h"
 
@@ -32,12 +34,17 @@ double median(std::vector<double> values) {
 }  // namespace
 
 CachedFlow::CachedFlow(Cache cache) : m_cache(std::move(cache)) {
-  if (m_cache.layout.velocityKind == VelocityKind::none && m_cache.options.leastExplained > 0.0)
+  const bool none = m_cache.layout.velocityKind == VelocityKind::none;
+  if (none && !m_cache.options.fit && m_cache.options.leastExplained > 0.0)
     throw LayoutError(
         m_cache.layout.surface.pattern.string() +
         ": no velocities were found, without which texture cannot follow the liquid; write them "
         "(an attribute v, a grid vel), name them with files.velocity or files.velocity_name, or "
-        "let texture stay in place with files.least_explained=0");
+        "let the motion be fitted to the surfaces alone with files.fit=true");
+  if (none && m_cache.options.fit)
+    warnOnce(m_cache.layout.surface.pattern.string() +
+             ": there are no velocities; motion is fitted to the surfaces, which do not show how the liquid "
+             "moves along them, so texture there slips");
   m_state.phi = sim::makePhi(m_cache.voxel, float(m_cache.voxel));
   m_state.velocity = sim::makeVelocity(m_cache.voxel);
 }
@@ -46,6 +53,11 @@ CachedFlow::CachedFlow(Cache cache, sim::State state) : CachedFlow(std::move(cac
   m_state.frame = state.frame;
   m_state.time = state.time;
   if (m_state.frame > 0) m_last = readFrame(m_cache, numberOf(m_state.frame));
+}
+
+std::optional<std::filesystem::path> CachedFlow::awaited() {
+  if (!m_cache.options.follow) return std::nullopt;
+  return awaitedFile(m_cache.layout, numberOf(m_state.frame + 1));
 }
 
 void CachedFlow::warnOnce(const std::string& warning) {
@@ -82,6 +94,11 @@ void CachedFlow::addSubsteps(const LiquidFrame& now, sim::Frame& frame) {
   const sim::FaceGrids begin = m_last->velocity ? m_last->velocity : sim::makeVelocity(m_cache.voxel);
   const sim::FaceGrids end = now.velocity ? now.velocity : sim::makeVelocity(m_cache.voxel);
   FrameMotion motion;
+  if (m_cache.layout.velocityKind == VelocityKind::none && m_cache.options.fit) {
+    add(seconds, fittedVelocity(*m_last->phi, *now.phi, seconds));
+    frame.stats.dtMin = seconds;
+    return;
+  }
   if (m_last->velocity && now.velocity) {
     motion = bestMotion(*m_last->phi, *now.phi, begin, end, seconds);
     judge(now, motion, numberOf(frame.index));

@@ -3,9 +3,11 @@
 
 #include "caches/liquid/cache.h"
 #include "caches/liquid/explained.h"
+#include "caches/liquid/read_frame.h"
 #include "sim/frame/frame.h"
 #include "sim/step/liquid.h"
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -26,6 +28,13 @@ class CachedFlow {
   // Throws LayoutError, FormatError, and LayoutError too where the velocities of three frames and more
   // explain less than Options::leastExplained of their motion: it says by which factor they would.
   sim::Frame next(const std::function<void(double)>& progress = {});
+
+  // With Options::follow: a file of the next frame that is still to come, see awaitedFile().
+  std::optional<std::filesystem::path> awaited();
+
+  bool comesAsMeshes() const { return m_cache.layout.surfaceKind == SurfaceKind::mesh; }
+  // The mesh that a frame came as, where they come as meshes. Throws as readSurface().
+  CachedMesh mesh(int frame) const { return readMesh(m_cache, numberOf(frame)); }
 
   // Its grids are empty.
   const sim::State& state() const { return m_state; }

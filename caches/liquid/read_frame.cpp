@@ -3,6 +3,7 @@
 #include "caches/formats/flip_fluids.h"
 #include "caches/formats/read_fields.h"
 #include "caches/formats/read_geometry.h"
+#include "caches/liquid/further_fields.h"
 #include "caches/liquid/level_set.h"
 #include "caches/liquid/mantaflow_frame.h"
 #include "caches/liquid/particles.h"
@@ -254,26 +255,30 @@ void readVelocity(const Cache& cache, int number, const Raw& raw, LiquidFrame& f
   }
 }
 
-void readScalarFields(const Cache& cache, int number, const Raw& raw, LiquidFrame& frame) {
-  const SurfaceKind kind = cache.layout.surfaceKind;
-  for (const std::string& name : cache.layout.scalars) {
-    if (kind == SurfaceKind::levelSet || kind == SurfaceKind::fog) {
-      const openvdb::FloatGrid::Ptr grid = readScalars(cache.layout.surface.at(number), name);
-      grid->transform().postMult(worldFromFile(cache.options));
-      frame.fields[name] = sim::fromOpenVdb(*grid);
-      continue;
-    }
-    const auto attribute = raw.geometry.attributes.find(name);
-    if (kind != SurfaceKind::mesh || attribute == raw.geometry.attributes.end()) continue;
-    frame.fields[name] = sim::fromOpenVdb(
-        *continuedOff(raw.surface, attribute->second.values, 1, cache.voxel, kLeastReach).front());
-  }
-}
-
 }  // namespace
 
 SurfaceTriangles readSurface(const Cache& cache, int number) {
   return readRaw(cache, number).surface;
+}
+
+CachedMesh readMesh(const Cache& cache, int number) {
+  Raw raw = readRaw(cache, number);
+  CachedMesh mesh{std::move(raw.surface), {}};
+  for (const Field& field : cache.layout.fields) {
+    const auto found = raw.geometry.attributes.find(field.name);
+    const int components = field.vectors ? 3 : 1;
+    if (field.withVelocity || found == raw.geometry.attributes.end() ||
+        found->second.components != components)
+      continue;
+    const std::vector<float>& values = found->second.values;
+    const std::vector<std::string> names = scalarNames(field);
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      std::vector<float>& one = mesh.attributes[names[c]];
+      one.reserve(mesh.surface.points.size());
+      for (std::size_t n = c; n < values.size(); n += names.size()) one.push_back(values[n]);
+    }
+  }
+  return mesh;
 }
 
 LiquidFrame readFrame(const Cache& cache, int number) {
@@ -285,7 +290,9 @@ LiquidFrame readFrame(const Cache& cache, int number) {
   frame.isSheet = levelSet.isSheet;
   if (!raw.surface.triangles.empty()) {
     readVelocity(cache, number, raw, frame);
-    readScalarFields(cache, number, raw, frame);
+    const bool particles = cache.layout.surfaceKind == SurfaceKind::particles && !cache.layout.fields.empty();
+    frame.fields = furtherFields(cache, number, raw.geometry, raw.surface,
+                                 particles ? 2.0 * radiusOf(cache, raw.geometry.points) : 0.0);
   }
   frame.surface = std::move(raw.surface);
   return frame;

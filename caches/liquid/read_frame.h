@@ -10,6 +10,15 @@ namespace fluidtex::caches {
 // FormatError.
 SurfaceTriangles readSurface(const Cache& cache, int number);
 
+// The mesh of a frame as its file has it, placed: all points in their order, polygons cut into triangles.
+struct CachedMesh {
+  SurfaceTriangles surface;
+  std::map<std::string, std::vector<float>> attributes;  // #P each: Layout::fields by scalarNames()
+};
+
+// Requires SurfaceKind::mesh. Pieces below Options::leastPiece have no triangles. Throws as readSurface().
+CachedMesh readMesh(const Cache& cache, int number);
+
 // All of it. Velocities are known within two frames' motion of the surface, or wherever the files have them.
 LiquidFrame readFrame(const Cache& cache, int number);
 

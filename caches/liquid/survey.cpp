@@ -20,7 +20,9 @@ Survey survey(const Options& options) {
                       ": no frame holds a surface; write at least one that does");
   openvdb::BBoxd bounds = boundsOf(surface);
   if (cache.voxel == 0.0) cache.voxel = suitingVoxel(cache, first, surface);
-  for (const int number : {(first + cache.layout.last) / 2, cache.layout.last}) {
+  // What is found while a program still runs must be found again when a run goes on later.
+  const int last = options.follow ? first : cache.layout.last;
+  for (const int number : {(first + last) / 2, last}) {
     if (number == first || !cache.layout.surface.byNumber.contains(number)) continue;
     const SurfaceTriangles later = readSurface(cache, number);
     if (!later.triangles.empty()) bounds.expand(boundsOf(later));

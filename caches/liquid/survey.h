@@ -8,7 +8,9 @@ namespace fluidtex::caches {
 struct Survey {
   Layout layout;
   double voxel = 0.0;     // side of the level sets' cells, metres
-  openvdb::BBoxd bounds;  // of the surface in the first frame that has one, a middle one and the last, metres
+  // Of the surface in the first frame that has one, a middle one and the last, metres; with Options::follow in
+  // the first alone.
+  openvdb::BBoxd bounds;
 };
 
 // Recognizes the cache and reads those three surfaces. Throws LayoutError (also where no frame holds a

@@ -95,18 +95,24 @@ std::vector<Vec3f> alongBend(const SurfaceMesh& mesh) {
   return result;
 }
 
-std::vector<Vec3f> alongField(const SurfaceMesh& mesh, const openvdb::Vec3SGrid& field) {
+std::vector<Vec3f> alongVectors(const SurfaceMesh& mesh, const std::vector<Vec3f>& vectors) {
   std::vector<Vec3f> result(mesh.positions.size(), Vec3f(0.0f));
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, result.size(), kGrain), [&](const auto& range) {
-    const auto accessor = field.getConstAccessor();
-    for (std::size_t v = range.begin(); v != range.end(); ++v) {
-      const Vec3f x =
-          openvdb::tools::BoxSampler::sample(accessor, field.worldToIndex(openvdb::Vec3d(mesh.positions[v])));
-      const float length = x.length();
-      if (std::isfinite(length) && length > 0.0f) result[v] = tangentPart(x / length, mesh.normals[v]);
-    }
+  forEachIndex(result.size(), [&](std::uint32_t v) {
+    const float length = vectors[v].length();
+    if (std::isfinite(length) && length > 0.0f) result[v] = tangentPart(vectors[v] / length, mesh.normals[v]);
   });
   return result;
+}
+
+std::vector<Vec3f> alongField(const SurfaceMesh& mesh, const openvdb::Vec3SGrid& field) {
+  std::vector<Vec3f> vectors(mesh.positions.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, vectors.size(), kGrain), [&](const auto& range) {
+    const auto accessor = field.getConstAccessor();
+    for (std::size_t v = range.begin(); v != range.end(); ++v)
+      vectors[v] =
+          openvdb::tools::BoxSampler::sample(accessor, field.worldToIndex(openvdb::Vec3d(mesh.positions[v])));
+  });
+  return alongVectors(mesh, vectors);
 }
 
 }  // namespace fluidtex::texture

@@ -20,6 +20,9 @@ std::vector<Vec3f> alongFlow(const SurfaceMesh& mesh, const std::vector<Vec3f>& 
 // Triangle Meshes, 2004, here per vertex), averaged over neighbours.
 std::vector<Vec3f> alongBend(const SurfaceMesh& mesh);
 
+// Along vectors of any length (#V). No confidence where they are zero or no numbers.
+std::vector<Vec3f> alongVectors(const SurfaceMesh& mesh, const std::vector<Vec3f>& vectors);
+
 // Along a vector grid, sampled linearly at the vertices. No confidence where it is zero.
 std::vector<Vec3f> alongField(const SurfaceMesh& mesh, const openvdb::Vec3SGrid& field);
 

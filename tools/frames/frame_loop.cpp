@@ -32,10 +32,14 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
 namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
+
+// Between two looks for files that are waited for.
+constexpr std::chrono::milliseconds kPoll{250};
 
 // Adds the wall time of its own life to a stage.
 class Stopwatch {
@@ -165,12 +169,27 @@ class FrameLoop {
     m_progress->frameDone(motion.index, summary);
   }
 
+  // Of a program that still runs.
+  void waitForFiles() {
+    std::filesystem::path told;
+    while (const std::optional<fs::path> file = pipeline::awaitedFile(*m_motion)) {
+      if (*file != told) {
+        spdlog::info("waiting for {}", file->string());
+        if (!m_options.quiet) say("waiting for {}\n", file->string());
+      }
+      told = *file;
+      std::this_thread::sleep_for(kPoll);
+      if (m_stop) throw Interrupted();
+    }
+  }
+
   FrameResult computeFrame() {
     FrameResult result;
     StageSeconds& seconds = result.seconds;
     {
       Stopwatch watch(seconds.simulate);
       nowAt(kOnMotion, pipeline::stateOf(*m_motion).frame + 1);
+      waitForFiles();
       result.motion = pipeline::nextFrame(*m_motion, reporter("simulate"));
     }
     tellWarnings();
@@ -214,19 +233,24 @@ class FrameLoop {
     Stopwatch watch(seconds.write);
     writeAtomically(m_options.out / "surface" / (name + ".ply"),
                     [&](const fs::path& file) { writePly(m_surface, file); });
-    if (putsOnto()) {
-      const texture::TexturedSurface other =
-          ontoMesh(m_surface, m_scene.onto, frame, m_texturing.orientation.options.symmetry);
+    const bool putsOnto = scenes::putsOnto(m_scene);
+    if (putsOnto) {
+      const texture::TexturedSurface other = onto(frame);
       writeAtomically(m_options.out / "onto" / (name + ".ply"),
                       [&](const fs::path& file) { writePly(other, file); });
     }
     std::vector<JournalLine> lines;
-    for (const std::string& file : resultsOf(frame, m_options.render, putsOnto()))
+    for (const std::string& file : resultsOf(frame, m_options.render, putsOnto))
       lines.push_back(lineOfFile(file, fingerprintOf(m_options.out / file)));
     addToJournal(m_options.out, lines);
   }
 
-  bool putsOnto() const { return !m_scene.onto.files.empty(); }
+  // The other mesh of the frame that m_surface is of.
+  texture::TexturedSurface onto(int frame) const {
+    const int symmetry = m_texturing.orientation.options.symmetry;
+    if (!m_scene.onto.files.empty()) return ontoMesh(m_surface, m_scene.onto, frame, symmetry);
+    return ontoMesh(m_surface, *pipeline::meshOf(*m_motion, frame), symmetry);
+  }
 
   // The report of one frame.
   Report reportOf(const Json& record) const {
@@ -270,7 +294,8 @@ class FrameLoop {
     m_surface = std::move(earlier->surface);
     if (earlier->writeLastAgain) {
       StageSeconds seconds;
-      writeResults(pipeline::stateOf(*m_motion).frame, m_report.frames.back().at("time").get<double>(), seconds);
+      writeResults(pipeline::stateOf(*m_motion).frame, m_report.frames.back().at("time").get<double>(),
+                   seconds);
     }
     m_reportFile.write(m_report);
     return true;

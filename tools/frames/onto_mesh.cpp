@@ -1,16 +1,18 @@
 #include "tools/frames/onto_mesh.h"
 
+#include "pipeline/liquid_values.h"
 #include "sim/meshes/read_mesh.h"
 #include "transport/onto.h"
+
+#include <utility>
 
 namespace fluidtex::tools {
 
 texture::TexturedSurface ontoMesh(const texture::TexturedSurface& surface, const sim::MeshSequence& meshes,
                                   int frame, int symmetry) {
-  const sim::MeshSoup soup = sim::readSoup(meshes.fileOf(frame - 1));
-  std::vector<texture::Vec3f> positions;
-  positions.reserve(soup.points.size());
-  for (const sim::Vec3d& x : soup.points) positions.emplace_back(x * meshes.scale + meshes.translate);
+  const std::filesystem::path file = meshes.fileOf(frame - 1);
+  const sim::MeshSoup soup = sim::readSoup(file);
+  std::vector<texture::Vec3f> positions = sim::placedPoints(file, soup, meshes.place);
   std::vector<texture::Vec3I> triangles;
   for (const auto& polygon : soup.polygons) {
     for (std::size_t i = 2; i < polygon.size(); ++i)
@@ -18,6 +20,14 @@ texture::TexturedSurface ontoMesh(const texture::TexturedSurface& surface, const
                              std::uint32_t(polygon[i]));
   }
   return transport::onto(surface, std::move(positions), std::move(triangles), symmetry);
+}
+
+texture::TexturedSurface ontoMesh(const texture::TexturedSurface& surface, caches::CachedMesh mesh,
+                                  int symmetry) {
+  texture::TexturedSurface result =
+      transport::onto(surface, std::move(mesh.surface.points), std::move(mesh.surface.triangles), symmetry);
+  pipeline::setLiquidValues(mesh.attributes, result);
+  return result;
 }
 
 }  // namespace fluidtex::tools

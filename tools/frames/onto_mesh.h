@@ -1,6 +1,7 @@
-// A frame's texture on the mesh of [texture.onto].
+// A frame's texture on another mesh: that of [texture.onto], or the one that the liquid came as.
 #pragma once
 
+#include "caches/liquid/read_frame.h"
 #include "sim/options.h"
 #include "texture/surface.h"
 
@@ -11,5 +12,9 @@ namespace fluidtex::tools {
 // sim::MeshError.
 texture::TexturedSurface ontoMesh(const texture::TexturedSurface& surface, const sim::MeshSequence& meshes,
                                   int frame, int symmetry);
+
+// The same for the mesh that a liquid came as: vertex for vertex, with its own attributes.
+texture::TexturedSurface ontoMesh(const texture::TexturedSurface& surface, caches::CachedMesh mesh,
+                                  int symmetry);
 
 }  // namespace fluidtex::tools

@@ -54,7 +54,7 @@ std::optional<EarlierFrames> earlierFrames(const scenes::Scene& scene, const Run
   const Journal journal = readJournal(options.out);
   const std::optional<Broken> broken =
       firstBroken(options.out, journal, options.firstFrame, std::min(done, last), options.render,
-                  !scene.onto.files.empty());
+                  scenes::putsOnto(scene));
   // Of the last frame all is there that its files are made of.
   const bool again = broken && broken->written && broken->frame == done;
   if (broken && !again)

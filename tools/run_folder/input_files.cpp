@@ -112,15 +112,21 @@ Fingerprint contentOf(const sim::MeshSequence& files) {
   return all;
 }
 
-// The cache's files of all frames. They may be large: told apart by names, sizes and times of change.
-Fingerprint contentOfCache(const scenes::Scene& scene) {
+// Frames of the cache that do not change any more: without those that a program still writes.
+int wholeFrames(const scenes::Scene& scene) {
+  if (!scene.files.follow) return scene.frames;
+  return std::min(scene.frames, caches::recognize(scene.files).frames() - 1);
+}
+
+// The cache's files of that many frames. They may be large: told apart by names, sizes and times of change.
+Fingerprint contentOfCache(const scenes::Scene& scene, int frames) {
   std::vector<fs::path> files;
   if (caches::isRecording(scene.files.path)) {
-    for (int frame = 1; frame <= scene.frames; ++frame)
+    for (int frame = 1; frame <= frames; ++frame)
       files.push_back(caches::recordedFrame(scene.files.path, frame));
   } else {
     const caches::Layout layout = caches::recognize(scene.files);
-    for (int number = layout.first; number < layout.first + scene.frames; ++number)
+    for (int number = layout.first; number < layout.first + frames; ++number)
       for (const caches::NumberedFiles* source :
            {&layout.surface, &layout.velocity, &layout.config, &layout.blur})
         if (const auto file = source->byNumber.find(number); file != source->byNumber.end())
@@ -164,9 +170,10 @@ Json contentsOf(const scenes::Scene& scene) {
     entry["hash"] = content.hash;
   }
   if (isOutOfFiles(scene)) {
-    const Fingerprint content = contentOfCache(scene);
+    const int frames = wholeFrames(scene);
+    const Fingerprint content = contentOfCache(scene, frames);
     contents["files.path"] = {{"file", fs::absolute(scene.files.path).lexically_normal().generic_string()},
-                              {"frames", scene.frames},
+                              {"frames", frames},
                               {"bytes", content.bytes},
                               {"hash", content.hash}};
   }
@@ -189,9 +196,8 @@ std::string contentDifference(const Json& before, const Json& current, const sce
   }
   if (isOutOfFiles(scene) && before.contains("files.path")) {
     const Json& then = before.at("files.path");
-    scenes::Scene asThen = scene;  // more frames have more files
-    asThen.frames = then.value("frames", scene.frames);
-    if (contentOfCache(asThen) != fingerprintIn(then))
+    // As many as there were: more frames have more files.
+    if (contentOfCache(scene, then.value("frames", scene.frames)) != fingerprintIn(then))
       return fmt::format("{} (files.path) has changed since the run began", scene.files.path.string());
   }
   return {};

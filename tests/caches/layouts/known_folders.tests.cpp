@@ -158,7 +158,7 @@ TEST_CASE("known_folders: FLIP Fluids, from above and inside", "[caches]") {
     CHECK(layout.surface.pattern == files / "####.bobj");
     CHECK(layout.velocity.pattern == files / "velocity####.bobj");
     CHECK(layout.blur.pattern == files / "blur####.bobj");
-    CHECK(layout.scalars.empty());
+    CHECK(layout.fields.empty());
     CHECK(layout.first == 1);
     CHECK(layout.last == 3);
   }

@@ -45,7 +45,7 @@ TEST_CASE("recognize: OpenVDB files, by folder, file or pattern", "[caches]") {
     CHECK(layout.velocityKind == VelocityKind::grids);
     CHECK(layout.velocityNames == Names{"vel"});
     CHECK(layout.onFaces);
-    CHECK(layout.scalars == Names{"heat"});
+    CHECK(layout.fields == std::vector<Field>{{"heat"}});
     CHECK(layout.first == 9);
     CHECK(layout.last == 11);
   }
@@ -72,7 +72,7 @@ TEST_CASE("recognize: meshes and particles with velocities of their own", "[cach
   CHECK(mesh.surfaceKind == SurfaceKind::mesh);
   CHECK(mesh.velocityKind == VelocityKind::attribute);
   CHECK(mesh.velocityNames == Names{"v"});
-  CHECK(mesh.scalars == Names{"age"});
+  CHECK(mesh.fields == std::vector<Field>{{"age"}});
   const Layout drops = recognize(at(scratch.path / "drops_1.ply"));
   CHECK(drops.surfaceKind == SurfaceKind::particles);
   CHECK(drops.velocityKind == VelocityKind::attribute);
