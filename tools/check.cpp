@@ -25,18 +25,38 @@ namespace {
 // Of an exemplar that cover the surface: with less, no feature of a usual one is seen whole.
 constexpr double kFewExemplars = 0.25;
 
-void check(const CommonOptions& options) {
-  if (isCache(options.scene) && options.exemplar.empty()) return checkCache(options);
+struct CheckOptions : CommonOptions {
+  CheckCacheWishes cache;
+};
+
+void printPlannedPoints(const scenes::Scene& scene, const std::optional<double>& points) {
+  const double spacing = scene.texture.spacing, foreseen = pipeline::foreseenSurface(scene);
+  if (!points) {
+    print("points    one every {:.4g} m, as many as what flows in needs\n", spacing);
+  } else if (spacing > 0.0) {
+    print("points    one every {:.4g} m, about {:.2g}\n", spacing, *points);
+  } else if (foreseen > 0.0) {
+    print("points    {} on the {:.2g} m2 that the liquid may come to, one every {:.4g} m or more\n",
+          scene.texture.points, foreseen, pipeline::foreseenSpacing(scene));
+  } else {
+    print("points    {} on the first surface; the spacing then stays\n", scene.texture.points);
+  }
+}
+
+void check(const CheckOptions& options) {
+  if (isCache(options.scene) && options.exemplar.empty()) return checkCache(options, options.cache);
   const scenes::Scene scene = loadScene(options);
   int first = 1, last = 0;
-  parseFrames(options.frames, scene.frames, first, last);
+  parseFrames(options.frames, scene, first, last);
   nowAt(kOnExemplar);
   const texture::Exemplar exemplar =
       texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis, scene.texture.surface.levels);
   const std::optional<texture::Detail> detail = detailOf(scene.texture);
   checkRelief(scene.render.bump, exemplar);
   if (options.quiet) return;
-  if (scene.motion.flow == sim::MotionKind::files) checkMotionOf(scene, first, last);
+  std::vector<ComparedFrames> compared;
+  if (scene.motion.flow == sim::MotionKind::files)
+    compared = compareFrames(scene, first, last, options.cache);
   nowAt(kOnMotion);
   const double h = scene.sim.voxelSize();
   const pipeline::LiquidPlan liquid = pipeline::planLiquid(scene.sim);
@@ -53,18 +73,12 @@ void check(const CommonOptions& options) {
     if (liquid.cells != liquid.atStart) print("; {} cells once all is poured", liquid.cells);
     print("\n");
   }
-  const double spacing = scene.texture.spacing, foreseen = pipeline::foreseenSurface(scene);
-  const std::optional<double> points = plannedPoints(scene, liquid);
-  if (!points) {
-    print("points    one every {:.4g} m, as many as what flows in needs\n", spacing);
-  } else if (spacing > 0.0) {
-    print("points    one every {:.4g} m, about {:.2g}\n", spacing, *points);
-  } else if (foreseen > 0.0) {
-    print("points    {} on the {:.2g} m2 that the liquid may come to, one every {:.4g} m or more\n",
-          scene.texture.points, foreseen, pipeline::foreseenSpacing(scene));
-  } else {
-    print("points    {} on the first surface; the spacing then stays\n", scene.texture.points);
-  }
+  const double spacing = scene.texture.spacing;
+  std::optional<double> points = plannedPoints(scene, liquid);
+  if (const double onFiles = printPoints(scene, compared); onFiles > 0.0)
+    points = onFiles;
+  else
+    printPlannedPoints(scene, points);
   print("exemplar  {}, {} x {} pixels{}\n", scene.texture.exemplar.file.string(), exemplar.color.width,
         exemplar.color.height, scene.texture.exemplar.toroidal ? ", toroidal" : "");
   const double pixels = double(exemplar.color.width) * exemplar.color.height;
@@ -94,7 +108,7 @@ void check(const CommonOptions& options) {
           detail->color.height);
   print("pictures  {} x {}, {} paths a pixel\n", scene.render.width, scene.render.height,
         scene.render.samples);
-  print("memory    about {:.2g} GB", plannedMemory(scene, liquid) / 1e9);
+  print("memory    about {:.2g} GB", plannedMemory(scene, liquid, points) / 1e9);
   // How much sources bring cannot be told beforehand.
   if (!scene.sim.sources.empty()) print(", and {:.0f} kB a cell of what flows in", kBytesPerLiquidCell / 1e3);
   print("\n");
@@ -107,8 +121,17 @@ void check(const CommonOptions& options) {
 
 void addCheck(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("check", "Validate a scene or a cache, and print what is in it");
-  auto options = std::make_shared<CommonOptions>();
+  auto options = std::make_shared<CheckOptions>();
   addSceneOptions(*command, *options);
+  command
+      ->add_option("--pairs", options->cache.pairs,
+                   "Of a cache: how many pairs of frames are compared (default: 5)")
+      ->check(CLI::Range(1, 9999))
+      ->type_name("N");
+  command
+      ->add_option("--json", options->cache.json,
+                   "Of a cache: write what the pairs of frames say to this file")
+      ->type_name("FILE");
   command->footer(
       "Examples:\n  fluidtex check scenes/dam_break.toml --quality final\n  fluidtex check cache_fluid");
   command->callback([options, &exitCode] { exitCode = guarded([&] { check(*options); }); });

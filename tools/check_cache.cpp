@@ -6,23 +6,26 @@
 #include "caches/recorded/recording.h"
 #include "pipeline/take_cache.h"
 #include "sim/grid/mac_grid.h"
+#include "tools/base/atomic_file.h"
 #include "tools/base/console.h"
 #include "tools/common_options.h"
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <set>
+#include <utility>
 
 namespace fluidtex::tools {
 namespace {
 
-// Pairs of frames that are looked at.
-constexpr int kPairs = 5;
+using Json = nlohmann::ordered_json;
+
 // Factors on velocities that are worth a word.
 constexpr double kWrongBelow = 0.75, kWrongAbove = 1.33;
+// Of the motion: with more left no factor says anything.
+constexpr double kTellsNothing = 0.9;
 
 // Where the distance left is smallest, as far as it is telling: less than half of that at rest.
 bool isTelling(const caches::VelocityFactor& factor) {
@@ -30,61 +33,135 @@ bool isTelling(const caches::VelocityFactor& factor) {
          (factor.factor < kWrongBelow || factor.factor > kWrongAbove);
 }
 
+// Up to `pairs` frames before `last`, evenly taken from `first` on.
+std::vector<int> beginsOf(int first, int last, int pairs) {
+  std::vector<int> begins;
+  const int count = std::min(pairs, last - first);
+  for (int n = 0; n < count; ++n)
+    begins.push_back(count == 1 ? first : first + int(std::int64_t(last - 1 - first) * n / (count - 1)));
+  return begins;
+}
+
+ComparedFrames compared(const caches::LiquidFrame& begin, const caches::LiquidFrame& end, double seconds,
+                        std::optional<caches::VelocityFactor>& factor) {
+  ComparedFrames pair;
+  pair.fastest = sim::maxAbs(begin.velocity);
+  pair.area = caches::areaOf(begin.surface);
+  const caches::FrameMotion motion =
+      caches::bestMotion(*begin.phi, *end.phi, begin.velocity, end.velocity, seconds);
+  factor = caches::bestFactor(*begin.phi, *end.phi, begin.velocity, end.velocity, motion.meanWeight, seconds);
+  if (!motion.explained || !factor) return pair;
+  pair.explained = motion.explained;
+  pair.moved = factor->residualAtRest;
+  pair.left = factor->residualAsIs;
+  if (factor->residual < kTellsNothing * factor->residualAtRest) pair.ratio = factor->factor;
+  return pair;
+}
+
+void printPair(const ComparedFrames& pair) {
+  print("motion    {} to {}: speeds up to {:#.3g} m/s; ", pair.from, pair.to, pair.fastest);
+  if (!pair.explained) {
+    print("the surface moves too little to tell more\n");
+    return;
+  }
+  print("the surface moves {:#.2g} cells; velocities explain {:.0f}% of it, {:#.2g} cells are left",
+        *pair.moved, 100.0 * *pair.explained, *pair.left);
+  if (pair.ratio) print("; displacement over velocity {:#.3g}", *pair.ratio);
+  print("\n");
+}
+
+// Distance of this many points on a surface, m.
+double spacingOf(double area, double points) {
+  return std::sqrt(area / points);
+}
+
+void writeJson(const std::filesystem::path& file, const scenes::Scene& scene,
+               const std::vector<ComparedFrames>& pairs) {
+  const auto orNull = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+  Json rows = Json::array();
+  for (const ComparedFrames& pair : pairs)
+    rows.push_back({{"from", pair.from},
+                    {"to", pair.to},
+                    {"fastest", pair.fastest},
+                    {"area", pair.area},
+                    {"moved", orNull(pair.moved)},
+                    {"left", orNull(pair.left)},
+                    {"explained", orNull(pair.explained)},
+                    {"ratio", orNull(pair.ratio)}});
+  const Json all = {{"cache", scene.files.path.generic_string()},
+                    {"frames", scene.frames},
+                    {"frame_rate", scene.sim.frameRate},
+                    {"cell", scene.files.voxel},
+                    {"pairs", rows}};
+  writeTextAtomically(file, all.dump(1) + "\n");
+}
+
 }  // namespace
 
-void checkMotionOf(const scenes::Scene& scene, int first, int last) {
-  if (caches::isRecording(scene.files.path)) return;
+std::vector<ComparedFrames> compareFrames(const scenes::Scene& scene, int first, int last,
+                                          const CheckCacheWishes& wishes) {
+  std::vector<ComparedFrames> result;
+  if (caches::isRecording(scene.files.path)) return result;
   const caches::Cache cache{scene.files, caches::recognize(scene.files), scene.files.voxel,
                             scene.sim.frameRate};
   if (cache.layout.velocityKind == caches::VelocityKind::none) {
     say("warning: no velocities were found; texture cannot follow the liquid without them\n");
-    return;
+    return result;
   }
-  std::set<int> begins;
-  for (int n = 0; n < kPairs && last > first; ++n)
-    begins.insert(first + (last - 1 - first) * n / (kPairs - 1));
+  const std::vector<int> begins = beginsOf(first, last, wishes.pairs);
   std::vector<double> factors;
+  std::pair<int, caches::LiquidFrame> read{-1, {}};  // the end of one pair may be the begin of the next
   for (const int frame : begins) {
     const int number = cache.layout.first + frame - 1;
-    const caches::LiquidFrame begin = caches::readFrame(cache, number),
-                              end = caches::readFrame(cache, number + 1);
+    const caches::LiquidFrame begin =
+        read.first == number ? std::move(read.second) : caches::readFrame(cache, number);
+    read = {number + 1, caches::readFrame(cache, number + 1)};
+    const caches::LiquidFrame& end = read.second;
     if (!begin.velocity || !end.velocity || begin.surface.triangles.empty()) {
       print("motion    {} to {}: no surface, or no velocity\n", number, number + 1);
       continue;
     }
-    const double seconds = 1.0 / scene.sim.frameRate;
-    const caches::FrameMotion motion =
-        caches::bestMotion(*begin.phi, *end.phi, begin.velocity, end.velocity, seconds);
-    const std::optional<caches::VelocityFactor> factor =
-        caches::bestFactor(*begin.phi, *end.phi, begin.velocity, end.velocity, motion.meanWeight, seconds);
-    print("motion    {} to {}: speeds up to {:.3g} m/s; ", number, number + 1, sim::maxAbs(begin.velocity));
-    if (!motion.explained || !factor) {
-      print("the surface moves too little to tell more\n");
-      continue;
-    }
-    print("the surface moves {:.2g} cells; velocities explain {:.0f}% of it, {:.2g} cells are left\n",
-          factor->residualAtRest, 100.0 * *motion.explained, factor->residualAsIs);
-    if (isTelling(*factor)) factors.push_back(factor->factor);
+    std::optional<caches::VelocityFactor> factor;
+    ComparedFrames pair = compared(begin, end, 1.0 / scene.sim.frameRate, factor);
+    pair.from = number;
+    pair.to = number + 1;
+    printPair(pair);
+    result.push_back(pair);
+    if (factor && isTelling(*factor)) factors.push_back(factor->factor);
   }
-  if (2 * factors.size() <= begins.size()) return;
+  if (!wishes.json.empty()) writeJson(wishes.json, scene, result);
+  if (2 * factors.size() <= begins.size()) return result;
   std::sort(factors.begin(), factors.end());
   say("warning: surface and velocities would fit with velocities {:.3g} times as fast; "
       "files.velocity_scale={:.3g} "
       "makes them so\n",
       factors[factors.size() / 2], factors[factors.size() / 2] * scene.files.velocityScale);
+  return result;
 }
 
-void checkCache(const CommonOptions& options) {
-  scenes::Overrides overrides;
-  overrides.set = options.set;
-  overrides.liquidOnly = true;
-  scenes::Scene scene = scenes::sceneOfCache(options.scene, overrides);
+double printPoints(const scenes::Scene& scene, const std::vector<ComparedFrames>& compared) {
+  if (compared.empty() || compared.front().area == 0.0) return 0.0;
+  const double spacing = scene.texture.spacing > 0.0 ? scene.texture.spacing
+                                                     : spacingOf(compared.front().area, scene.texture.points);
+  const auto pointsOn = [&](const ComparedFrames& pair) { return pair.area / (spacing * spacing); };
+  const auto less = [](const ComparedFrames& a, const ComparedFrames& b) { return a.area < b.area; };
+  const ComparedFrames& largest = *std::max_element(compared.begin(), compared.end(), less);
+  print("points    one every {:.2g} m: about {:.2g} in frame {}", spacing, pointsOn(compared.front()),
+        compared.front().from);
+  if (largest.from != compared.front().from)
+    print(", and the most, {:.2g}, in frame {} of those above", pointsOn(largest), largest.from);
+  print("\n");
+  return pointsOn(largest);
+}
+
+void checkCache(const CommonOptions& options, const CheckCacheWishes& wishes) {
+  scenes::Scene scene = scenes::sceneOfCache(options.scene, overridesOf(options, true));
   const std::vector<std::string> found = pipeline::takeCache(scene);
   int first = 1, last = 0;
-  parseFrames(options.frames, scene.frames, first, last);
+  parseFrames(options.frames, scene, first, last);
   if (options.quiet) return;
   for (const std::string& line : found) print("{}\n", line);
-  checkMotionOf(scene, first, last);
+  printPoints(scene, compareFrames(scene, first, last, wishes));
 }
 
 }  // namespace fluidtex::tools

@@ -12,17 +12,19 @@ void addSceneOptions(CLI::App& command, CommonOptions& options);
 // Those that a simulation alone has a use for: no --out, no --exemplar.
 void addSimulationOptions(CLI::App& command, CommonOptions& options);
 
-// Whether this is the cache of another program and no scene file: a folder, a pattern, or a file that does not
-// end in .toml.
+// Whether this is the cache of another program and no scene file: a folder, a pattern, or a file that does
+// not end in .toml.
 bool isCache(const std::filesystem::path& scene);
+
+// What --quality, --set and --exemplar say. liquidOnly: no exemplar is asked for.
+scenes::Overrides overridesOf(const CommonOptions& options, bool liquidOnly = false);
 
 // Loads the scene with quality, --set and --exemplar applied, and test-reads its mesh files; of a cache, or
 // where the scene's liquid comes out of files, what is found in these is filled in. Throws
 // scenes::SceneError, sim::MeshError, caches::LayoutError, caches::FormatError.
 scenes::Scene loadScene(const CommonOptions& options);
 
-// Parses "A:B", "A:" or "A" into first and last, of a scene with `frames` frames; empty means all. Throws
-// UsageError.
-void parseFrames(const std::string& text, int frames, int& first, int& last);
+// Parses "A:B", "A:" or "A" into first and last frame of the scene; empty means all. Throws UsageError.
+void parseFrames(const std::string& text, const scenes::Scene& scene, int& first, int& last);
 
 }  // namespace fluidtex::tools

@@ -71,7 +71,7 @@ void writeVideo(const fs::path& out, int first, int last, double frameRate) {
 void compare(CommonOptions options) {
   int first = 1, last = 0;
   const scenes::Scene plain = loadScene(options);
-  parseFrames(options.frames, plain.frames, first, last);
+  parseFrames(options.frames, plain, first, last);
   const fs::path out = options.out.empty() ? fs::path("out") / (plain.name + "_compare") : options.out;
   const OutFolder folder(out);
   std::vector<Compared> rows;

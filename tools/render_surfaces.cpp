@@ -39,7 +39,7 @@ texture::Options optionsOf(const FinishedRun& run, texture::Options options) {
 void renderSurfaces(const CommonOptions& options, const fs::path& from) {
   const scenes::Scene scene = loadScene(options);
   int first = 1, last = 0;
-  parseFrames(options.frames, scene.frames, first, last);
+  parseFrames(options.frames, scene, first, last);
   if (last == 0) last = scene.frames;
   const auto surfaceOf = [&](int frame) { return from / "surface" / (render::frameName(frame) + ".ply"); };
   for (int frame = first; frame <= last; ++frame)

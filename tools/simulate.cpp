@@ -58,7 +58,7 @@ std::optional<sim::State> earlierState(const fs::path& folder, const std::string
 
 void simulate(const scenes::Scene& scene, const CommonOptions& options, const fs::path& folder) {
   int first = 1, last = 0;
-  parseFrames(options.frames, scene.frames, first, last);
+  parseFrames(options.frames, scene, first, last);
   if (first > 1)
     throw UsageError(
         fmt::format("--frames {}: a cache holds all frames from 1 on; give 1:{}", options.frames, last));

@@ -71,6 +71,15 @@ double meanEdge(const SurfaceTriangles& surface) {
   return surface.triangles.empty() ? 0.0 : sum / (3.0 * double(surface.triangles.size()));
 }
 
+double areaOf(const SurfaceTriangles& surface) {
+  double sum = 0.0;
+  for (const Vec3I& t : surface.triangles) {
+    const Vec3d from(surface.points[t[0]]);
+    sum += 0.5 * (Vec3d(surface.points[t[1]]) - from).cross(Vec3d(surface.points[t[2]]) - from).length();
+  }
+  return sum;
+}
+
 openvdb::BBoxd boundsOf(const SurfaceTriangles& surface) {
   openvdb::BBoxd bounds;
   for (const Vec3I& t : surface.triangles)

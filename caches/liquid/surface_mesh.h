@@ -25,6 +25,9 @@ void dropPieces(double leastVolume, SurfaceTriangles& surface);
 // Mean length of the triangles' edges; 0 without triangles.
 double meanEdge(const SurfaceTriangles& surface);
 
+// Of all triangles; the square of the points' unit.
+double areaOf(const SurfaceTriangles& surface);
+
 openvdb::BBoxd boundsOf(const SurfaceTriangles& surface);
 
 }  // namespace fluidtex::caches

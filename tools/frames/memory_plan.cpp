@@ -19,10 +19,14 @@ std::optional<double> plannedPoints(const scenes::Scene& scene, const pipeline::
   return static_cast<double>(liquid.surfaceCells) * (h / spacing) * (h / spacing);
 }
 
-double plannedMemory(const scenes::Scene& scene, const pipeline::LiquidPlan& liquid) {
+double plannedMemory(const scenes::Scene& scene, const pipeline::LiquidPlan& liquid,
+                     const std::optional<double>& points) {
   return kBytesProgram + kBytesPerLiquidCell * static_cast<double>(liquid.cells) +
-         kBytesPerPoint * plannedPoints(scene, liquid).value_or(0.0) +
-         kBytesPerPixel * scene.render.width * scene.render.height;
+         kBytesPerPoint * points.value_or(0.0) + kBytesPerPixel * scene.render.width * scene.render.height;
+}
+
+double plannedMemory(const scenes::Scene& scene, const pipeline::LiquidPlan& liquid) {
+  return plannedMemory(scene, liquid, plannedPoints(scene, liquid));
 }
 
 }  // namespace fluidtex::tools

@@ -14,7 +14,9 @@ inline constexpr double kBytesPerLiquidCell = 5000.0;
 // Points on the surface of all liquid of the scene; nothing if sources bring an unknown amount.
 std::optional<double> plannedPoints(const scenes::Scene& scene, const pipeline::LiquidPlan& liquid);
 
-// Bytes, without what flows in from sources.
+// Bytes, without what flows in from sources; with this many points, or those planned.
+double plannedMemory(const scenes::Scene& scene, const pipeline::LiquidPlan& liquid,
+                     const std::optional<double>& points);
 double plannedMemory(const scenes::Scene& scene, const pipeline::LiquidPlan& liquid);
 
 }  // namespace fluidtex::tools

@@ -44,12 +44,15 @@ TEST_CASE("surface_mesh: pieces below a volume are left out, however they are tu
   CHECK(kept(5.0) == 0);
 }
 
-TEST_CASE("surface_mesh: mean edge and bounds are those of triangles, not of stray points", "[caches]") {
+TEST_CASE("surface_mesh: mean edge, area and bounds are those of triangles, not of stray points",
+          "[caches]") {
   const SurfaceTriangles triangle{{Vec3f(0, 0, 0), Vec3f(3, 0, 0), Vec3f(3, 4, 0), Vec3f(99, 99, 99)},
                                   {Vec3I(0, 1, 2)}};
   CHECK(meanEdge(triangle) == Approx(4.0));
+  CHECK(areaOf(triangle) == Approx(6.0));
   CHECK(boundsOf(triangle) == openvdb::BBoxd(Vec3d(0, 0, 0), Vec3d(3, 4, 0)));
   CHECK(meanEdge({}) == 0.0);
+  CHECK(areaOf({}) == 0.0);
   CHECK(boundsOf({}).empty());
 }
 
