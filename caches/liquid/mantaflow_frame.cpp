@@ -62,6 +62,24 @@ MantaflowPlace mantaflowPlace(const Cache& cache, int number) {
   return place;
 }
 
+void closeUpperSides(const Coord& resolution, openvdb::Vec3SGrid& velocity) {
+  openvdb::Vec3SGrid::Accessor values = velocity.getAccessor();
+  const Coord last = resolution.offsetBy(-1);
+  for (int axis = 0; axis < 3; ++axis) {
+    Coord first(0);
+    first[axis] = last[axis];
+    const openvdb::CoordBBox side(first, last);
+    bool flowsOut = false;
+    for (auto face = side.begin(); face && !flowsOut; ++face) flowsOut = values.getValue(*face)[axis] > 0.0f;
+    for (auto face = side.begin(); face && !flowsOut; ++face) {
+      openvdb::Vec3f v;
+      if (!values.probeValue(*face, v)) continue;
+      v[axis] = 0.0f;
+      values.setValueOn(*face, v);
+    }
+  }
+}
+
 openvdb::FloatGrid::Ptr mantaflowDistance(const std::filesystem::path& file, const Coord& resolution) {
   const openvdb::FloatGrid::Ptr phi = readScalars(file, "phi");
   openvdb::FloatGrid::Ptr obstacle;

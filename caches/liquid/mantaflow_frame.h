@@ -19,6 +19,11 @@ struct MantaflowPlace {
 // In Blender's world. Reads config/config_####.uni of this frame and of the next one, or the one before.
 MantaflowPlace mantaflowPlace(const Cache& cache, int number);
 
+// At the faces of the domain's upper sides Blender keeps no velocity through the side, but that of the face
+// before where it points inward: liquid that rests against the wall would seem to leave it. Sets it to 0, as
+// it is at the lower sides, unless something flows out there. velocity: components at faces, in cells.
+void closeUpperSides(const openvdb::Coord& resolution, openvdb::Vec3SGrid& velocity);
+
 // phi (in voxels) without what is in obstacles, in index space; positive beyond the domain, so that liquid
 // ends at its sides.
 openvdb::FloatGrid::Ptr mantaflowDistance(const std::filesystem::path& file,

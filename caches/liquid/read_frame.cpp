@@ -232,6 +232,7 @@ void velocityInGrids(const Cache& cache, int number, const SurfaceTriangles& sur
   if (isMantaflow(cache)) {
     const MantaflowPlace place = mantaflowPlace(cache, number);
     raw.vectors->setTransform(openvdb::math::Transform::createLinearTransform(1.0));
+    closeUpperSides(place.resolution, *raw.vectors);
     raw.worldFromFile = place.worldFromIndex * raw.worldFromFile;
     raw.velocityFromFile = place.metersPerSecond * raw.velocityFromFile;
   }
