@@ -12,6 +12,9 @@ namespace fluidtex::caches {
 using sim::UpAxis;
 using sim::Vec3d;
 
+// In a folder of the program's own frames: what they are of (caches/recorded/recording.h).
+inline constexpr const char* kRecordingFile = "cache.json";
+
 // Where the files are, what is taken of them, and where it is placed. Whatever is empty or 0 here is found
 // out from the files (caches/layouts/layout.h).
 struct Options {

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
+#include <system_error>
 
 namespace fluidtex::scenes {
 namespace {
@@ -117,6 +119,16 @@ void checkFiles(const Scene& scene, Reader& reader) {
                  "give the cache of another program: its folder, or a pattern such as \"water_####.vdb\"");
   if (!used && reader.given("files"))
     reader.fault("files", "is of no use here", "give it together with motion.flow = \"files\"");
+  // A scene of a simulation may get its flow from the command line; and to the program's own frames belongs
+  // the scene that they are of, since the texture goes by what flows in.
+  std::error_code unknown;
+  if (!used || reader.originOf("motion.flow").commandLine() ||
+      std::filesystem::exists(scene.files.path / caches::kRecordingFile, unknown))
+    return;
+  for (const char* key : {"liquid", "source", "drain"})
+    if (reader.given(key))
+      reader.fault(key, "is of no use beside a liquid out of files",
+                   "leave it out, or give motion.flow = \"solver\"");
 }
 
 // A flow in closed form moves what is there from the start, and knows nothing else.

@@ -20,9 +20,8 @@ struct Recording {
 
 std::filesystem::path recordedFrame(const std::filesystem::path& folder, int frame);
 
-// Text of cache.json.
+// Text of kRecordingFile.
 std::string recordingText(const sim::Options& options);
-inline constexpr const char* kRecordingFile = "cache.json";
 
 // Whether a folder is a recording.
 bool isRecording(const std::filesystem::path& folder);

@@ -203,6 +203,24 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
   });
 }
 
+TEST_CASE("scene faults: bodies beside a liquid out of files", "[scenes]") {
+  const std::string files = "[motion]\nflow = 'files'\n[files]\npath = 'pictures'\n";
+  const std::string wrong =
+      ": is of no use beside a liquid out of files; leave it out, or give motion.flow = \"solver\"";
+  const std::string ball = "sphere = { center = [1, 1, 1], radius = 0.5 }\n";
+  checkWholeFiles(
+      {{kGoodScene + files, "s.toml:4:3: error: liquid" + wrong},
+       {"texture.exemplar = 'e.png'\n" + files + "[[drain]]\n" + ball, "s.toml:6:3: error: drain" + wrong}});
+  CHECK(faultsOf("texture.exemplar = 'e.png'\n" + files + "[[solid]]\n" + ball).empty());
+  // Of a scene that is simulated elsewhere.
+  Overrides overrides;
+  overrides.set = {"motion.flow=files", "files.path=cache"};
+  CHECK(faultsOf(kGoodScene, overrides).empty());
+  const SceneFolder folder;
+  folder.write("pictures/cache.json", "");
+  CHECK_NOTHROW(loadScene(folder.write("s.toml", kGoodScene + files)));
+}
+
 TEST_CASE("scene faults: a flow in closed form and what it knows nothing of", "[scenes]") {
   const std::string ball = "sphere = { center = [1, 1, 1], radius = 0.5 }";
   checkWholeFiles({
