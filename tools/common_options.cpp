@@ -89,7 +89,8 @@ void addSimulationOptions(CLI::App& command, CommonOptions& options) {
       ->type_name("N");
   command
       .add_option("--quality", options.quality,
-                  "preview, default or final: settings of the scene's own [quality] tables")
+                  "preview, default or final: the scene's own [quality] tables; of a cache 10,000, 40,000 or "
+                  "200,000 points")
       ->check(CLI::IsMember({"preview", "default", "final"}))
       ->type_name("NAME");
   command.add_option("--set", options.set, "Sets any key of the scene, dotted; may be repeated")
@@ -102,10 +103,13 @@ void addSimulationOptions(CLI::App& command, CommonOptions& options) {
 
 void addSceneOptions(CLI::App& command, CommonOptions& options) {
   addSimulationOptions(command, options);
-  command.add_option("--out", options.out, "Folder for the results (default: out/SCENE_NAME)")
+  command
+      .add_option("--out", options.out,
+                  "Folder for the results (default: out/NAME, that of the scene or the cache)")
       ->type_name("DIR");
   command
-      .add_option("--exemplar", options.exemplar, "Image to grow the texture from, instead of the scene's")
+      .add_option("--exemplar", options.exemplar,
+                  "Image to grow the texture from: of a cache, or instead of the scene's")
       ->type_name("IMAGE");
 }
 
