@@ -1,10 +1,9 @@
 #include "caches/liquid/level_set.h"
 
+#include "caches/liquid/enclosed_cells.h"
 #include "sim/grid/mac_grid.h"
 
-#include <openvdb/math/Proximity.h>
-#include <openvdb/tools/MeshToVolume.h>
-#include <openvdb/tools/ValueTransformer.h>
+#include <openvdb/tools/Prune.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -13,98 +12,114 @@
 namespace fluidtex::caches {
 namespace {
 
-using openvdb::Vec3d;
-using openvdb::Vec3f;
 using openvdb::Vec3I;
+using Leaf = openvdb::FloatTree::LeafNodeType;
 
 // Half the thickness of a surface that encloses nothing, cells.
 constexpr double kSheet = 0.75;
+// What is enclosed is deeper than this somewhere, cells.
+constexpr float kDeep = 0.1f;
 
-// Triangles as the library asks for them: in index space.
-struct Triangles {
-  const SurfaceTriangles& surface;
-  double h;
-
-  std::size_t polygonCount() const { return surface.triangles.size(); }
-  std::size_t pointCount() const { return surface.points.size(); }
-  std::size_t vertexCount(std::size_t) const { return 3; }
-  void getIndexSpacePoint(std::size_t polygon, std::size_t corner, Vec3d& x) const {
-    x = Vec3d(surface.points[surface.triangles[polygon][int(corner)]]) / h - Vec3d(0.5);
+bool enclosesNothing(const ClosestTriangles& closest, const EnclosedCells& enclosed) {
+  if (!enclosed.boxes.empty()) return false;
+  for (std::size_t n = 0; n < enclosed.cells.size(); ++n) {
+    bool isDeep = false;
+    sim::forBits(enclosed.cells[n], n, [&](std::int64_t cell) {
+      isDeep = isDeep || !sim::isSet(closest.known(), cell) || closest.at(cell).square > kDeep * kDeep;
+    });
+    if (isDeep) return false;
   }
-};
-
-bool enclosesNothing(const openvdb::FloatGrid& phi, double h) {
-  for (auto leaf = phi.tree().cbeginLeaf(); leaf; ++leaf)
-    for (auto value = leaf->cbeginValueOn(); value; ++value)
-      if (*value < -0.1f * float(h)) return false;
   return true;
+}
+
+// A leaf of the cells that are nearer than the band is wide; none where there is none of them. thickness:
+// what distances are less, cells.
+std::unique_ptr<Leaf> leafOf(const ClosestTriangles& closest, const sim::LeafBits& inside, std::size_t block,
+                             double thickness) {
+  const auto h = float(closest.cellSize()), band = float(kBand);
+  auto leaf = std::make_unique<Leaf>(closest.blocks().origins[block], band * h, false);
+  float* values = leaf->buffer().data();
+  sim::forBits(inside, 0, [&](std::int64_t cell) { values[cell] = -band * h; });
+  sim::forBits(closest.known()[block], block, [&](std::int64_t cell) {
+    const float distance = std::sqrt(closest.at(cell).square) - float(thickness);
+    if (distance >= band) return;
+    float& value = values[cell & 511];
+    value = value < 0.0f ? -distance * h : distance * h;
+    leaf->setValueOn(openvdb::Index(cell & 511));
+  });
+  if (leaf->isEmpty()) leaf.reset();
+  return leaf;
 }
 
 }  // namespace
 
-LevelSet levelSetOf(const SurfaceTriangles& surface, double h) {
-  const openvdb::math::Transform::Ptr transform = sim::cellTransform(h);
-  const Triangles triangles{surface, h};
+LevelSet levelSetOf(ClosestTriangles& closest) {
+  const double h = closest.cellSize();
+  closest.extend(kBand);
+  EnclosedCells enclosed = enclosedCells(closest.blocks(), closest.crossed());
   LevelSet result;
-  if (surface.triangles.empty()) {
-    result.phi = openvdb::createLevelSet<openvdb::FloatGrid>(h, kBand);
-    result.phi->setTransform(transform);
-    return result;
-  }
-  result.phi = openvdb::tools::meshToVolume<openvdb::FloatGrid>(triangles, *transform, kBand, kBand);
-  result.isSheet = enclosesNothing(*result.phi, h);
+  result.isSheet = closest.blocks().size() > 0 && enclosesNothing(closest, enclosed);
   if (result.isSheet) {
-    result.phi = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
-        triangles, *transform, kBand + kSheet, kBand, openvdb::tools::UNSIGNED_DISTANCE_FIELD);
-    const float half = float(kSheet * h);
-    openvdb::tools::foreach (result.phi->beginValueAll(),
-                             [half](const auto& value) { value.setValue(*value - half); });
-    openvdb::tools::changeBackground(result.phi->tree(), float(kBand * h));
+    closest.extend(kBand + kSheet);
+    enclosed = {sim::VoxelMask(closest.blocks().size()), {}};
   }
-  result.phi->setGridClass(openvdb::GRID_LEVEL_SET);
-  result.phi->setTransform(transform);
+  result.phi = openvdb::createLevelSet<openvdb::FloatGrid>(h, kBand);
+  result.phi->setTransform(sim::cellTransform(h));
+  openvdb::FloatTree& tree = result.phi->tree();
+  for (const openvdb::CoordBBox& box : enclosed.boxes) tree.sparseFill(box, -float(kBand * h), false);
+  std::vector<std::unique_ptr<Leaf>> leaves(closest.blocks().size());
+  sim::forLeaves(closest.blocks(), [&](std::size_t n) {
+    leaves[n] = leafOf(closest, enclosed.cells[n], n, result.isSheet ? kSheet : 0.0);
+  });
+  for (std::unique_ptr<Leaf>& leaf : leaves)
+    if (leaf) tree.addLeaf(leaf.release());
+  openvdb::tools::pruneTiles(tree);
+  return result;
+}
+
+LevelSet levelSetOf(const SurfaceTriangles& surface, double h) {
+  ClosestTriangles closest(surface, h);
+  return levelSetOf(closest);
+}
+
+std::vector<openvdb::FloatGrid::Ptr> continuedOff(ClosestTriangles& closest, const std::vector<float>& values,
+                                                  int components, int band) {
+  closest.extend(band);
+  std::vector<openvdb::FloatGrid::Ptr> result;
+  std::vector<std::vector<std::unique_ptr<Leaf>>> made(static_cast<std::size_t>(components));
+  for (auto& leaves : made) leaves.resize(closest.blocks().size());
+  const auto most = float(band) * float(band);
+  sim::forLeaves(closest.blocks(), [&](std::size_t n) {
+    for (auto& leaves : made) leaves[n] = std::make_unique<Leaf>(closest.blocks().origins[n], 0.0f, false);
+    sim::forBits(closest.known()[n], n, [&](std::int64_t cell) {
+      const Nearest nearest = closest.at(cell);
+      if (nearest.square >= most) return;
+      const Vec3I& t = closest.surface().triangles[nearest.triangle];
+      const openvdb::Vec3d weight = closest.closestPointOf(cell).weight;
+      for (int c = 0; c < components; ++c) {
+        double value = 0.0;
+        for (int corner = 0; corner < 3; ++corner)
+          value += weight[corner] *
+                   double(values[std::size_t(t[corner]) * std::size_t(components) + std::size_t(c)]);
+        if (std::isfinite(value))
+          made[std::size_t(c)][n]->setValueOn(openvdb::Index(cell & 511), float(value));
+      }
+    });
+  });
+  for (auto& leaves : made) {
+    result.push_back(openvdb::FloatGrid::create(0.0f));
+    result.back()->setTransform(sim::cellTransform(closest.cellSize()));
+    for (std::unique_ptr<Leaf>& leaf : leaves)
+      if (!leaf->isEmpty()) result.back()->tree().addLeaf(leaf.release());
+  }
   return result;
 }
 
 std::vector<openvdb::FloatGrid::Ptr> continuedOff(const SurfaceTriangles& surface,
                                                   const std::vector<float>& values, int components, double h,
                                                   int band) {
-  std::vector<openvdb::FloatGrid::Ptr> result;
-  for (int c = 0; c < components; ++c) {
-    result.push_back(openvdb::FloatGrid::create(0.0f));
-    result.back()->setTransform(sim::cellTransform(h));
-  }
-  if (surface.triangles.empty()) return result;
-  const openvdb::math::Transform::Ptr transform = sim::cellTransform(h);
-  openvdb::Int32Grid closest(openvdb::Int32(openvdb::util::INVALID_IDX));
-  openvdb::tools::meshToVolume<openvdb::FloatGrid>(Triangles{surface, h}, *transform, float(band),
-                                                   float(band), openvdb::tools::UNSIGNED_DISTANCE_FIELD,
-                                                   &closest);
-  std::vector<const openvdb::Int32Tree::LeafNodeType*> leaves;
-  closest.tree().getNodes(leaves);
-  std::vector<std::vector<openvdb::FloatTree::LeafNodeType*>> made(
-      std::size_t(components), std::vector<openvdb::FloatTree::LeafNodeType*>(leaves.size()));
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    for (int c = 0; c < components; ++c)
-      made[c][n] = new openvdb::FloatTree::LeafNodeType(leaves[n]->origin(), 0.0f, false);
-    for (auto index = leaves[n]->cbeginValueOn(); index; ++index) {
-      if (*index < 0 || std::size_t(*index) >= surface.triangles.size()) continue;
-      const Vec3I& t = surface.triangles[std::size_t(*index)];
-      const Vec3d x = transform->indexToWorld(index.getCoord());
-      Vec3d weights;
-      openvdb::math::closestPointOnTriangleToPoint(Vec3d(surface.points[t[0]]), Vec3d(surface.points[t[1]]),
-                                                   Vec3d(surface.points[t[2]]), x, weights);
-      for (int c = 0; c < components; ++c) {
-        double value = 0.0;
-        for (int corner = 0; corner < 3; ++corner)
-          value += weights[corner] * values[std::size_t(t[corner]) * components + c];
-        if (std::isfinite(value)) made[c][n]->setValueOn(index.pos(), float(value));
-      }
-    }
-  });
-  for (int c = 0; c < components; ++c)
-    for (auto* leaf : made[c]) result[c]->tree().addLeaf(leaf);
-  return result;
+  ClosestTriangles closest(surface, h);
+  return continuedOff(closest, values, components, band);
 }
 
 }  // namespace fluidtex::caches

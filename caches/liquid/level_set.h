@@ -1,6 +1,7 @@
 // The level set of a frame's surface.
 #pragma once
 
+#include "caches/liquid/closest_triangles.h"
 #include "caches/liquid/surface_mesh.h"
 
 #include <vector>
@@ -18,10 +19,14 @@ struct LevelSet {
   bool isSheet = false;
 };
 LevelSet levelSetOf(const SurfaceTriangles& surface, double h);
+// The same from closest triangles, which are extended as far as is needed.
+LevelSet levelSetOf(ClosestTriangles& closest);
 
 // Values at the surface's points, continued off it: each cell within `band` cells of the surface has those of
 // the closest point, linear within its triangle. values: #P x components. One grid a component, active where
 // known, at the cells' centres: not where a value is no number.
+std::vector<openvdb::FloatGrid::Ptr> continuedOff(ClosestTriangles& closest, const std::vector<float>& values,
+                                                  int components, int band);
 std::vector<openvdb::FloatGrid::Ptr> continuedOff(const SurfaceTriangles& surface,
                                                   const std::vector<float>& values, int components, double h,
                                                   int band);

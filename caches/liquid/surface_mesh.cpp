@@ -1,10 +1,11 @@
 #include "caches/liquid/surface_mesh.h"
 
+#include "caches/liquid/connected.h"
+
 #include <openvdb/tools/VolumeToMesh.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <numeric>
 
 namespace fluidtex::caches {
 namespace {
@@ -12,18 +13,6 @@ namespace {
 using openvdb::Vec3d;
 using openvdb::Vec3f;
 using openvdb::Vec3I;
-
-// The lowest point that a point is connected to; paths are halved on the way.
-std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
-void join(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) {
-  a = rootOf(parent, a);
-  b = rootOf(parent, b);
-  if (a != b) parent[std::max(a, b)] = std::min(a, b);
-}
 
 }  // namespace
 
@@ -45,22 +34,21 @@ void place(const openvdb::Mat4d& worldFromFile, std::vector<Vec3f>& points) {
 
 void dropPieces(double leastVolume, SurfaceTriangles& surface) {
   if (leastVolume <= 0.0 || surface.triangles.empty()) return;
-  std::vector<std::uint32_t> parent(surface.points.size());
-  std::iota(parent.begin(), parent.end(), 0u);
+  Connected points(surface.points.size());
   for (const Vec3I& t : surface.triangles) {
-    join(parent, t[0], t[1]);
-    join(parent, t[1], t[2]);
+    points.join(t[0], t[1]);
+    points.join(t[1], t[2]);
   }
   // Volumes against a point of the piece itself, so that those far from the origin lose no digits.
   std::vector<double> volume(surface.points.size(), 0.0);
   for (const Vec3I& t : surface.triangles) {
-    const std::uint32_t root = rootOf(parent, t[0]);
+    const std::uint32_t root = points.lowest(t[0]);
     const Vec3d from(surface.points[root]);
     const auto at = [&](int corner) { return Vec3d(surface.points[t[corner]]) - from; };
     volume[root] += at(0).dot(at(1).cross(at(2))) / 6.0;
   }
   std::erase_if(surface.triangles,
-                [&](const Vec3I& t) { return std::abs(volume[rootOf(parent, t[0])]) < leastVolume; });
+                [&](const Vec3I& t) { return std::abs(volume[points.lowest(t[0])]) < leastVolume; });
 }
 
 double meanEdge(const SurfaceTriangles& surface) {
