@@ -14,6 +14,7 @@ namespace {
 
 template <class Grid>
 typename Grid::Ptr readField(const std::filesystem::path& file, const std::string& name, bool vectors) {
+  openvdb::initialize();  // which the stream's grids ask for; once is enough, and more does no harm
   try {
     typename Grid::Ptr grid;
     foreign::readGrid(file, name, vectors, [&](std::istream& stream) {

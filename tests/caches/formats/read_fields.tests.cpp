@@ -52,6 +52,15 @@ TEST_CASE("read_fields: a field of vectors in 16 bits, as large as those of simu
   CHECK(wrong == 0);
 }
 
+TEST_CASE("read_fields: in a program that has not made OpenVDB ready", "[caches]") {
+  const Files files;
+  const auto grid = openvdb::FloatGrid::create(2.0f);
+  grid->setName("phi");
+  files.write({grid});
+  openvdb::uninitialize();
+  CHECK(readScalars(files.file, "phi")->background() == 2.0f);
+}
+
 TEST_CASE("read_fields: velocities in three grids, of doubles", "[caches]") {
   const Files files;
   openvdb::GridCPtrVec grids;
