@@ -15,8 +15,6 @@ namespace fluidtex::sim {
 // not exist, and coordinates may be infinite.
 // Throws std::runtime_error; the message continues a sentence that begins with the file's name: "line 7: a
 // vertex needs three numbers".
-//
-// Faces (f) and vertices (v) of Wavefront OBJ; lines, points, normals, groups and materials are skipped.
 
 // Faces (f) and vertices (v) of Wavefront OBJ; lines, points, normals, groups and materials are passed over.
 MeshSoup soupOfObj(std::string_view text);
