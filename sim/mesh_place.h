@@ -3,6 +3,7 @@
 
 #include "sim/vec3.h"
 
+#include <openvdb/Types.h>
 #include <openvdb/math/Mat3.h>
 
 #include <numbers>
