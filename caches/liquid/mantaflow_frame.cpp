@@ -64,19 +64,23 @@ MantaflowPlace mantaflowPlace(const Cache& cache, int number) {
 
 void closeUpperSides(const Coord& resolution, openvdb::Vec3SGrid& velocity) {
   openvdb::Vec3SGrid::Accessor values = velocity.getAccessor();
-  const Coord last = resolution.offsetBy(-1);
+  Coord last = resolution.offsetBy(-1);
   for (int axis = 0; axis < 3; ++axis) {
     Coord first(0);
     first[axis] = last[axis];
     const openvdb::CoordBBox side(first, last);
     bool flowsOut = false;
     for (auto face = side.begin(); face && !flowsOut; ++face) flowsOut = values.getValue(*face)[axis] > 0.0f;
-    for (auto face = side.begin(); face && !flowsOut; ++face) {
+    for (auto face = side.begin(); face; ++face) {
       openvdb::Vec3f v;
       if (!values.probeValue(*face, v)) continue;
-      v[axis] = 0.0f;
+      if (!flowsOut) v[axis] = 0.0f;
       values.setValueOn(*face, v);
+      Coord beyond = *face;
+      ++beyond[axis];
+      values.setValueOn(beyond, v);
     }
+    ++last[axis];  // with the edges
   }
 }
 

@@ -21,7 +21,9 @@ MantaflowPlace mantaflowPlace(const Cache& cache, int number);
 
 // At the faces of the domain's upper sides Blender keeps no velocity through the side, but that of the face
 // before where it points inward: liquid that rests against the wall would seem to leave it. Sets it to 0, as
-// it is at the lower sides, unless something flows out there. velocity: components at faces, in cells.
+// it is at the lower sides, unless something flows out there. And meshes reach a quarter of a cell into the
+// walls: adds a cell beyond each of these sides, where Blender's velocities end at the wall. velocity:
+// components at faces, in cells.
 void closeUpperSides(const openvdb::Coord& resolution, openvdb::Vec3SGrid& velocity);
 
 // phi (in voxels) without what is in obstacles, in index space; positive beyond the domain, so that liquid
