@@ -143,7 +143,8 @@ class Reader {
     return m_arrays.take<std::int64_t>(arrayType(sim::takeWord(words)), count, 1);
   }
 
-  // Arrays: their name, how many numbers make a row, how many rows, and the type.
+  // Arrays: their name, how many numbers make a row, how many rows, and the type. Fewer than announced where
+  // the file ends: SPlisHSPlasH counts attributes that it then leaves out.
   void takeField(Words words) {
     sim::takeWord(words);
     for (std::uint64_t count = takeCount(words); count > 0; --count) {
@@ -152,6 +153,7 @@ class Reader {
         m_arrays.skipParagraph();
         line = m_arrays.takeLine();
       }
+      if (line.empty()) return;
       const Words name = sim::takeWord(line);
       const std::uint64_t components = takeCount(line), rows = takeCount(line);
       keep(name, arrayType(sim::takeWord(line)), rows, components);

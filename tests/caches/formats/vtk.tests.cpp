@@ -50,6 +50,16 @@ TEST_CASE("vtk: particles without cells, and an empty frame", "[caches]") {
             .points.empty());
 }
 
+TEST_CASE("vtk: a field that announces more arrays than it has", "[caches]") {
+  const std::string text =
+      "# vtk DataFile Version 4.1\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 float\n1 2 3\nCELLS 1 2\n1 "
+      "0\n"
+      "CELL_TYPES 1\n1\nPOINT_DATA 1\nFIELD FieldData 3\nvelocity 3 1 float\n4 5 6\n";
+  for (const char* end : {"", "\n", "\n \n"})
+    CHECK(valuesOf(geometryIn("a.vtk", text + end), "velocity") == std::vector<double>{4, 5, 6});
+  CHECK_THROWS(geometryIn("a.vtk", text + "heat"));
+}
+
 TEST_CASE("vtk: lines that end as on Windows", "[caches]") {
   std::string text;
   for (const char letter : vtk()) text += letter == '\n' ? std::string("\r\n") : std::string(1, letter);
