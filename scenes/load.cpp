@@ -104,7 +104,9 @@ Scene readScene(const Node& document, const std::filesystem::path& file, bool li
 
 // The cache's folder, or what the names of its files have in common: "water" of water_####.vdb.
 std::string nameOfCache(const std::filesystem::path& cache) {
-  const std::filesystem::path plain = cache.has_filename() ? cache : cache.parent_path();
+  // "." and ".." too are folders with a name.
+  const std::filesystem::path whole = std::filesystem::absolute(cache).lexically_normal();
+  const std::filesystem::path plain = whole.has_filename() ? whole : whole.parent_path();
   if (std::filesystem::is_directory(plain)) return plain.filename().string();
   std::string name = plain.filename().string();
   name.resize(std::min(name.find('.'), name.size()));

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <thread>
@@ -236,6 +236,17 @@ TEST_CASE("caches: files of a program that still runs are waited for", "[tools]"
   CHECK(done.out.find("ball_0004.ply") != std::string::npos);
   CHECK(fs::exists(out / "surface/0004.ply"));
   CHECK(Json::parse(readBytes(out / "run.json"))["frames"][3]["explained"].get<double>() > 0.99);
+}
+
+TEST_CASE("caches: the folder in which one stands", "[tools]") {
+  const Scratch scratch;
+  const fs::path cache = scratch.path / "balls";
+  fs::create_directory(cache);
+  writeBalls(cache, 3, 1.2, 1.2);
+  const Finished check = runProgram({"check", "."}, cache);
+  INFO(check.all());
+  CHECK(check.exitCode == 0);
+  CHECK(check.out.find("ball_####.ply, meshes") != std::string::npos);
 }
 
 TEST_CASE("caches: velocities in another unit are refused with the factor that is missing", "[tools]") {
