@@ -191,9 +191,6 @@ void checkTexture(const Scene& scene, Reader& reader) {
   checkMaps(scene, reader);
   checkOrientation(scene, reader);
   if (!scene.onto.files.empty() && reader.clean("frames")) checkSequence(scene.onto, "texture.onto", reader);
-  if (reader.clean("motion.flow") && reader.given("texture.onto.source") &&
-      scene.motion.flow != sim::MotionKind::files)
-    reader.fault("texture.onto.source", "is of no use here", "give it together with motion.flow = \"files\"");
   checkWindows(scene, reader);
   checkSpacing(scene, reader);
 }

@@ -21,7 +21,8 @@ void describeMotion(Visitor& visitor, sim::MotionOptions& motion) {
   });
 }
 
-void describeFiles(Visitor& visitor, caches::Options& files) {
+void describeFiles(Visitor& visitor, Scene& scene) {
+  caches::Options& files = scene.files;
   visitor.table("files", [&] {
     visitor.path("path", files.path);
     visitor.path("velocity", files.velocity);
@@ -40,6 +41,7 @@ void describeFiles(Visitor& visitor, caches::Options& files) {
     visitor.number("least_piece", files.leastPiece, kNotNegative);
     visitor.number("least_explained", files.leastExplained, kShare);
     visitor.flag("fit", files.fit);
+    visitor.flag("onto", scene.ontoSource);
   });
 }
 
@@ -259,7 +261,6 @@ void describeTexture(Visitor& visitor, Scene& scene, Need need) {
           choice(visitor, "orientation", scene.transport.orientation, {"vector", "scalars"});
         });
         visitor.table("onto", [&] {
-          visitor.flag("source", scene.ontoSource);
           visitor.files("files", scene.onto.files, {".obj", ".ply", ".stl"});
           visitor.integer("first", scene.onto.first, {.low = 0, .high = 1e9});
           describePlace(visitor, scene.onto.place);
@@ -308,7 +309,7 @@ void describe(Visitor& visitor, Scene& scene, Need texture) {
   visitor.number("frame_rate", scene.sim.frameRate, {.low = 1.0, .high = 1000.0});
   visitor.seed("seed", scene.seed);
   describeMotion(visitor, scene.motion);
-  describeFiles(visitor, scene.files);
+  describeFiles(visitor, scene);
   describeLiquid(visitor, scene.sim, scene.motion.flow != sim::MotionKind::files);
   describeTexture(visitor, scene, texture);
   describePicture(visitor, scene.render);

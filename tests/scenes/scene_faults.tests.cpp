@@ -339,9 +339,6 @@ TEST_CASE("scene faults: files that are not there", "[scenes]") {
        "s.toml:7:19: error: solid.0.mesh_sequence.files: no such file: m_3.obj; give all from number 1 to 4"},
       {"[texture.onto]\nfiles = 't_%d.obj'\nfirst = 1",
        "s.toml:7:1: error: texture.onto.files: no such file: t_5.obj; give all from number 1 to 72"},
-      {"[texture.onto]\nsource = false",
-       "s.toml:7:1: error: texture.onto.source: is of no use here; give it together with motion.flow = "
-       "\"files\""},
       {"[texture.scale]\nby = 'attribute'\npoint = [{ value = 1, factor = 1 }]",
        "s.toml:6:10: error: texture.scale: names no attribute; give attribute = \"NAME\", one that `fluidtex "
        "check` lists"},

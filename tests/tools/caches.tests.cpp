@@ -147,7 +147,7 @@ TEST_CASE("caches: the mesh of a frame gets the texture too, vertex for vertex, 
   CHECK(double(trusted) > 0.95 * double(onto.trust.size()));
 
   std::vector<std::string> without = texturing(cache, none);
-  without.insert(without.end(), {"--set", "texture.onto.source=false"});
+  without.insert(without.end(), {"--set", "files.onto=false"});
   REQUIRE(runProgram(without).exitCode == 0);
   CHECK_FALSE(fs::exists(none / "onto"));
 }
