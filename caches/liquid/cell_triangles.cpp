@@ -160,11 +160,11 @@ TrianglePoint closestPoint(const CellTriangles& surface, std::uint32_t triangle,
   return at(1.0 - v - w, v, w, a + v * ab + w * ac);
 }
 
-Nearest descend(const CellTriangles& surface, const Vec3d& place, std::uint32_t triangle) {
-  TrianglePoint at = closestPoint(surface, triangle, place);
-  while (stepNearer(surface, place, triangle, at)) {
+Nearest descend(const CellTriangles& surface, const Vec3d& place, std::uint32_t triangle,
+                TrianglePoint closest) {
+  while (stepNearer(surface, place, triangle, closest)) {
   }
-  return {float(at.square), triangle};
+  return {float(closest.square), triangle};
 }
 
 }  // namespace fluidtex::caches

@@ -48,8 +48,9 @@ struct Nearest {
   std::uint32_t triangle = 0;
 };
 
-// From a triangle over its neighbours' edges and corners, as long as they come nearer: where the surface
-// bends smoothly, to the closest triangle of all that are as near as this one.
-Nearest descend(const CellTriangles& surface, const openvdb::Vec3d& place, std::uint32_t triangle);
+// From a triangle and its closest point over edges and corners to others, as long as they come nearer: where
+// the surface bends smoothly, to the closest triangle of all that are as near as this one.
+Nearest descend(const CellTriangles& surface, const openvdb::Vec3d& place, std::uint32_t triangle,
+                TrianglePoint closest);
 
 }  // namespace fluidtex::caches

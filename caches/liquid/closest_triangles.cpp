@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace fluidtex::caches {
 namespace {
@@ -109,7 +110,8 @@ TrianglePoint ClosestTriangles::closestPointOf(std::int64_t cell) const {
   return closestPoint(m_surface, at(cell).triangle, placeOf(cell));
 }
 
-std::vector<ClosestTriangles::Found> ClosestTriangles::findAround(std::size_t block, float square) const {
+std::vector<ClosestTriangles::Found> ClosestTriangles::findAround(std::size_t block, float square,
+                                                                  float lastSquare) const {
   sim::LeafBits cells = sim::besideAny(m_blocks, m_known, block);
   for (std::size_t i = 0; i < cells.size(); ++i) cells[i] &= ~m_known[block][i];
   std::vector<Found> found;
@@ -117,27 +119,33 @@ std::vector<ClosestTriangles::Found> ClosestTriangles::findAround(std::size_t bl
     const Vec3d place = placeOf(cell);
     const Nearest before = at(cell);
     Nearest best = before;
+    bool isAsked = false;
     for (int direction = 0; direction < 6; ++direction) {
       const std::int64_t neighbor = m_blocks.neighbor(cell, direction);
       if (neighbor < 0 || !sim::isSet(m_known, neighbor)) continue;
-      const std::uint32_t triangle = at(neighbor).triangle;
+      const auto [squareThere, triangle] = at(neighbor);
+      // What was known a round before has been asked then.
+      if (squareThere < lastSquare && before.triangle != kNone) continue;
+      isAsked = true;
       if (triangle == best.triangle) continue;
-      if (closestPoint(m_surface, triangle, place).square >= double(best.square)) continue;
-      best = descend(m_surface, place, triangle);
+      const TrianglePoint closest = closestPoint(m_surface, triangle, place);
+      if (closest.square < double(best.square)) best = descend(m_surface, place, triangle, closest);
     }
-    if (best.triangle == before.triangle) best = descend(m_surface, place, best.triangle);
-    found.push_back({std::int16_t(cell & 511), best.square < square, best});
+    if (isAsked && best.triangle == before.triangle)
+      best = descend(m_surface, place, best.triangle, closestPoint(m_surface, best.triangle, place));
+    if (best.square < square || best.triangle != before.triangle)
+      found.push_back({std::int16_t(cell & 511), best.square < square, best});
   });
   return found;
 }
 
 void ClosestTriangles::extend(double reach) {
   while (m_reach < reach) {
-    m_reach = std::min(m_reach + kStep, reach);
-    const auto square = float(m_reach * m_reach);
+    const double next = std::min(m_reach + kStep, reach);
+    const auto square = float(next * next), lastSquare = float(m_lastReach * m_lastReach);
     addNeighbors();
     std::vector<std::vector<Found>> found(m_blocks.size());
-    sim::forLeaves(m_blocks, [&](std::size_t n) { found[n] = findAround(n, square); });
+    sim::forLeaves(m_blocks, [&](std::size_t n) { found[n] = findAround(n, square, lastSquare); });
     sim::forLeaves(m_blocks, [&](std::size_t n) {
       for (const Found& cell : found[n]) {
         m_nearest[n]->square[std::size_t(cell.offset)] = cell.nearest.square;
@@ -145,6 +153,7 @@ void ClosestTriangles::extend(double reach) {
         if (cell.isNear) sim::setBit(m_known[n], cell.offset);
       }
     });
+    m_lastReach = std::exchange(m_reach, next);
   }
 }
 

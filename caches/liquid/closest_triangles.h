@@ -49,9 +49,11 @@ class ClosestTriangles {
   void addBlock(const openvdb::Coord& block);
   // The blocks beside those whose known cells touch their sides.
   void addNeighbors();
-  std::vector<Found> findAround(std::size_t block, float square) const;
+  // For the cells beside those of a block that are known. square: of the distance up to which they become
+  // known; lastSquare: of that up to which they were known a round before.
+  std::vector<Found> findAround(std::size_t block, float square, float lastSquare) const;
 
-  double m_cellSize, m_reach;
+  double m_cellSize, m_reach, m_lastReach = 0.0;
   const SurfaceTriangles& m_asGiven;
   CellTriangles m_surface;
   sim::LeafTable m_blocks;

@@ -41,12 +41,14 @@ struct Lanes3 {
   __m256 x, y, z;
 
   Lanes3() = default;
-  Lanes3(__m256 all) : x(all), y(all), z(all) {}
   Lanes3(__m256 first, __m256 second, __m256 third) : x(first), y(second), z(third) {}
   Lanes3(const Vec3d& v) : x(lanes(v[0])), y(lanes(v[1])), z(lanes(v[2])) {}
   Lanes3 operator-(const Lanes3& b) const { return {x - b.x, y - b.y, z - b.z}; }
-  Lanes3 operator*(const Lanes3& b) const { return {x * b.x, y * b.y, z * b.z}; }
-  __m256 dot(const Lanes3& b) const { return x * b.x + y * b.y + z * b.z; }
+  // This less t times b.
+  Lanes3 less(__m256 t, const Lanes3& b) const {
+    return {_mm256_fnmadd_ps(t, b.x, x), _mm256_fnmadd_ps(t, b.y, y), _mm256_fnmadd_ps(t, b.z, z)};
+  }
+  __m256 dot(const Lanes3& b) const { return _mm256_fmadd_ps(x, b.x, _mm256_fmadd_ps(y, b.y, z * b.z)); }
 };
 
 // Distances of eight places at a time.
@@ -76,7 +78,7 @@ class LaneTriangle {
     for (int n = 0; n < 3; ++n) {
       from = place - m_corner[n];
       const __m256 t = _mm256_max_ps(zero, _mm256_min_ps(one, from.dot(m_along[n]) * m_inverse[n]));
-      const Lanes3 away = from - m_along[n] * Lanes3(t);
+      const Lanes3 away = from.less(t, m_along[n]);
       best = _mm256_min_ps(best, away.dot(away));
       above = _mm256_and_ps(above, _mm256_cmp_ps(from.dot(m_inward[n]), zero, _CMP_GE_OQ));
     }

@@ -187,7 +187,7 @@ TEST_CASE("level_set: distances are those to the closest of all triangles", "[ca
     const LevelSetErrors errors = errorsOf(levelSetOf(surface, h), surface, h);
     CHECK(errors.nearby < 2e-3);
     CHECK(errors.tooNear < 2e-3);
-    CHECK(errors.farther < 0.3);
+    CHECK(errors.farther < (name.ends_with("random") ? 0.5 : 0.3));
     CHECK(errors.mean < 5e-3);
     CHECK(errors.missing == 0);
   }
