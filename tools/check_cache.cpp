@@ -3,6 +3,7 @@
 #include "caches/layouts/layout.h"
 #include "caches/liquid/explained.h"
 #include "caches/liquid/read_frame.h"
+#include "caches/liquid/velocity_grids.h"
 #include "caches/recorded/recording.h"
 #include "pipeline/take_cache.h"
 #include "sim/grid/mac_grid.h"
@@ -26,6 +27,8 @@ using Json = nlohmann::ordered_json;
 constexpr double kWrongBelow = 0.75, kWrongAbove = 1.33;
 // Of the motion: with more left no factor says anything.
 constexpr double kTellsNothing = 0.9;
+// Times the first surface's area: less is the same number of points, as it is printed.
+constexpr double kLarger = 1.05;
 
 // Where the distance left is smallest, as far as it is telling: less than half of that at rest.
 bool isTelling(const caches::VelocityFactor& factor) {
@@ -117,7 +120,8 @@ std::vector<ComparedFrames> compareFrames(const scenes::Scene& scene, int first,
         read.first == number ? std::move(read.second) : caches::readFrame(cache, number);
     read = {number + 1, caches::readFrame(cache, number + 1)};
     const caches::LiquidFrame& end = read.second;
-    if (!begin.velocity || !end.velocity || begin.surface.triangles.empty()) {
+    if (caches::isUnknown(begin.velocity) || caches::isUnknown(end.velocity) ||
+        begin.surface.triangles.empty()) {
       print("motion    {} to {}: no surface, or no velocity\n", number, number + 1);
       continue;
     }
@@ -148,7 +152,7 @@ double printPoints(const scenes::Scene& scene, const std::vector<ComparedFrames>
   const ComparedFrames& largest = *std::max_element(compared.begin(), compared.end(), less);
   print("points    one every {:.2g} m: about {:.2g} in frame {}", spacing, pointsOn(compared.front()),
         compared.front().from);
-  if (largest.from != compared.front().from)
+  if (largest.area > kLarger * compared.front().area)
     print(", and the most, {:.2g}, in frame {} of those above", pointsOn(largest), largest.from);
   print("\n");
   return pointsOn(largest);
