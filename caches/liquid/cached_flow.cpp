@@ -20,8 +20,14 @@ constexpr std::size_t kJudged = 3;
 
 std::int64_t cellsInside(const openvdb::FloatGrid& phi) {
   std::int64_t count = 0;
-  for (auto value = phi.cbeginValueAll(); value; ++value)
-    if (*value < 0.0f) count += std::int64_t(value.getVoxelCount());
+  for (auto leaf = phi.tree().cbeginLeaf(); leaf; ++leaf) {
+    const float* values = leaf->buffer().data();
+    count += std::count_if(values, values + leaf->size(), [](float value) { return value < 0.0f; });
+  }
+  auto tile = phi.cbeginValueAll();
+  tile.setMaxDepth(openvdb::FloatTree::DEPTH - 2);
+  for (; tile; ++tile)
+    if (*tile < 0.0f) count += std::int64_t(tile.getVoxelCount());
   return count;
 }
 
@@ -134,6 +140,12 @@ sim::Frame CachedFlow::next(const std::function<void(double)>& progress) {
     warnOnce(
         m_cache.layout.surface.pattern.string() +
         ": encloses no volume in some frames; open surfaces are taken as sheets, one and a half cells thick");
+  if (m_cache.layout.velocityKind == VelocityKind::grids && !now.surface.triangles.empty() &&
+      isUnknown(now.velocity))
+    warnOnce(
+        m_cache.layout.velocity.pattern.string() +
+        ": has no active voxels in some frames, in which the liquid is taken to rest; if it moves, write "
+        "velocities wherever there is liquid");
   if (m_last) addSubsteps(now, frame);
   frame.surfacePhi = now.phi;
   frame.fields = now.fields;

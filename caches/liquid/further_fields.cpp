@@ -76,14 +76,14 @@ Known knownOf(const Geometry& geometry, const Attribute& attribute) {
   return known;
 }
 
-void fromPoints(const Cache& cache, const Field& field, const Geometry& geometry,
-                const SurfaceTriangles& surface, double spacing, Fields& fields) {
+void fromPoints(const Cache& cache, const Field& field, const Geometry& geometry, ClosestTriangles& closest,
+                double spacing, Fields& fields) {
   const auto found = geometry.attributes.find(field.name);
   const int components = field.vectors ? 3 : 1;
   if (found == geometry.attributes.end() || found->second.components != components) return;
   const std::vector<std::string> names = scalarNames(field);
   if (cache.layout.surfaceKind == SurfaceKind::mesh) {
-    const auto grids = continuedOff(surface, found->second.values, components, cache.voxel, kReach);
+    const auto grids = continuedOff(closest, found->second.values, components, kReach);
     for (std::size_t c = 0; c < names.size(); ++c) fields[names[c]] = sim::fromOpenVdb(*grids[c]);
     return;
   }
@@ -95,14 +95,14 @@ void fromPoints(const Cache& cache, const Field& field, const Geometry& geometry
 
 }  // namespace
 
-Fields furtherFields(const Cache& cache, int number, const Geometry& geometry,
-                     const SurfaceTriangles& surface, double spacing) {
+Fields furtherFields(const Cache& cache, int number, const Geometry& geometry, ClosestTriangles& closest,
+                     double spacing) {
   Fields fields;
   const SurfaceKind kind = cache.layout.surfaceKind;
   const bool atPoints = kind == SurfaceKind::mesh || kind == SurfaceKind::particles;
   for (const Field& field : cache.layout.fields) {
     if (atPoints && !field.withVelocity)
-      fromPoints(cache, field, geometry, surface, spacing, fields);
+      fromPoints(cache, field, geometry, closest, spacing, fields);
     else
       fromGrids(cache, number, field, fields);
   }

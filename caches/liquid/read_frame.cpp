@@ -11,9 +11,12 @@
 #include "caches/liquid/velocity_grids.h"
 
 #include <fmt/core.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -142,13 +145,13 @@ std::vector<float> inWorld(std::vector<float> vectors, const Mat3d& velocityFrom
   return vectors;
 }
 
-void atPoints(const Cache& cache, const SurfaceTriangles& surface, const std::vector<float>& vectors,
+void atPoints(const Cache& cache, ClosestTriangles& closest, const std::vector<float>& vectors,
               LiquidFrame& frame) {
-  frame.velocity =
-      velocityGrids(continuedOff(surface, vectors, 3, cache.voxel, reachInCells(cache, mostSpeed(vectors))));
+  frame.velocity = velocityGrids(continuedOff(closest, vectors, 3, reachInCells(cache, mostSpeed(vectors))));
 }
 
-void velocityOfAttribute(const Cache& cache, int number, const Raw& raw, LiquidFrame& frame) {
+void velocityOfAttribute(const Cache& cache, int number, const Raw& raw, ClosestTriangles& closest,
+                         LiquidFrame& frame) {
   const std::string& name = cache.layout.velocityNames.front();
   const auto attribute = raw.geometry.attributes.find(name);
   if (attribute == raw.geometry.attributes.end() || attribute->second.components != 3)
@@ -167,15 +170,16 @@ void velocityOfAttribute(const Cache& cache, int number, const Raw& raw, LiquidF
         velocityOfParticles(raw.geometry.points, values, 2.0 * radiusOf(cache, raw.geometry.points));
     grids.worldFromFile = worldFromFile(cache.options);
     grids.velocityFromFile = velocityFromFile(cache.options);
-    frame.velocity = velocityGrids(grids, cache.voxel, *leavesNear(*frame.phi, kMostReach * cache.voxel));
+    frame.velocity = velocityGrids(grids, *frame.phi, kMostReach * cache.voxel);
     return;
   }
-  atPoints(cache, raw.surface, inWorld(values, velocityFromFile(cache.options)), frame);
+  atPoints(cache, closest, inWorld(values, velocityFromFile(cache.options)), frame);
 }
 
 // FLIP Fluids' velocities are in the simulation's unit. Displacements of a frame, where there are some, are
 // in the mesh's: the factor between them is that of least squares.
-void velocityOfFlipFluids(const Cache& cache, int number, const Raw& raw, LiquidFrame& frame) {
+void velocityOfFlipFluids(const Cache& cache, int number, const Raw& raw, ClosestTriangles& closest,
+                          LiquidFrame& frame) {
   const fs::path& file = cache.layout.velocity.at(number);
   const std::vector<Vec3f> velocity = readFlipVectors(file);
   if (velocity.size() != raw.geometry.points.size())
@@ -198,7 +202,7 @@ void velocityOfFlipFluids(const Cache& cache, int number, const Raw& raw, Liquid
   values.reserve(3 * velocity.size());
   for (const Vec3f& v : velocity)
     for (int axis = 0; axis < 3; ++axis) values.push_back(float(factor) * v[axis]);
-  atPoints(cache, raw.surface, inWorld(std::move(values), velocityFromFile(cache.options)), frame);
+  atPoints(cache, closest, inWorld(std::move(values), velocityFromFile(cache.options)), frame);
 }
 
 std::string placeOf(const openvdb::BBoxd& box) {
@@ -217,7 +221,7 @@ void checkPlaces(const fs::path& file, const RawVelocity& raw, const SurfaceTria
                     placeOf(liquid) + "; write both in one unit, with one axis up");
 }
 
-void velocityInGrids(const Cache& cache, int number, const SurfaceTriangles& surface, LiquidFrame& frame) {
+RawVelocity readVelocityGrids(const Cache& cache, int number) {
   const fs::path& file = cache.layout.velocity.at(number);
   RawVelocity raw;
   raw.onFaces = cache.layout.onFaces;
@@ -236,22 +240,49 @@ void velocityInGrids(const Cache& cache, int number, const SurfaceTriangles& sur
     raw.worldFromFile = place.worldFromIndex * raw.worldFromFile;
     raw.velocityFromFile = place.metersPerSecond * raw.velocityFromFile;
   }
-  checkPlaces(file, raw, surface, kLeastReach * cache.voxel);
-  frame.velocity = velocityGrids(raw, cache.voxel, *leavesNear(*frame.phi, kMostReach * cache.voxel));
+  return raw;
 }
 
-void readVelocity(const Cache& cache, int number, const Raw& raw, LiquidFrame& frame) {
+// Grids of velocity while another thread is busy with the surface, since a process of its own reads them.
+// What is wrong with them counts only where there is a surface.
+class VelocityAhead {
+ public:
+  void read(const Cache& cache, int number) {
+    if (cache.layout.velocityKind != VelocityKind::grids || isEmptyFile(cache.layout.velocity.at(number)))
+      return;
+    try {
+      m_raw = readVelocityGrids(cache, number);
+    } catch (...) {
+      m_wrong = std::current_exception();
+    }
+  }
+
+  std::optional<RawVelocity> take() {
+    if (m_wrong) std::rethrow_exception(m_wrong);
+    return std::move(m_raw);
+  }
+
+ private:
+  std::optional<RawVelocity> m_raw;
+  std::exception_ptr m_wrong;
+};
+
+void readVelocity(const Cache& cache, int number, const Raw& raw, VelocityAhead& ahead,
+                  ClosestTriangles& closest, LiquidFrame& frame) {
   switch (cache.layout.velocityKind) {
     case VelocityKind::none:
       return;
     case VelocityKind::attribute:
-      if (!raw.geometry.points.empty()) velocityOfAttribute(cache, number, raw, frame);
+      if (!raw.geometry.points.empty()) velocityOfAttribute(cache, number, raw, closest, frame);
       return;
     case VelocityKind::flipFluids:
-      if (!raw.geometry.points.empty()) velocityOfFlipFluids(cache, number, raw, frame);
+      if (!raw.geometry.points.empty()) velocityOfFlipFluids(cache, number, raw, closest, frame);
       return;
     case VelocityKind::grids:
-      if (!isEmptyFile(cache.layout.velocity.at(number))) velocityInGrids(cache, number, raw.surface, frame);
+      if (const std::optional<RawVelocity> grids = ahead.take()) {
+        checkPlaces(cache.layout.velocity.at(number), *grids, raw.surface, kLeastReach * cache.voxel);
+        frame.velocity = velocityGrids(*grids, *frame.phi, kMostReach * cache.voxel);
+      }
       return;
   }
 }
@@ -283,16 +314,23 @@ CachedMesh readMesh(const Cache& cache, int number) {
 }
 
 LiquidFrame readFrame(const Cache& cache, int number) {
-  Raw raw = readRaw(cache, number);
+  Raw raw;
   LiquidFrame frame;
-  checkSize(cache, number, raw.surface);
-  LevelSet levelSet = levelSetOf(raw.surface, cache.voxel);
-  frame.phi = std::move(levelSet.phi);
-  frame.isSheet = levelSet.isSheet;
+  VelocityAhead ahead;
+  std::optional<ClosestTriangles> closest;
+  const auto readLevelSet = [&] {
+    raw = readRaw(cache, number);
+    checkSize(cache, number, raw.surface);
+    closest.emplace(raw.surface, cache.voxel);
+    LevelSet levelSet = levelSetOf(*closest);
+    frame.phi = std::move(levelSet.phi);
+    frame.isSheet = levelSet.isSheet;
+  };
+  tbb::parallel_invoke(readLevelSet, [&] { ahead.read(cache, number); });
   if (!raw.surface.triangles.empty()) {
-    readVelocity(cache, number, raw, frame);
+    readVelocity(cache, number, raw, ahead, *closest, frame);
     const bool particles = cache.layout.surfaceKind == SurfaceKind::particles && !cache.layout.fields.empty();
-    frame.fields = furtherFields(cache, number, raw.geometry, raw.surface,
+    frame.fields = furtherFields(cache, number, raw.geometry, *closest,
                                  particles ? 2.0 * radiusOf(cache, raw.geometry.points) : 0.0);
   }
   frame.surface = std::move(raw.surface);

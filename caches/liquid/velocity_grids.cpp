@@ -1,6 +1,7 @@
 #include "caches/liquid/velocity_grids.h"
 
 #include <openvdb/tools/Interpolation.h>
+#include <openvdb/tools/Morphology.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
@@ -184,7 +185,7 @@ openvdb::BBoxd boundsOf(const RawVelocity& raw) {
   return bounds;
 }
 
-sim::FaceGrids velocityGrids(const RawVelocity& raw, double h, const sim::MaskTree& near) {
+sim::FaceGrids velocityGrids(const RawVelocity& raw, const openvdb::FloatGrid& phi, double reach) {
   std::array<Mat4d, 3> matrices;
   bool aligned = scalesOnly(raw.velocityFromFile);
   for (int axis = 0; axis < 3; ++axis) {
@@ -192,7 +193,8 @@ sim::FaceGrids velocityGrids(const RawVelocity& raw, double h, const sim::MaskTr
     matrices[axis] = worldFromIndex(grid, raw.worldFromFile, raw.vectors && raw.onFaces ? axis : -1);
     aligned = aligned && scalesOnly(matrices[axis].getMat3());
   }
-  return aligned ? alignedVelocity(raw, matrices) : resampledVelocity(raw, matrices, h, near);
+  return aligned ? alignedVelocity(raw, matrices)
+                 : resampledVelocity(raw, matrices, phi.voxelSize()[0], *leavesNear(phi, reach));
 }
 
 sim::FaceGrids velocityGrids(const std::vector<openvdb::FloatGrid::Ptr>& components) {
@@ -203,18 +205,19 @@ sim::FaceGrids velocityGrids(const std::vector<openvdb::FloatGrid::Ptr>& compone
 }
 
 sim::MaskTree::Ptr leavesNear(const openvdb::FloatGrid& phi, double reach) {
+  openvdb::MaskTree blocks;  // a voxel a leaf
+  openvdb::tree::ValueAccessor<openvdb::MaskTree> accessor(blocks);
+  for (const auto* leaf : leavesOf(phi.tree()))
+    if (const Coord& at = leaf->origin(); !leaf->isEmpty())
+      accessor.setValueOn(Coord(at[0] >> 3, at[1] >> 3, at[2] >> 3));
+  const int layers = int(std::ceil(std::ceil(reach / phi.voxelSize()[0]) / sim::kLeafDim));
+  openvdb::tools::dilateActiveValues(blocks, layers, openvdb::tools::NN_FACE_EDGE_VERTEX,
+                                     openvdb::tools::EXPAND_TILES);
+  blocks.voxelizeActiveTiles();
   const auto near = std::make_shared<sim::MaskTree>();
-  const int cells = int(std::ceil(reach / phi.voxelSize()[0]));
-  for (const auto* leaf : leavesOf(phi.tree())) {
-    if (leaf->isEmpty()) continue;
-    const Coord low = sim::leafOrigin(leaf->origin().offsetBy(-cells)),
-                high = sim::leafOrigin(leaf->origin().offsetBy(cells + sim::kLeafDim - 1));
-    for (int i = low[0]; i <= high[0]; i += sim::kLeafDim)
-      for (int j = low[1]; j <= high[1]; j += sim::kLeafDim)
-        for (int k = low[2]; k <= high[2]; k += sim::kLeafDim) {
-          const Coord origin(i, j, k);
-          if (near->probeConstLeaf(origin) == nullptr) near->touchLeaf(origin)->setValuesOn();
-        }
+  for (auto block = blocks.cbeginValueOn(); block; ++block) {
+    const Coord at = block.getCoord();
+    near->touchLeaf(Coord(at[0] << 3, at[1] << 3, at[2] << 3))->setValuesOn();
   }
   return near;
 }
@@ -243,6 +246,12 @@ sim::FaceGrids blended(const sim::FaceGrids& a, const sim::FaceGrids& b, double 
     result.component[axis] = grid;
   }
   return result;
+}
+
+bool isUnknown(const sim::FaceGrids& velocity) {
+  for (int axis = 0; velocity && axis < 3; ++axis)
+    if (!velocity[axis].empty() && velocity[axis].constTree().activeVoxelCount() > 0) return false;
+  return true;
 }
 
 bool sameTransforms(const sim::FaceGrids& a, const sim::FaceGrids& b) {

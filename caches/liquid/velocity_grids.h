@@ -24,8 +24,9 @@ openvdb::BBoxd boundsOf(const RawVelocity& raw);
 
 // One grid a component, each with a transform of its own, active where the file's is. Where the grids' axes
 // are the world's (not turned, sheared or mirrored), values are copied and keep their places; else they are
-// interpolated linearly at the centres of cells of side h in the leaves that `near` has.
-sim::FaceGrids velocityGrids(const RawVelocity& raw, double h, const sim::MaskTree& near);
+// interpolated linearly at the centres of the cells of phi, in the leaves within `reach` metres of the
+// surface.
+sim::FaceGrids velocityGrids(const RawVelocity& raw, const openvdb::FloatGrid& phi, double reach);
 
 // From grids of vectors at the centres of cells, as continuedOff() makes them.
 sim::FaceGrids velocityGrids(const std::vector<openvdb::FloatGrid::Ptr>& components);
@@ -36,6 +37,9 @@ sim::MaskTree::Ptr leavesNear(const openvdb::FloatGrid& phi, double reach);
 // (1 - t) a + t b where both are active, else the one that is. One topology for each component. Both must
 // have the same transforms.
 sim::FaceGrids blended(const sim::FaceGrids& a, const sim::FaceGrids& b, double t);
+
+// Whether there are no grids, or none of them has an active value.
+bool isUnknown(const sim::FaceGrids& velocity);
 
 // Whether grids of both have the same transforms.
 bool sameTransforms(const sim::FaceGrids& a, const sim::FaceGrids& b);

@@ -269,3 +269,19 @@ TEST_CASE("bad_data: an open surface is a sheet, and is said to be one", "[cache
   REQUIRE(flow.warnings().size() == 1);
   CHECK_THAT(flow.warnings()[0], Contains("water.####.ply: encloses no volume"));
 }
+
+TEST_CASE("bad_data: velocities without active voxels are told as such", "[caches]") {
+  const Clip clip{translation(Vec3d(0.0)), {}, 4};
+  const Scratch scratch;
+  const Options options = writeCache(Way::plyAndGrids, clip, scratch.path).options;
+  const auto none = openvdb::Vec3SGrid::create(openvdb::Vec3f(0.0f));
+  none->setName("vel");
+  for (const int n : {2, 3})
+    openvdb::io::File((scratch.path / ("velocity_000" + std::to_string(n) + ".vdb")).string()).write({none});
+  CachedFlow flow(cacheOf(options, clip));
+  flow.next();
+  CHECK(flow.warnings().empty());
+  for (int frame = 2; frame <= 4; ++frame) flow.next();
+  REQUIRE(flow.warnings().size() == 1);
+  CHECK_THAT(flow.warnings()[0], Contains("velocity_####.vdb: has no active voxels in some frames"));
+}

@@ -36,15 +36,17 @@ RawVelocity rawOf(const openvdb::Vec3SGrid::Ptr& vectors, bool onFaces, const Op
   return {vectors, {}, onFaces, worldFromFile(options), velocityFromFile(options)};
 }
 
-// Leaves around where the grids of these tests lie.
-const sim::MaskTree& everywhere() {
-  static const sim::MaskTree::Ptr kLeaves = [] {
+// A surface where the grids of these tests lie, in cells of 0.1 m, and how far around it they are asked for.
+const openvdb::FloatGrid& surface() {
+  static const openvdb::FloatGrid::Ptr kSphere = [] {
     openvdb::initialize();
-    return leavesNear(*openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, Vec3f(0.0f), 0.1f),
-                      1.0);
+    const auto sphere = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(1.0f, Vec3f(0.0f), 0.1f);
+    sphere->setTransform(sim::cellTransform(0.1));
+    return sphere;
   }();
-  return *kLeaves;
+  return *kSphere;
 }
+constexpr double kAround = 1.0;
 
 sim::FaceGrids faces(double h, int n, const std::function<Vec3d(const Vec3d&)>& flow) {
   sim::FaceGrids grids = sim::makeVelocity(h);
@@ -66,7 +68,7 @@ TEST_CASE("velocity_grids: grids of the world's axes are copied, each component 
   options.velocityScale = 3.0;
   for (const bool onFaces : {false, true}) {
     const auto vectors = marked(transform);
-    const sim::FaceGrids got = velocityGrids(rawOf(vectors, onFaces, options), 0.1, everywhere());
+    const sim::FaceGrids got = velocityGrids(rawOf(vectors, onFaces, options), surface(), kAround);
     for (int axis = 0; axis < 3; ++axis) {
       CHECK(got[axis].activeVoxelCount() == vectors->activeVoxelCount());
       std::size_t wrong = 0;
@@ -93,7 +95,7 @@ TEST_CASE("velocity_grids: three grids of numbers, each where its own transform 
     raw.numbers[std::size_t(axis)]->setTransform(transform);
     raw.numbers[std::size_t(axis)]->tree().setValue(Coord(1, 2, 3), float(axis + 1));
   }
-  const sim::FaceGrids got = velocityGrids(raw, 0.1, everywhere());
+  const sim::FaceGrids got = velocityGrids(raw, surface(), kAround);
   for (int axis = 0; axis < 3; ++axis) {
     CHECK(got[axis].activeVoxelCount() == 1);
     CHECK(got[axis].tree().getValue(Coord(1, 2, 3)) == float(axis + 1));
@@ -106,7 +108,7 @@ TEST_CASE("velocity_grids: tiles have their values, those of 0 are left out", "[
   const openvdb::Vec3SGrid::Ptr grid = openvdb::Vec3SGrid::create(Vec3f(0.0f));
   grid->tree().addTile(1, Coord(0), Vec3f(1, 2, 0), true);
   grid->tree().addTile(1, Coord(8, 0, 0), Vec3f(0.0f), true);
-  const sim::FaceGrids got = velocityGrids(rawOf(grid, false), 1.0, everywhere());
+  const sim::FaceGrids got = velocityGrids(rawOf(grid, false), surface(), kAround);
   CHECK(got[0].activeVoxelCount() == 512);
   CHECK(got[0].tree().getValue(Coord(7, 3, 1)) == 1.0f);
   CHECK(got[1].tree().getValue(Coord(0, 7, 7)) == 2.0f);
@@ -137,7 +139,7 @@ TEST_CASE("velocity_grids: turned grids give the vectors of the place, in the wo
         }
         grid->tree().setValue(*at, Vec3f(v));
       }
-      const sim::FaceGrids got = velocityGrids(rawOf(grid, onFaces, options), 0.1, everywhere());
+      const sim::FaceGrids got = velocityGrids(rawOf(grid, onFaces, options), surface(), kAround);
       double largest = 0.0;
       std::size_t count = 0;
       for (int axis = 0; axis < 3; ++axis)
@@ -160,7 +162,7 @@ TEST_CASE("velocity_grids: mirrored and sheared grids are no copies", "[caches]"
       std::make_shared<openvdb::math::Transform>(std::make_shared<openvdb::math::AffineMap>(matrix)));
   for (auto at = openvdb::CoordBBox(Coord(-16), Coord(16)).begin(); at; ++at)
     grid->tree().setValue(*at, Vec3f(field(grid->indexToWorld(*at))));
-  const sim::FaceGrids got = velocityGrids(rawOf(grid, false), 0.1, everywhere());
+  const sim::FaceGrids got = velocityGrids(rawOf(grid, false), surface(), kAround);
   CHECK(got[0].indexToWorld(Coord(0)) == Vec3d(0.05));
   for (int axis = 0; axis < 3; ++axis)
     CHECK(got[axis].tree().getValue(Coord(3, -2, 4)) == Approx(field(Vec3d(0.35, -0.15, 0.45))[axis]));
