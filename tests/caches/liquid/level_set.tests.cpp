@@ -266,6 +266,22 @@ TEST_CASE("level_set: inside is what cannot be reached", "[caches]") {
     for (auto value = both.phi->cbeginValueOn(); value; ++value)
       if (*value < 0.0f) CHECK(ball.distance(both.phi->indexToWorld(value.getCoord())) < 0.1 * h);
   }
+  SECTION("and nothing where there is a way in") {
+    for (const double slot : {0.0, 1.6}) {
+      const double side = 40 * h;
+      SurfaceTriangles box = surfaceOfBox(Vec3d(0.0), Vec3d(side));
+      box.triangles.resize(10);  // all but the upper side
+      const auto n = openvdb::Index32(box.points.size());
+      for (const double x : {0.0, side - slot * h})
+        for (const double y : {0.0, side}) box.points.emplace_back(x, y, side);
+      box.triangles.emplace_back(n, n + 1, n + 3);
+      box.triangles.emplace_back(n, n + 3, n + 2);
+      const LevelSet result = levelSetOf(box, h);
+      CHECK(result.isSheet == (slot > 0.0));
+      CHECK((valueAt(result, Vec3d(0.5 * side)) < 0.0) == (slot == 0.0));
+      CHECK(valueAt(result, Vec3d(0.5 * side)) == Approx(slot > 0.0 ? kBand * h : -kBand * h));
+    }
+  }
   SECTION("of a large ball all of it, without memory for it") {
     const Ball ball{Vec3d(0.3, 0.1, 0.2), 60 * h};
     const LevelSet large = levelSetOf(surfaceOfBall(ball, 6), h);
