@@ -102,6 +102,7 @@ std::vector<std::string> takeCache(scenes::Scene& scene) {
   if (caches::isRecording(scene.files.path)) return takeRecording(scene);
   const caches::Survey survey = caches::survey(scene.files);
   scene.files.voxel = survey.voxel;
+  if (survey.radius > 0.0) scene.files.radius = survey.radius;
   scene.files.first = survey.layout.first;
   takeFrames(survey.layout.frames(), survey.layout.first, scene);
   requireFiles(survey.layout, std::min(scene.frames, survey.layout.frames()));

@@ -6,6 +6,7 @@
 #include "caches/liquid/further_fields.h"
 #include "caches/liquid/level_set.h"
 #include "caches/liquid/mantaflow_frame.h"
+#include "caches/liquid/particle_velocity.h"
 #include "caches/liquid/particles.h"
 #include "caches/liquid/placement.h"
 #include "caches/liquid/velocity_grids.h"
@@ -352,6 +353,11 @@ double suitingVoxel(const Cache& cache, int number, const SurfaceTriangles& surf
     return 2.0 * radiusOf(cache, readGeometry(cache.layout.surface.at(number)).points) * cache.options.unit *
            cache.options.scale;
   return meanEdge(surface);
+}
+
+double particleRadius(const Cache& cache, int number) {
+  const fs::path& file = cache.layout.surface.at(number);
+  return isEmptyFile(file) ? 0.0 : 0.5 * particleSpacing(readGeometry(file).points);
 }
 
 }  // namespace fluidtex::caches

@@ -38,6 +38,30 @@ TEST_CASE("survey: bounds of the first, a middle and the last frame, and cells a
   }
 }
 
+TEST_CASE("survey: one radius for all frames of particles", "[caches]") {
+  Clip clip = falling();
+  const Scratch scratch;
+  const Options options = writeCache(Way::vtk, clip, scratch.path).options;
+  const double radius = survey(options).radius;
+  CHECK(radius == Approx(0.5 * clip.h).epsilon(0.02));
+  // Half as many a length in the last frame, as where particles were left out: the other two have the say.
+  const Scratch sparse;
+  clip.h *= 2.0;
+  writeCache(Way::vtk, clip, sparse.path);
+  std::filesystem::copy_file(sparse.path / "ParticleData_Fluid_5.vtk",
+                             scratch.path / "ParticleData_Fluid_5.vtk",
+                             std::filesystem::copy_options::overwrite_existing);
+  CHECK(survey(options).radius == Approx(radius).epsilon(0.02));
+  // The first frame without liquid.
+  writeBytes(scratch.path / "ParticleData_Fluid_1.vtk", "");
+  CHECK(survey(options).radius > 0.9 * radius);
+  Options given = options;
+  given.radius = 0.7 * clip.h;
+  CHECK(survey(given).radius == given.radius);
+  const Scratch other;
+  CHECK(survey(writeCache(Way::ply, falling(), other.path).options).radius == 0.0);
+}
+
 TEST_CASE("survey: cells that are given stay", "[caches]") {
   const Scratch scratch;
   Options options = writeCache(Way::staggered, falling(), scratch.path).options;
