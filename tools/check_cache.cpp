@@ -108,7 +108,9 @@ std::vector<ComparedFrames> compareFrames(const scenes::Scene& scene, int first,
   const caches::Cache cache{scene.files, caches::recognize(scene.files), scene.files.voxel,
                             scene.sim.frameRate};
   if (cache.layout.velocityKind == caches::VelocityKind::none) {
-    say("warning: no velocities were found; texture cannot follow the liquid without them\n");
+    if (!scene.files.fit)
+      say("warning: no velocities were found; texture cannot follow the liquid without them, unless they are "
+          "fitted to its surfaces, files.fit=true\n");
     return result;
   }
   const std::vector<int> begins = beginsOf(first, last, wishes.pairs);
