@@ -27,11 +27,11 @@ TEST_CASE("follow: a frame's files are whole once they rest, or the next frame's
   layout.velocity = numberedLike(at("v_0001.vdb"));
   layout.last = 1;
   CHECK_FALSE(awaitedFile(layout, 1));
-  CHECK(awaitedFile(layout, 2) == at("w_####.ply"));
+  CHECK(awaitedFile(layout, 2) == at("w_0002.ply"));
   writeAgo(at("w_0002.ply"), seconds(0));
   CHECK(awaitedFile(layout, 2) == at("w_0002.ply"));
   writeAgo(at("w_0003.ply"), seconds(0));
-  CHECK(awaitedFile(layout, 2) == at("v_####.vdb"));
+  CHECK(awaitedFile(layout, 2) == at("v_0002.vdb"));
   CHECK(layout.last == 1);
   writeAgo(at("v_0002.vdb"), seconds(3));
   CHECK_FALSE(awaitedFile(layout, 2));
