@@ -236,8 +236,8 @@ TEST_CASE("caches: files of a program that still runs are waited for", "[tools]"
   program.join();
   INFO(done.all());
   REQUIRE(done.exitCode == 0);
-  CHECK(done.out.find("waiting for ") != std::string::npos);
-  CHECK(done.out.find("ball_0004.ply") != std::string::npos);
+  CHECK(done.all().find("waiting for ") != std::string::npos);
+  CHECK(done.all().find("ball_0004.ply") != std::string::npos);
   CHECK(fs::exists(out / "surface/0004.ply"));
   CHECK(Json::parse(readBytes(out / "run.json"))["frames"][3]["explained"].get<double>() > 0.99);
 }
