@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
   fluidtex::tools::keepMemory();  // as the program does
   if (answerSelf(argc, argv) || answerSurface(argc, argv)) return 0;
   registerPressure();
+  registerCacheFrames();
   registerDamBreak();
   registerMemory();
   registerScaling();

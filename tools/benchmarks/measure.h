@@ -36,6 +36,7 @@ bool answerSelf(int argc, char** argv);
 bool answerSurface(int argc, char** argv);
 
 // Each file's benchmarks.
+void registerCacheFrames();
 void registerDamBreak();
 void registerPressure();
 void registerMemory();
