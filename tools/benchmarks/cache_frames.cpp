@@ -28,7 +28,7 @@ using openvdb::Vec3d;
 using openvdb::Vec3f;
 
 constexpr int kFrames = 5;
-constexpr double kRate = 24.0;           // frames a second
+constexpr double kRate = 24.0;       // frames a second
 const Vec3d kDrift(1.3, 0.4, -0.7);  // m/s
 
 struct Folder {
