@@ -32,9 +32,9 @@ using openvdb::Vec3f;
 
 // Cells around the surface in which attributes at its points become velocities: at least, and at most.
 constexpr int kLeastReach = 6, kMostReach = 24;
-// Cells that a surface can cross: at 100 bytes each this is 5 GB. Farther from the origin, in cells, single
+// Cells that a surface can cross: at 170 bytes each this is 5 GB. Farther from the origin, in cells, single
 // precision does not tell places within a cell apart.
-constexpr double kMostCells = 5e7, kFarthest = 4e6;
+constexpr double kMostCells = 3e7, kFarthest = 4e6;
 // Level of densities where nothing is said: this share of the largest.
 constexpr float kIsoShare = 0.5f;
 
