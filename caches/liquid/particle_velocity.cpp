@@ -22,10 +22,15 @@ using openvdb::Vec3f;
 // the spread of the particles, as a share of it and at least, so that those of a plane or a line give a slope
 // along it.
 constexpr double kReach = 3.0, kLeastWeight = 1e-3, kSpreadShare = 1e-6, kLeastSpread = 1e-12;
-constexpr int kLayers = 3;
+// That radius where too few particles are within the other, and how many voxels beyond the particles it
+// serves.
+constexpr double kWideReach = 5.0;
+constexpr int kBeyond = 3, kLayers = 3;
 // Particles of equal weight that it takes to know a slope and what it leaves: twice those that a linear field
 // fits without error.
 constexpr double kFewest = 8.0;
+// With fewer than this many, those in the wide radius are asked.
+constexpr double kMany = 12.0;
 // Power of the share of the velocities' spread that the fit explains, by which it may be faster than all
 // around.
 constexpr double kTrust = 8.0;
@@ -135,6 +140,8 @@ struct Around {
       }
   }
 
+  double count() const { return weights > 0.0 ? weights * weights / squaredWeights : 0.0; }
+
   // Sums become means, and the spreads those about the means.
   void finish() {
     middle /= weights;
@@ -152,8 +159,8 @@ struct Around {
 
 // The fit's value at the place itself.
 Vec3d valueOf(const Around& around) {
-  const double count = around.weights * around.weights / around.squaredWeights;
-  if (count <= kFewest) return around.mean;
+  const double count = around.count();
+  if (count <= kFewest || around.squaredSpeed == 0.0) return around.mean;
   const Mat3d inverse = around.squares.inverse();
   const Mat3d slope = around.both * inverse;
   const Vec3d off = slope * around.middle;
@@ -173,6 +180,33 @@ Vec3d valueOf(const Around& around) {
   return value * ((fastest + trust * (speed - fastest)) / speed);
 }
 
+// Particles in cells, with what is asked of each.
+struct MovingParticles {
+  struct One {
+    Vec3f velocity;
+    float weight;
+  };
+
+  MovingParticles(const std::vector<Vec3f>& points, const std::vector<float>& velocity,
+                  const std::vector<float>& weights, double reach)
+      : cells(points, reach) {
+    sorted.reserve(points.size());
+    for (const std::uint32_t n : cells.order()) sorted.push_back({Vec3f(&velocity[3 * n]), weights[n]});
+  }
+
+  Around around(const Vec3d& x, const ParticleCells::Window& window) const {
+    Around result;
+    window.near(x, [&](std::uint32_t n, const Vec3d& d, double s) {
+      const One& one = sorted[n];
+      result.add(s * one.weight, d / cells.reach(), Vec3d(one.velocity), one.weight > kLike);
+    });
+    return result;
+  }
+
+  ParticleCells cells;
+  std::vector<One> sorted;
+};
+
 }  // namespace
 
 openvdb::Vec3SGrid::Ptr velocityOfParticles(const std::vector<Vec3f>& points,
@@ -180,34 +214,26 @@ openvdb::Vec3SGrid::Ptr velocityOfParticles(const std::vector<Vec3f>& points,
   const openvdb::Vec3SGrid::Ptr grid = openvdb::Vec3SGrid::create(Vec3f(0.0f));
   grid->setTransform(openvdb::math::Transform::createLinearTransform(spacing));
   if (points.empty() || !(spacing > 0.0)) return grid;
-  openvdb::MaskTree near;
-  for (const Vec3f& x : points) near.setValueOn(Coord::round(Vec3d(x) / spacing));
-  openvdb::tools::dilateActiveValues(near, 2, openvdb::tools::NN_FACE_EDGE_VERTEX,
+  openvdb::MaskTree known;
+  for (const Vec3f& x : points) known.setValueOn(Coord::round(Vec3d(x) / spacing));
+  openvdb::tools::dilateActiveValues(known, kBeyond, openvdb::tools::NN_FACE_EDGE_VERTEX,
                                      openvdb::tools::EXPAND_TILES);
-  near.voxelizeActiveTiles();
-  grid->tree().topologyUnion(near);
+  known.voxelizeActiveTiles();
+  grid->tree().topologyUnion(known);
   std::vector<openvdb::Vec3STree::LeafNodeType*> leaves;
   grid->tree().getNodes(leaves);
-  const ParticleCells cells(points, kReach * spacing);
-  struct Moving {
-    Vec3f velocity;
-    float weight;
-  };
   const std::vector<float> weights = likeness(points, velocity, spacing);
-  std::vector<Moving> sorted;
-  sorted.reserve(points.size());
-  for (const std::uint32_t n : cells.order()) sorted.push_back({Vec3f(&velocity[3 * n]), weights[n]});
+  const MovingParticles near(points, velocity, weights, kReach * spacing),
+      wide(points, velocity, weights, kWideReach * spacing);
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     const Coord origin = leaves[n]->origin();
-    const ParticleCells::Window window(
-        cells, origin.asVec3d() * spacing,
-        origin.offsetBy(int(openvdb::Vec3STree::LeafNodeType::DIM)).asVec3d() * spacing);
+    const Vec3d low = origin.asVec3d() * spacing,
+                high = origin.offsetBy(int(openvdb::Vec3STree::LeafNodeType::DIM)).asVec3d() * spacing;
+    const ParticleCells::Window nearWindow(near.cells, low, high), wideWindow(wide.cells, low, high);
     for (auto voxel = leaves[n]->beginValueOn(); voxel; ++voxel) {
-      Around around;
-      window.near(voxel.getCoord().asVec3d() * spacing, [&](std::uint32_t p, const Vec3d& d, double s) {
-        const Moving& one = sorted[p];
-        around.add(s * one.weight, d / cells.reach(), Vec3d(one.velocity), one.weight > kLike);
-      });
+      const Vec3d x = voxel.getCoord().asVec3d() * spacing;
+      Around around = near.around(x, nearWindow);
+      if (around.count() < kMany) around = wide.around(x, wideWindow);
       if (around.weights < kLeastWeight) {
         voxel.setValueOff();
         continue;

@@ -137,6 +137,17 @@ TEST_CASE("particles: linear velocities come back, in the bulk and above a flat 
   }
 }
 
+TEST_CASE("particles: of one velocity all around", "[caches]") {
+  const std::vector<Vec3d> points = slab(0.1, 4);
+  std::vector<float> velocity;
+  for (std::size_t n = 0; n < points.size(); ++n)
+    for (const float v : {0.3f, 0.0f, -0.41f}) velocity.push_back(v);
+  const openvdb::Vec3SGrid::Ptr grid = velocityOfParticles(floats(points), velocity, 0.1);
+  REQUIRE(grid->activeVoxelCount() > points.size());
+  for (auto value = grid->cbeginValueOn(); value; ++value)
+    CHECK((*value - Vec3f(0.3f, 0.0f, -0.41f)).length() < 1e-6f);
+}
+
 TEST_CASE("particles: of jets that cross, with noise, nothing is faster than the fastest", "[caches]") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
