@@ -82,7 +82,7 @@ LevelSet levelSetOf(const SurfaceTriangles& surface, double h) {
   return levelSetOf(closest);
 }
 
-std::vector<openvdb::FloatGrid::Ptr> continuedOff(ClosestTriangles& closest, const std::vector<float>& values,
+std::vector<openvdb::FloatGrid::Ptr> continuedOff(ClosestTriangles& closest, const ValuesAt& valuesAt,
                                                   int components, int band) {
   closest.extend(band);
   std::vector<openvdb::FloatGrid::Ptr> result;
@@ -91,19 +91,13 @@ std::vector<openvdb::FloatGrid::Ptr> continuedOff(ClosestTriangles& closest, con
   const auto most = float(band) * float(band);
   sim::forLeaves(closest.blocks(), [&](std::size_t n) {
     for (auto& leaves : made) leaves[n] = std::make_unique<Leaf>(closest.blocks().origins[n], 0.0f, false);
+    std::vector<double> values(made.size());
     sim::forBits(closest.known()[n], n, [&](std::int64_t cell) {
       const Nearest nearest = closest.at(cell);
       if (nearest.square >= most) return;
-      const Vec3I& t = closest.surface().triangles[nearest.triangle];
-      const openvdb::Vec3d weight = closest.closestPointOf(cell).weight;
-      for (int c = 0; c < components; ++c) {
-        double value = 0.0;
-        for (int corner = 0; corner < 3; ++corner)
-          value += weight[corner] *
-                   double(values[std::size_t(t[corner]) * std::size_t(components) + std::size_t(c)]);
-        if (std::isfinite(value))
-          made[std::size_t(c)][n]->setValueOn(openvdb::Index(cell & 511), float(value));
-      }
+      valuesAt(closest.surface().triangles[nearest.triangle], closest.closestPointOf(cell), values.data());
+      for (std::size_t c = 0; c < made.size(); ++c)
+        if (std::isfinite(values[c])) made[c][n]->setValueOn(openvdb::Index(cell & 511), float(values[c]));
     });
   });
   for (auto& leaves : made) {
@@ -113,6 +107,19 @@ std::vector<openvdb::FloatGrid::Ptr> continuedOff(ClosestTriangles& closest, con
       if (!leaf->isEmpty()) result.back()->tree().addLeaf(leaf.release());
   }
   return result;
+}
+
+std::vector<openvdb::FloatGrid::Ptr> continuedOff(ClosestTriangles& closest, const std::vector<float>& values,
+                                                  int components, int band) {
+  const auto count = std::size_t(components);
+  const auto valuesAt = [&](const Vec3I& corners, const TrianglePoint& point, double* result) {
+    for (std::size_t c = 0; c < count; ++c) {
+      result[c] = 0.0;
+      for (int corner = 0; corner < 3; ++corner)
+        result[c] += point.weight[corner] * double(values[std::size_t(corners[corner]) * count + c]);
+    }
+  };
+  return continuedOff(closest, ValuesAt(valuesAt), components, band);
 }
 
 std::vector<openvdb::FloatGrid::Ptr> continuedOff(const SurfaceTriangles& surface,

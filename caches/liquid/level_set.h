@@ -4,6 +4,7 @@
 #include "caches/liquid/closest_triangles.h"
 #include "caches/liquid/surface_mesh.h"
 
+#include <functional>
 #include <vector>
 
 namespace fluidtex::caches {
@@ -30,5 +31,12 @@ std::vector<openvdb::FloatGrid::Ptr> continuedOff(ClosestTriangles& closest, con
 std::vector<openvdb::FloatGrid::Ptr> continuedOff(const SurfaceTriangles& surface,
                                                   const std::vector<float>& values, int components, double h,
                                                   int band);
+
+// The same of any function of the closest point: writes `components` values for the closest point of a
+// triangle with these corners. Called from several threads.
+using ValuesAt =
+    std::function<void(const openvdb::Vec3I& corners, const TrianglePoint& closest, double* values)>;
+std::vector<openvdb::FloatGrid::Ptr> continuedOff(ClosestTriangles& closest, const ValuesAt& valuesAt,
+                                                  int components, int band);
 
 }  // namespace fluidtex::caches

@@ -9,6 +9,7 @@
 #include "caches/liquid/particle_velocity.h"
 #include "caches/liquid/particles.h"
 #include "caches/liquid/placement.h"
+#include "caches/liquid/surface_velocity.h"
 #include "caches/liquid/velocity_grids.h"
 
 #include <fmt/core.h>
@@ -148,7 +149,7 @@ std::vector<float> inWorld(std::vector<float> vectors, const Mat3d& velocityFrom
 
 void atPoints(const Cache& cache, ClosestTriangles& closest, const std::vector<float>& vectors,
               LiquidFrame& frame) {
-  frame.velocity = velocityGrids(continuedOff(closest, vectors, 3, reachInCells(cache, mostSpeed(vectors))));
+  frame.velocity = velocityOffSurface(closest, vectors, reachInCells(cache, mostSpeed(vectors)));
 }
 
 void velocityOfAttribute(const Cache& cache, int number, const Raw& raw, ClosestTriangles& closest,

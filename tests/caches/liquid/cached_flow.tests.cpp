@@ -103,9 +103,7 @@ TEST_CASE("cached_flow: a whole turn in 96 frames brings points home", "[caches]
     const CacheFiles files = writeCache(way, clip, scratch.path);
     const std::vector<sim::Frame> frames = framesOf(files.options, clip);
     CHECK(surfaceError(*frames.back().surfacePhi, clip.at(clip.frames)) < files.accuracy);
-    // Velocities at a mesh's points are those of the closest ones beside the surface: half a frame's motion
-    // off, where points are in the middle of a frame, they are a little those of other places.
-    CHECK(carriedError(frames, clip) < (way == Way::ply || way == Way::flipFluids ? 0.5 : 0.1));
+    CHECK(carriedError(frames, clip) < 0.1);
     for (const sim::Frame& frame : frames) CHECK(frame.stats.explained.value_or(1.0) > 0.9);
   }
 }

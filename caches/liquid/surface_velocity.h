@@ -1,0 +1,20 @@
+// Velocity around a surface whose points have velocities.
+#pragma once
+
+#include "caches/liquid/closest_triangles.h"
+#include "sim/grid/mac_grid.h"
+
+#include <vector>
+
+namespace fluidtex::caches {
+
+// Velocity in the cells within `band` cells of the surface, m/s, at their centres. velocity: of the points,
+// #P x 3, finite. Along the surface linear within triangles; off it by its derivative along the normal n, up
+// to two cells, and constant from there on. The derivative follows from those along the surface, grad_s u,
+// since a free surface has no shear stress and the liquid keeps its volume:
+//   du/dn = -(grad_s u)^T n - (div_s u) n
+// so that whatever turns as a solid is continued exactly. Mean over the triangles around a point and its
+// neighbours.
+sim::FaceGrids velocityOffSurface(ClosestTriangles& closest, const std::vector<float>& velocity, int band);
+
+}  // namespace fluidtex::caches
