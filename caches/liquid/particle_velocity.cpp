@@ -21,10 +21,10 @@ using openvdb::Vec3f;
 // Radius in which particles count, in spacings; the weight below which nothing is known; and what is added to
 // the spread of the particles, as a share of it and at least, so that those of a plane or a line give a slope
 // along it.
-constexpr double kReach = 3.0, kLeastWeight = 1e-3, kSpreadShare = 1e-6, kLeastSpread = 1e-12;
+constexpr double kReach = 4.0, kLeastWeight = 1e-3, kSpreadShare = 1e-6, kLeastSpread = 1e-12;
 // That radius where too few particles are within the other, and how many voxels beyond the particles it
 // serves.
-constexpr double kWideReach = 5.0;
+constexpr double kWideReach = 6.0;
 constexpr int kBeyond = 3, kLayers = 3;
 // Particles of equal weight that it takes to know a slope and what it leaves: twice those that a linear field
 // fits without error.
