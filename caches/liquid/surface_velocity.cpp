@@ -24,7 +24,7 @@ Vec3d velocityOf(const std::vector<float>& velocity, std::uint32_t point) {
   return {double(v[0]), double(v[1]), double(v[2])};
 }
 
-// S with du = S d for d along the normal: -(grad_s u)^T - (div_s u) I. False for a triangle without an area.
+// S with du = S d for d along the normal: -(grad_s u)^T. False for a triangle without an area.
 bool slopeOf(const SurfaceTriangles& surface, const std::vector<float>& velocity, const Vec3I& triangle,
              Mat3d& slope, double& area) {
   const Vec3d x[3] = {Vec3d(surface.points[triangle[0]]), Vec3d(surface.points[triangle[1]]),
@@ -33,17 +33,15 @@ bool slopeOf(const SurfaceTriangles& surface, const std::vector<float>& velocity
   const double square = normal.lengthSqr();
   if (!(square > 0.0)) return false;
   area = 0.5 * std::sqrt(square);
-  Mat3d transposed = Mat3d::zero();
+  slope = Mat3d::zero();
   for (int corner = 0; corner < 3; ++corner) {
     // Gradient of the corner's weight.
     const Vec3d gradient = normal.cross(x[(corner + 2) % 3] - x[(corner + 1) % 3]) / square;
     const Vec3d u = velocityOf(velocity, triangle[corner]);
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) transposed[i][j] += gradient[i] * u[j];
+      for (int j = 0; j < 3; ++j) slope[i][j] -= gradient[i] * u[j];
   }
-  const double divergence = transposed[0][0] + transposed[1][1] + transposed[2][2];
-  slope = -transposed - Mat3d::identity() * divergence;
-  return std::isfinite(divergence);
+  return std::isfinite(square);
 }
 
 // Means over the triangles around each point, by their area. ofTriangle(n, area, value) is false for those

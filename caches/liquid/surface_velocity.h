@@ -10,9 +10,9 @@ namespace fluidtex::caches {
 
 // Velocity in the cells within `band` cells of the surface, m/s, at their centres. velocity: of the points,
 // #P x 3, finite. Along the surface linear within triangles; off it by its derivative along the normal n, up
-// to two cells, and constant from there on. The derivative follows from those along the surface, grad_s u,
-// since a free surface has no shear stress and the liquid keeps its volume:
-//   du/dn = -(grad_s u)^T n - (div_s u) n
+// to two cells, and constant from there on. The part of it along the surface follows from the derivatives
+// there, grad_s u, since a free surface has no shear stress; that across the surface is taken to be 0:
+//   du/dn = -(grad_s u)^T n
 // so that whatever turns as a solid is continued exactly. Mean over the triangles around a point and its
 // neighbours.
 sim::FaceGrids velocityOffSurface(ClosestTriangles& closest, const std::vector<float>& velocity, int band);
