@@ -3,7 +3,7 @@
 #include "caches/formats/read_fields.h"
 #include "caches/liquid/continue_outwards.h"
 #include "caches/liquid/level_set.h"
-#include "caches/liquid/particles.h"
+#include "caches/liquid/particle_velocity.h"
 #include "caches/liquid/placement.h"
 
 #include <openvdb/tools/ValueTransformer.h>
