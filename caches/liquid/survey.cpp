@@ -40,6 +40,10 @@ Survey survey(const Options& options) {
   Cache cache{options, recognize(options), options.voxel};
   if (cache.layout.surfaceKind == SurfaceKind::particles && cache.options.radius == 0.0)
     cache.options.radius = radiusOfAll(cache);
+  const bool particles = cache.layout.surfaceKind == SurfaceKind::particles;
+  if (particles && cache.options.radius == 0.0)
+    throw LayoutError(cache.layout.surface.pattern.string() +
+                      ": no frame has particles enough to tell how large they are; give files.radius");
   SurfaceTriangles surface;
   int first = cache.layout.first;
   for (; first <= cache.layout.last; ++first) {
@@ -57,7 +61,6 @@ Survey survey(const Options& options) {
     const SurfaceTriangles later = readSurface(cache, number);
     if (!later.triangles.empty()) bounds.expand(boundsOf(later));
   }
-  const bool particles = cache.layout.surfaceKind == SurfaceKind::particles;
   return {std::move(cache.layout), cache.voxel, particles ? cache.options.radius : 0.0, bounds};
 }
 

@@ -83,6 +83,17 @@ TEST_CASE("survey: the first frames may hold no surface, not all", "[caches]") {
   CHECK_THROWS_WITH(survey(options), Contains("no frame holds a surface"));
 }
 
+TEST_CASE("survey: a particle alone does not tell how large it is", "[caches]") {
+  const Scratch scratch;
+  writeBytes(scratch.path / "drop_1.vtk", vtkBytes({Vec3d(0.5)}, {Vec3d(0.0)}));
+  Options options;
+  options.path = scratch.path;
+  CHECK_THROWS_WITH(survey(options), Contains("give files.radius"));
+  options.radius = 0.1;
+  const openvdb::BBoxd bounds = survey(options).bounds;
+  CHECK(bounds.extents()[0] == Approx(0.2).epsilon(0.2));
+}
+
 TEST_CASE("survey: a middle frame that is missing is no matter yet", "[caches]") {
   const Scratch scratch;
   const Options options = writeCache(Way::ply, falling(), scratch.path).options;
