@@ -41,9 +41,6 @@ Survey survey(const Options& options) {
   if (cache.layout.surfaceKind == SurfaceKind::particles && cache.options.radius == 0.0)
     cache.options.radius = radiusOfAll(cache);
   const bool particles = cache.layout.surfaceKind == SurfaceKind::particles;
-  if (particles && cache.options.radius == 0.0)
-    throw LayoutError(cache.layout.surface.pattern.string() +
-                      ": no frame has particles enough to tell how large they are; give files.radius");
   SurfaceTriangles surface;
   int first = cache.layout.first;
   for (; first <= cache.layout.last; ++first) {
@@ -53,7 +50,8 @@ Survey survey(const Options& options) {
   }
   if (surface.triangles.empty())
     throw LayoutError(cache.layout.surface.pattern.string() +
-                      ": no frame holds a surface; write at least one that does");
+                      ": no frame holds a surface; write at least one that does" +
+                      (particles ? ", or give files.radius where particles are too few to tell it" : ""));
   openvdb::BBoxd bounds = boundsOf(surface);
   if (cache.voxel == 0.0) cache.voxel = suitingVoxel(cache, first, surface);
   for (const int number : asked(cache, first)) {
