@@ -11,7 +11,7 @@ const sim::FloatGrid& fieldOf(const sim::Frame& frame, const std::string& name) 
   const auto found = frame.fields.find(name);
   if (found == frame.fields.end())
     throw std::runtime_error("frame " + std::to_string(frame.index) + ": has no " + name +
-                             ", which the texture is to follow; the files hold none of that name");
+                             ", which the texture is to follow; write it for all frames that have liquid");
   return *found->second;
 }
 

@@ -86,6 +86,10 @@ void takeView(const openvdb::BBoxd& bounds, render::Camera& camera) {
 // Of the program's own frames: the domain that they were made in, seen as always.
 std::vector<std::string> takeRecording(scenes::Scene& scene) {
   const caches::Recording recording = caches::openRecording(scene.files.path);
+  if (scene.files.follow)
+    throw caches::LayoutError(scene.files.path.string() +
+                              ": holds frames of fluidtex itself, which --follow does not wait for; let "
+                              "`fluidtex simulate` end first, or leave --follow out");
   takeFrames(recording.frames, 1, scene);
   if (scene.sim.size[0] == 0.0) {
     scene.sim.size = recording.sim.size;

@@ -133,7 +133,9 @@ TexturedFrame textureFrame(Texturing& texturing, const TexturedSurface& last, co
   {
     begin(Stage::prepare);
     const StageWatch stage(watch, seconds.prepare);
-    const texture::PointScale scale = scaleIn(texturing.scale, frame);
+    // What is followed is known where there is liquid.
+    const bool liquid = frame.surfacePhi->tree().leafCount() > 0;
+    const texture::PointScale scale = liquid ? scaleIn(texturing.scale, frame) : texture::PointScale{};
     if (!(spacing > 0.0)) {
       const double here = texture::spacingForPoints(*frame.surfacePhi, scene.texture.points, scale);
       spacing = here > 0.0 ? std::max(here, foreseenSpacing(scene)) : 0.0;

@@ -104,13 +104,19 @@ void writeJson(const std::filesystem::path& file, const scenes::Scene& scene,
 std::vector<ComparedFrames> compareFrames(const scenes::Scene& scene, int first, int last,
                                           const CheckCacheWishes& wishes) {
   std::vector<ComparedFrames> result;
-  if (caches::isRecording(scene.files.path)) return result;
+  if (caches::isRecording(scene.files.path)) {
+    if (!wishes.json.empty()) writeJson(wishes.json, scene, result);
+    return result;
+  }
   const caches::Cache cache{scene.files, caches::recognize(scene.files), scene.files.voxel,
                             scene.sim.frameRate};
   if (cache.layout.velocityKind == caches::VelocityKind::none) {
     if (!scene.files.fit)
       say("warning: no velocities were found; texture cannot follow the liquid without them, unless they are "
           "fitted to its surfaces, files.fit=true\n");
+    else
+      print("motion    fitted to the surfaces, since there are no velocities\n");
+    if (!wishes.json.empty()) writeJson(wishes.json, scene, result);
     return result;
   }
   const std::vector<int> begins = beginsOf(first, last, wishes.pairs);
@@ -165,7 +171,7 @@ void checkCache(const CommonOptions& options, const CheckCacheWishes& wishes) {
   const std::vector<std::string> found = pipeline::takeCache(scene);
   int first = 1, last = 0;
   parseFrames(options.frames, scene, first, last);
-  if (options.quiet) return;
+  if (options.quiet && wishes.json.empty()) return;
   for (const std::string& line : found) print("{}\n", line);
   printPoints(scene, compareFrames(scene, first, last, wishes));
 }

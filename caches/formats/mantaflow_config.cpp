@@ -12,6 +12,8 @@ namespace fluidtex::caches {
 namespace {
 
 constexpr std::size_t kSize = 204;
+// Of a side: what Blender offers.
+constexpr int kMostCells = 10000;
 constexpr std::string_view kEnd("C01", 4);  // with a zero behind it
 
 openvdb::Coord takeCoord(Bytes& bytes) {
@@ -61,11 +63,13 @@ MantaflowConfig readMantaflowConfig(const std::filesystem::path& file) {
       !config.p0.isFinite() || !config.p1.isFinite() || !config.worldFromObject.isFinite())
     fail(file, "holds numbers that are not finite; bake the cache anew");
   const openvdb::Coord& cells = config.resolution;
-  if (cells.x() < 1 || cells.y() < 1 || cells.z() < 1 || !(config.dx > 0.0f) ||
+  const auto fits = [](int n) { return n >= 1 && n <= kMostCells; };
+  if (!fits(cells.x()) || !fits(cells.y()) || !fits(cells.z()) || !(config.dx > 0.0f) ||
       !((config.p1 - config.p0).lengthSqr() > 0.0f))
     fail(file, "has no domain: its resolution is " + std::to_string(cells.x()) + " x " +
                    std::to_string(cells.y()) + " x " + std::to_string(cells.z()) + " cells, of edge " +
-                   std::to_string(config.dx) + "; all are above 0");
+                   std::to_string(config.dx) + "; all are above 0, and no more than " +
+                   std::to_string(kMostCells) + " cells");
   return config;
 }
 

@@ -23,7 +23,7 @@ std::string adviceFor(const std::filesystem::path& file);
 //   Attributes are those at points of .ply, .vtk, .vtp and .bgeo; texts are left out, and values may be NaN.
 //   In PLY each property is one number. Three whose names are the same but for x, y, z at the end become one
 // attribute of three components, by what is before that and before a '_' or '.': "vx vy vz" are "v",
-// "velocity_x velocity_y velocity_z" are "velocity". They do not where that is the name of another property.
+// "velocity_x velocity_y velocity_z" are "velocity". Another property of that name gets a '_' behind it.
 //   In .bobj nothing has a name: normals of Blender's are left out. FLIP Fluids' velocity######.bobj is read
 // as points; see flip_fluids.h.
 // Memory stays within a multiple of the file's size, or of its size unpacked, whatever it claims.

@@ -37,7 +37,7 @@ void addProperties(std::vector<sim::VertexProperty> properties, Geometry& geomet
   for (std::size_t p = 0; p < properties.size(); ++p) {
     std::string name = properties[p].name;
     const std::string stem = stemOf(name);
-    if (stem.empty() || placeOf.contains(stem)) continue;
+    if (stem.empty()) continue;
     std::array<std::size_t, 3> places{p, p, p};
     bool isWhole = true;
     for (const int axis : {1, 2}) {
@@ -56,7 +56,12 @@ void addProperties(std::vector<sim::VertexProperty> properties, Geometry& geomet
     for (const std::size_t place : places) isJoined[place] = true;
   }
   for (std::size_t p = 0; p < properties.size(); ++p)
-    if (!isJoined[p]) addAttribute(properties[p].name, 1, std::move(properties[p].values), geometry);
+    if (!isJoined[p]) {
+      // Texture coordinates are often u and v.
+      std::string name = properties[p].name;
+      while (geometry.attributes.contains(name)) name += "_";
+      addAttribute(name, 1, std::move(properties[p].values), geometry);
+    }
 }
 
 }  // namespace

@@ -24,6 +24,8 @@ constexpr std::array kDistanceNames{"surface",  "liquid_surface", "fluid_surface
 constexpr std::array kDensityNames{"density", "fluid", "liquid", "fluid_density"};
 constexpr std::array kVelocityNames{"vel", "v", "velocity", "velocities"};
 constexpr std::array kNormalNames{"n", "normal", "normals"};
+// Numbers that tell points apart: between two of them there is nothing.
+constexpr std::array kLabelNames{"id", "ids", "index", "particle_id", "particleid"};
 
 template <class Names>
 bool isOneOf(const Names& names, const std::string& name) {
@@ -181,7 +183,7 @@ AttributeChoice chooseAttributes(const std::filesystem::path& file, const Option
   choice.velocity = options.velocityName.empty() ? velocityOf(geometry)
                                                  : givenVelocity(file, geometry, options.velocityName);
   for (const auto& [name, attribute] : geometry.attributes) {
-    if (attribute.components == 1) choice.scalars.push_back(name);
+    if (attribute.components == 1 && !isOneOf(kLabelNames, lower(name))) choice.scalars.push_back(name);
     if (attribute.components == 3 && name != choice.velocity && !isOneOf(kNormalNames, lower(name)))
       choice.vectors.push_back(name);
   }

@@ -33,7 +33,7 @@ struct AttributeChoice {
   bool points = false;  // whether there are any; without them the rest says nothing
   bool triangles = false;
   std::string velocity;
-  std::vector<std::string> scalars, vectors;  // all others, by name, but for normals
+  std::vector<std::string> scalars, vectors;  // all others, by name, but for normals and labels
 };
 AttributeChoice chooseAttributes(const std::filesystem::path& file, const Options& options);
 

@@ -221,7 +221,8 @@ std::string joined(const std::vector<std::string>& names) {
 
 std::string namesOf(const std::vector<Field>& fields) {
   std::vector<std::string> names;
-  for (const Field& field : fields) names.push_back(field.name);
+  for (const Field& field : fields)
+    for (const std::string& name : scalarNames(field)) names.push_back(name);
   return joined(names);
 }
 

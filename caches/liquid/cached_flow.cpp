@@ -137,9 +137,9 @@ sim::Frame CachedFlow::next(const std::function<void(double)>& progress) {
   LiquidFrame now = readFrame(m_cache, number);
   if (progress) progress(0.7);
   if (now.isSheet)
-    warnOnce(
-        m_cache.layout.surface.pattern.string() +
-        ": encloses no volume in some frames; open surfaces are taken as sheets, one and a half cells thick");
+    warnOnce(m_cache.layout.surface.pattern.string() +
+             ": encloses no volume in some frames; surfaces that are open, or smaller than a cell "
+             "(files.voxel), are taken as sheets one and a half cells thick");
   if (m_cache.layout.velocityKind == VelocityKind::grids && !now.surface.triangles.empty() &&
       isUnknown(now.velocity))
     warnOnce(

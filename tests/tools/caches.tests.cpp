@@ -171,6 +171,12 @@ TEST_CASE("caches: an attribute guides, scales and turns the texture by its own 
   for (std::size_t v = 0; v < surface.positions.size(); ++v)
     CHECK(double(surface.scale[v]) == Approx(1.0 + double(surface.positions[v].z())).margin(0.02));
 
+  // A frame without liquid has nothing to follow.
+  const std::string first = readBytes(cache / "ball_0001.ply");
+  std::ofstream(cache / "ball_0001.ply").close();
+  CHECK(with("texture.scale={by=\"attribute\", attribute=\"heat\", " + points + "}").exitCode == 0);
+  std::ofstream(cache / "ball_0001.ply") << first;
+
   const Finished missing = with("texture.scale={by=\"attribute\", attribute=\"cold\", " + points + "}");
   CHECK(missing.exitCode != 0);
   CHECK(missing.err.find("texture.scale.attribute: the liquid in") != std::string::npos);

@@ -37,4 +37,12 @@ TEST_CASE("follow: a frame's files are whole once they rest, or the next frame's
   CHECK_FALSE(awaitedFile(layout, 2));
   CHECK(layout.last == 2);
   CHECK(layout.surface.at(2) == at("w_0002.ply"));
+  // Made, and not written yet.
+  fs::remove(at("w_0003.ply"));
+  std::ofstream(at("w_0003.ply")).close();
+  fs::last_write_time(at("w_0003.ply"), fs::file_time_type::clock::now() - seconds(60));
+  writeAgo(at("v_0003.vdb"), seconds(60));
+  CHECK(awaitedFile(layout, 3) == at("w_0003.ply"));
+  writeAgo(at("w_0004.ply"), seconds(0));
+  CHECK_FALSE(awaitedFile(layout, 3));
 }
