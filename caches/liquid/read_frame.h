@@ -26,8 +26,8 @@ LiquidFrame readFrame(const Cache& cache, int number);
 // else the mean edge.
 double suitingVoxel(const Cache& cache, int number, const SurfaceTriangles& surface);
 
-// Half the mean distance of the particles of a frame that are neighbours, in the files' unit; 0 where there are
-// too few. Requires SurfaceKind::particles. Throws as readSurface().
+// Half the mean distance of the particles of a frame that are neighbours, in the files' unit; 0 where there
+// are too few. Requires SurfaceKind::particles. Throws as readSurface().
 double particleRadius(const Cache& cache, int number);
 
 }  // namespace fluidtex::caches
