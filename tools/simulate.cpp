@@ -14,9 +14,9 @@
 #include "tools/run_folder/state.h"
 
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
+#include <nlohmann/json.hpp>
 
 #include <atomic>
 #include <memory>
