@@ -13,8 +13,8 @@ constexpr std::chrono::seconds kSettled{2};
 
 bool mayStillBeWritten(const NumberedFiles& files, int number) {
   if (files.last() > number) return false;
+  if (isEmptyFile(files.at(number))) return true;
   std::error_code gone;
-  if (fs::file_size(files.at(number), gone) == 0) return true;
   const fs::file_time_type changed = fs::last_write_time(files.at(number), gone);
   return gone || fs::file_time_type::clock::now() - changed < kSettled;
 }

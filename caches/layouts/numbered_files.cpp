@@ -87,6 +87,11 @@ NumberedFiles filesBetween(const fs::path& folder, const std::string& before, co
 
 }  // namespace
 
+bool isEmptyFile(const fs::path& file) {
+  std::error_code unknown;
+  return fs::file_size(file, unknown) == 0 && !unknown;
+}
+
 const fs::path& NumberedFiles::at(int number) const {
   if (const auto found = byNumber.find(number); found != byNumber.end()) return found->second;
   const auto after = byNumber.upper_bound(number);

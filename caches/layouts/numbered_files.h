@@ -14,6 +14,9 @@ struct LayoutError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Whether it is there and holds no byte: programs leave such files for frames without liquid.
+bool isEmptyFile(const std::filesystem::path& file);
+
 struct NumberedFiles {
   std::filesystem::path pattern;  // the number as ####, for messages
   std::map<int, std::filesystem::path> byNumber;

@@ -27,8 +27,7 @@ template <class Choose, class HoldsAnything>
 auto firstChoice(const NumberedFiles& files, fs::path& sample, const Choose& choose,
                  const HoldsAnything& holdsAnything) {
   for (const auto& [number, file] : files.byNumber) {
-    std::error_code unknown;
-    if (fs::file_size(file, unknown) == 0 && !unknown) continue;
+    if (isEmptyFile(file)) continue;
     sample = file;
     if (auto choice = choose(file); holdsAnything(choice)) return choice;
   }

@@ -10,14 +10,11 @@
 
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <memory>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 namespace fluidtex::caches {
-namespace fs = std::filesystem;
 namespace {
 
 using Fields = std::map<std::string, sim::FloatGrid::ConstPtr>;
@@ -48,7 +45,7 @@ openvdb::FloatGrid::Ptr component(const openvdb::Vec3SGrid& vectors, int axis) {
 void fromGrids(const Cache& cache, int number, const Field& field, Fields& fields) {
   const NumberedFiles& files = field.withVelocity ? cache.layout.velocity : cache.layout.surface;
   const std::vector<std::string> names = scalarNames(field);
-  if (std::error_code unknown; fs::file_size(files.at(number), unknown) == 0 && !unknown) return;
+  if (isEmptyFile(files.at(number))) return;
   if (!field.vectors) {
     fields[names.front()] = placed(cache, *readScalars(files.at(number), field.name));
     return;

@@ -122,11 +122,4 @@ std::vector<openvdb::FloatGrid::Ptr> continuedOff(ClosestTriangles& closest, con
   return continuedOff(closest, ValuesAt(valuesAt), components, band);
 }
 
-std::vector<openvdb::FloatGrid::Ptr> continuedOff(const SurfaceTriangles& surface,
-                                                  const std::vector<float>& values, int components, double h,
-                                                  int band) {
-  ClosestTriangles closest(surface, h);
-  return continuedOff(closest, values, components, band);
-}
-
 }  // namespace fluidtex::caches

@@ -28,9 +28,6 @@ LevelSet levelSetOf(ClosestTriangles& closest);
 // known, at the cells' centres: not where a value is no number.
 std::vector<openvdb::FloatGrid::Ptr> continuedOff(ClosestTriangles& closest, const std::vector<float>& values,
                                                   int components, int band);
-std::vector<openvdb::FloatGrid::Ptr> continuedOff(const SurfaceTriangles& surface,
-                                                  const std::vector<float>& values, int components, double h,
-                                                  int band);
 
 // The same of any function of the closest point: writes `components` values for the closest point of a
 // triangle with these corners. Called from several threads.

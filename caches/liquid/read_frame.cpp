@@ -39,11 +39,6 @@ constexpr double kMostCells = 3e7, kFarthest = 4e6;
 // Level of densities where nothing is said: this share of the largest.
 constexpr float kIsoShare = 0.5f;
 
-bool isEmptyFile(const fs::path& file) {
-  std::error_code unknown;
-  return fs::file_size(file, unknown) == 0 && !unknown;
-}
-
 bool isMantaflow(const Cache& cache) {
   return cache.layout.program == Program::mantaflow;
 }

@@ -66,6 +66,14 @@ std::vector<std::string> texturing(const fs::path& cache, const fs::path& out) {
           "texture.first_iterations=[1, 1, 1]"};
 }
 
+// Without a fault.
+Finished textured(const fs::path& cache, const fs::path& out) {
+  const Finished done = runProgram(texturing(cache, out));
+  INFO(done.all());
+  REQUIRE(done.exitCode == 0);
+  return done;
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -104,9 +112,7 @@ TEST_CASE("caches: a folder of meshes with velocities is textured without a scen
   const fs::path cache = scratch.path / "balls", out = scratch.path / "out", again = scratch.path / "again";
   fs::create_directory(cache);
   writeBalls(cache, 4, 1.2, 1.2);
-  const Finished done = runProgram(texturing(cache, out));
-  INFO(done.all());
-  REQUIRE(done.exitCode == 0);
+  const Finished done = textured(cache, out);
   CHECK(done.out.find("attribute v") != std::string::npos);
   const Json report = Json::parse(readBytes(out / "run.json"));
   REQUIRE(report["frames"].size() == 4);
@@ -127,9 +133,7 @@ TEST_CASE("caches: the mesh of a frame gets the texture too, vertex for vertex, 
   const fs::path cache = scratch.path / "balls", out = scratch.path / "out", none = scratch.path / "none";
   fs::create_directory(cache);
   writeBalls(cache, 2, 1.2, 1.2);
-  const Finished done = runProgram(texturing(cache, out));
-  INFO(done.all());
-  REQUIRE(done.exitCode == 0);
+  const Finished done = textured(cache, out);
   CHECK(done.out.find("further   heat") != std::string::npos);
   const auto own = tools::readPly(out / "surface/0002.ply", 64, 64),
              onto = tools::readPly(out / "onto/0002.ply", 64, 64);

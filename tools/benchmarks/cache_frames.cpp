@@ -204,22 +204,16 @@ struct IndexTriangles {
 }  // namespace
 
 void registerCacheFrames() {
-  const auto add = [](const std::string& name, auto run) {
-    benchmark::RegisterBenchmark(name.c_str(), run)
-        ->Iterations(1)
-        ->UseManualTime()
-        ->Unit(benchmark::kMillisecond);
-  };
   for (const int triangles : {100000, 500000}) {
     const std::string size = "/" + std::to_string(triangles), row = "cache_level_set" + size;
-    add("cache_frame" + size, [=](benchmark::State& state) { frame(state, triangles); });
-    add(row, [=](benchmark::State& state) {
+    addRow("cache_frame" + size, [=](benchmark::State& state) { frame(state, triangles); });
+    addRow(row, [=](benchmark::State& state) {
       measureLevelSet(state, row, triangles, [](const SurfaceTriangles& surface, double h) {
         return caches::levelSetOf(surface, h).phi;
       });
     });
     const std::string peer = row + "/peer:openvdb";
-    add(peer, [=](benchmark::State& state) {
+    addRow(peer, [=](benchmark::State& state) {
       measureLevelSet(state, peer, triangles, [](const SurfaceTriangles& surface, double h) {
         return openvdb::tools::meshToVolume<openvdb::FloatGrid>(
             IndexTriangles{surface, h}, *sim::cellTransform(h), caches::kBand, caches::kBand);

@@ -35,6 +35,12 @@ std::optional<double> measureMemory(benchmark::State& state, const std::string& 
 bool answerSelf(int argc, char** argv);
 bool answerSurface(int argc, char** argv);
 
+// A row that runs once and measures its own time (State::SetIterationTime).
+template <class Run>
+void addRow(const std::string& name, const Run& run, benchmark::TimeUnit unit = benchmark::kMillisecond) {
+  benchmark::RegisterBenchmark(name.c_str(), run)->Iterations(1)->UseManualTime()->Unit(unit);
+}
+
 // Each file's benchmarks.
 void registerCacheFrames();
 void registerDamBreak();

@@ -145,12 +145,6 @@ bool answerSurface(int argc, char** argv) {
 }
 
 void registerSurface() {
-  const auto add = [](const std::string& name, auto run) {
-    benchmark::RegisterBenchmark(name.c_str(), run)
-        ->Iterations(1)
-        ->UseManualTime()
-        ->Unit(benchmark::kMillisecond);
-  };
   struct Case {
     const char* shape;
     int points;
@@ -169,18 +163,18 @@ void registerSurface() {
     const int points = c.points;
     const std::string seeds = "surface_seeds/" + size, random = "surface_random/" + size,
                       first = "surface_first/" + size;
-    add(seeds, [=](benchmark::State& s) { ours(s, seeds, shape, points, Start::seeds); });
-    add(random, [=](benchmark::State& s) { ours(s, random, shape, points, Start::random); });
+    addRow(seeds, [=](benchmark::State& s) { ours(s, seeds, shape, points, Start::seeds); });
+    addRow(random, [=](benchmark::State& s) { ours(s, random, shape, points, Start::random); });
     if (c.peer) {
-      add(first, [=](benchmark::State& s) { ours(s, first, shape, points, Start::first); });
-      add(random + "/peer:cgal", [=](benchmark::State& s) { cgal(s, {seeds, random}, shape, points); });
+      addRow(first, [=](benchmark::State& s) { ours(s, first, shape, points, Start::first); });
+      addRow(random + "/peer:cgal", [=](benchmark::State& s) { cgal(s, {seeds, random}, shape, points); });
     }
   }
   for (const int points : {200000, 1000000}) {
     for (const Start start : {Start::seeds, Start::random}) {
-      add(std::string("surface_memory/") + (start == Start::seeds ? "seeds/" : "random/") +
-              std::to_string(points),
-          [=](benchmark::State& s) { memory(s, "sphere", points, start); });
+      addRow(std::string("surface_memory/") + (start == Start::seeds ? "seeds/" : "random/") +
+                 std::to_string(points),
+             [=](benchmark::State& s) { memory(s, "sphere", points, start); });
     }
   }
 }

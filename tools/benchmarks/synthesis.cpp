@@ -116,17 +116,11 @@ void laterFrames(benchmark::State& state, int points, int size) {
 }  // namespace
 
 void registerSynthesis() {
-  const auto add = [](const std::string& name, auto run) {
-    benchmark::RegisterBenchmark(name.c_str(), run)
-        ->Iterations(1)
-        ->UseManualTime()
-        ->Unit(benchmark::kMillisecond);
-  };
   for (const int size : {256, 1024})
-    add("synthesis_prepare/" + std::to_string(size), [=](benchmark::State& s) { prepare(s, size); });
+    addRow("synthesis_prepare/" + std::to_string(size), [=](benchmark::State& s) { prepare(s, size); });
   const auto addFrames = [&](const std::string& name, int points, int size) {
-    add("synthesis_first" + name, [=](benchmark::State& s) { firstFrame(s, points, size); });
-    add("synthesis_later" + name, [=](benchmark::State& s) { laterFrames(s, points, size); });
+    addRow("synthesis_first" + name, [=](benchmark::State& s) { firstFrame(s, points, size); });
+    addRow("synthesis_later" + name, [=](benchmark::State& s) { laterFrames(s, points, size); });
   };
   for (const int points : {20000, 200000, 1000000}) addFrames("/" + std::to_string(points), points, 256);
   for (const int size : {64, 128, 512, 1024})

@@ -189,21 +189,15 @@ void closestPeer(benchmark::State& state, const std::string& row, int points, Pe
 }  // namespace
 
 void registerTransport() {
-  const auto add = [](const std::string& name, auto run) {
-    benchmark::RegisterBenchmark(name.c_str(), run)
-        ->Iterations(1)
-        ->UseManualTime()
-        ->Unit(benchmark::kMillisecond);
-  };
   for (const int points : {20000, 200000, 2000000}) {
     const std::string size = "/" + std::to_string(points), row = "transport_closest" + size;
-    add("transport_trace" + size, [=](benchmark::State& s) { trace(s, points); });
-    add("transport_pick_up" + size, [=](benchmark::State& s) { pickUp(s, points); });
-    add(row, [=](benchmark::State& s) { closest(s, row, points); });
+    addRow("transport_trace" + size, [=](benchmark::State& s) { trace(s, points); });
+    addRow("transport_pick_up" + size, [=](benchmark::State& s) { pickUp(s, points); });
+    addRow(row, [=](benchmark::State& s) { closest(s, row, points); });
     for (const auto& [name, peer] :
          {std::pair<const char*, Peer>{"embree", embreeClosest}, {"cgal", cgalClosest}}) {
       const std::string peerRow = row + "/peer:" + name;
-      add(peerRow, [=, peer = peer](benchmark::State& s) { closestPeer(s, peerRow, points, peer); });
+      addRow(peerRow, [=, peer = peer](benchmark::State& s) { closestPeer(s, peerRow, points, peer); });
     }
   }
 }

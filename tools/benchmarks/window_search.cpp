@@ -144,11 +144,8 @@ void peer(benchmark::State& state, const std::string& row, int size, int window,
 }  // namespace
 
 void registerWindowSearch() {
-  const auto add = [](const std::string& name, auto run) {
-    benchmark::RegisterBenchmark(name.c_str(), run)
-        ->Iterations(1)
-        ->UseManualTime()
-        ->Unit(benchmark::kMicrosecond);
+  const auto add = [](const std::string& name, const auto& run) {
+    addRow(name, run, benchmark::kMicrosecond);
   };
   for (const int size : {256, 1024})
     for (const int window : {9, 33}) {

@@ -8,14 +8,13 @@ A figure that was measured takes its place on the page; the others stay. One bes
 row, counts as measured where both were, in one run. The list "What does not hold" is written anew, and so is the table
 of the runs that figures are of. A row that bars.toml does not know is refused, and the page left as it is.
 """
-import json
 import os
 import re
 import sys
 import tomllib
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from markdown import FAILS, Page, PageError, number, state, write_whole
+from markdown import FAILS, Page, PageError, bring_up_to_date, number, state
 
 BARS = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "benchmarks", "bars.toml")
 COLUMNS = ("row", "figure", "ours", "peer", "peer / ours", "must", "goal", "", "run")
@@ -148,16 +147,9 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     figures, path = sys.argv[1:]
-    try:
-        with open(figures) as file, open(path) as page, open(BARS, "rb") as bars:
-            text = updated_page(page.read(), json.load(file), tomllib.load(bars))
-        write_whole(path, text)
-    except PageError as error:
-        sys.exit("error: %s: %s" % (path, error))
-    except OSError as error:
-        sys.exit("error: %s: %s" % (error.filename, error.strerror))
-    except json.JSONDecodeError:
-        sys.exit("error: %s: not what Google Benchmark writes" % figures)
+    with open(BARS, "rb") as file:
+        bars = tomllib.load(file)
+    bring_up_to_date(path, [figures], "Google Benchmark", lambda text, found: updated_page(text, found[0], bars))
 
 
 if __name__ == "__main__":

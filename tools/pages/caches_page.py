@@ -4,13 +4,12 @@
 FIGURES.json is what `fluidtex check CACHE --pairs 9999 --json FIGURES.json` wrote of the cache that the page calls
 NAME. Its rows take the place of those of that name, or come behind the others.
 """
-import json
 import os
 import statistics
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from markdown import Page, PageError, write_whole
+from markdown import Page, PageError, bring_up_to_date
 
 HEADING = "## Measured"
 ALL = ("cache", "moves", "explained, median", "least", "displacement over velocity, median", "least to most",
@@ -78,21 +77,9 @@ def updated_page(text, measured):
 def main():
     if len(sys.argv) < 3 or not all("=" in argument for argument in sys.argv[2:]):
         sys.exit(__doc__)
-    path, measured = sys.argv[1], {}
-    try:
-        for argument in sys.argv[2:]:
-            name, file = argument.split("=", 1)
-            with open(file) as figures:
-                measured[name] = json.load(figures)
-        with open(path) as page:
-            text = updated_page(page.read(), measured)
-        write_whole(path, text)
-    except PageError as error:
-        sys.exit("error: %s: %s" % (path, error))
-    except OSError as error:
-        sys.exit("error: %s: %s" % (error.filename, error.strerror))
-    except json.JSONDecodeError:
-        sys.exit("error: %s: not what fluidtex check --json writes" % file)
+    names, files = zip(*(argument.split("=", 1) for argument in sys.argv[2:]))
+    bring_up_to_date(sys.argv[1], files, "fluidtex check --json",
+                     lambda text, found: updated_page(text, dict(zip(names, found))))
 
 
 if __name__ == "__main__":

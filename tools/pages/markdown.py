@@ -3,7 +3,9 @@
 A bar is text as it stands in the columns must and goal: `400` (at most so much), `>= 4` (at least), `0.98 to 1.02`
 (within), or nothing.
 """
+import json
 import os
+import sys
 import tempfile
 
 GOAL, HOLDS, FAILS = "goal", "holds", "**fails**"
@@ -99,6 +101,25 @@ class Page:
     def replace(self, columns, rows, heading=None):
         first, last = self._table(columns, heading)
         self.lines[first:last + 1] = table_lines(columns, rows)
+
+
+def bring_up_to_date(path, files, written_by, updated):
+    """Writes updated(page's text, what is in the JSON files) in place of the page, or ends with what is wrong."""
+    read = None
+    try:
+        found = []
+        for read in files:
+            with open(read) as figures:
+                found.append(json.load(figures))
+        with open(path) as page:
+            text = updated(page.read(), found)
+        write_whole(path, text)
+    except PageError as error:
+        sys.exit("error: %s: %s" % (path, error))
+    except OSError as error:
+        sys.exit("error: %s: %s" % (error.filename, error.strerror))
+    except json.JSONDecodeError:
+        sys.exit("error: %s: not what %s writes" % (read, written_by))
 
 
 def write_whole(path, text):

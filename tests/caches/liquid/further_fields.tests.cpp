@@ -69,14 +69,23 @@ Differences differences(const LiquidFrame& frame) {
   return most;
 }
 
+struct Mesh {
+  std::vector<Vec3d> points;
+  std::vector<openvdb::Vec3I> triangles;
+};
+
+Mesh writeBall(const fs::path& file, int halvings) {
+  Mesh ball;
+  ballMesh({}, halvings, ball.points, ball.triangles);
+  writeBytes(file, plyWithFields(ball.points, ball.triangles));
+  return ball;
+}
+
 }  // namespace
 
 TEST_CASE("further fields: attributes of a mesh on its surface, whatever is no number left out", "[caches]") {
   const Scratch scratch;
-  std::vector<Vec3d> points;
-  std::vector<openvdb::Vec3I> triangles;
-  ballMesh({}, 4, points, triangles);
-  writeBytes(scratch.path / "a_1.ply", plyWithFields(points, triangles));
+  const auto [points, triangles] = writeBall(scratch.path / "a_1.ply", 4);
   const LiquidFrame frame = readFrame(cacheAt(scratch.path), 1);
   CHECK(frame.fields.size() == 4);
   CHECK(differences(frame).heat < 1.0);
@@ -143,10 +152,7 @@ TEST_CASE("further fields: grids beside the surface's, in the place that the opt
 
 TEST_CASE("further fields: the mesh of a frame as it came, points in their order", "[caches]") {
   const Scratch scratch;
-  std::vector<Vec3d> points;
-  std::vector<openvdb::Vec3I> triangles;
-  ballMesh({}, 2, points, triangles);
-  writeBytes(scratch.path / "a_1.ply", plyWithFields(points, triangles));
+  const auto [points, triangles] = writeBall(scratch.path / "a_1.ply", 2);
   Options options;
   options.unit = 0.001;
   options.move = Vec3d(1.0, 0.0, 0.0);

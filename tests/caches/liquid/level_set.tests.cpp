@@ -50,6 +50,13 @@ bool sameBytes(const openvdb::FloatGrid& a, const openvdb::FloatGrid& b) {
   return true;
 }
 
+std::vector<openvdb::FloatGrid::Ptr> continuedOff(const SurfaceTriangles& surface,
+                                                  const std::vector<float>& values, int components,
+                                                  int band) {
+  ClosestTriangles closest(surface, kCell);
+  return fluidtex::caches::continuedOff(closest, values, components, band);
+}
+
 }  // namespace
 
 TEST_CASE("level_set: distances to a ball, however its triangles are turned", "[caches]") {
@@ -113,7 +120,7 @@ TEST_CASE("level_set: without triangles there is no liquid", "[caches]") {
   CHECK_FALSE(result.isSheet);
   CHECK(result.phi->activeVoxelCount() == 0);
   CHECK(result.phi->background() > 0.0f);
-  CHECK(continuedOff({}, {}, 3, kCell, 4).size() == 3);
+  CHECK(continuedOff({}, std::vector<float>{}, 3, 4).size() == 3);
 }
 
 TEST_CASE("level_set: triangles without area are no matter", "[caches]") {
@@ -132,7 +139,7 @@ TEST_CASE("level_set: values are continued off the surface from its closest poin
   const SurfaceTriangles surface = ballSurface();
   std::vector<float> values;
   for (const Vec3f& x : surface.points) values.insert(values.end(), {float(field(Vec3d(x))), x[2]});
-  const std::vector<openvdb::FloatGrid::Ptr> grids = continuedOff(surface, values, 2, kCell, 4);
+  const std::vector<openvdb::FloatGrid::Ptr> grids = continuedOff(surface, values, 2, 4);
   REQUIRE(grids.size() == 2);
   double widest = 0.0, sum = 0.0;
   for (auto value = grids[0]->cbeginValueOn(); value; ++value) {
@@ -154,7 +161,7 @@ TEST_CASE("level_set: values that are no numbers stay unknown", "[caches]") {
   const SurfaceTriangles surface = ballSurface();
   std::vector<float> values(surface.points.size(), 2.0f);
   values[0] = std::nanf("");
-  const openvdb::FloatGrid::Ptr grid = continuedOff(surface, values, 1, kCell, 4).front();
+  const openvdb::FloatGrid::Ptr grid = continuedOff(surface, values, 1, 4).front();
   REQUIRE(grid->activeVoxelCount() > 4000);
   for (auto value = grid->cbeginValueOn(); value; ++value) CHECK(*value == Approx(2.0f));
 }
@@ -329,7 +336,7 @@ TEST_CASE("level_set: closest triangles of a level set go on to be those of its 
   for (const Vec3f& x : surface.points) values.push_back(x[0]);
   ClosestTriangles closest(surface, kCell);
   levelSetOf(closest);
-  const auto after = continuedOff(closest, values, 1, 8), alone = continuedOff(surface, values, 1, kCell, 8);
+  const auto after = continuedOff(closest, values, 1, 8), alone = continuedOff(surface, values, 1, 8);
   CHECK(after.front()->activeVoxelCount() == alone.front()->activeVoxelCount());
   for (auto value = after.front()->cbeginValueOn(); value; ++value) {
     const Vec3d x = after.front()->indexToWorld(value.getCoord());
