@@ -23,14 +23,14 @@ def values(collection, key, width, kind=np.float32):
     return result.reshape(-1, width) if width > 1 else result
 
 
-def render(width, height, samples=1, filter_width=0.01):
+def render(width, height, samples=1, filter_width=0.01, transparent=True):
     """height x width x 4, linear, premultiplied, rows from the bottom."""
     scene = bpy.context.scene
     scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = width, height, 100
     scene.cycles.samples = samples
     scene.cycles.pixel_filter_type = "GAUSSIAN"
     scene.cycles.filter_width = filter_width
-    scene.render.film_transparent = True
+    scene.render.film_transparent = transparent
     scene.render.image_settings.file_format = "OPEN_EXR"
     scene.render.image_settings.color_mode = "RGBA"
     scene.render.image_settings.color_depth = "32"
@@ -103,6 +103,22 @@ class Import(InBlender):
             shown = values(attributes["Col"].data, "color", 4)
             np.testing.assert_allclose(small_run.encoded(shown[:, :3]), rgba[:, :3], atol=1e-5)
             np.testing.assert_allclose(shown[:, 3], rgba[:, 3], atol=1e-6)
+
+    def test_normals_are_the_runs_own_where_asked_for(self):
+        folder, squares = self.run_folder()
+        square = squares[1]
+        tilted = np.stack([0.6 * np.sin(square.position[:, 0] * 9), np.zeros(len(square.fade)), np.ones(len(square.fade))], 1)
+        tilted /= np.linalg.norm(tilted, axis=1)[:, None]
+        square.write(os.path.join(folder, "surface", "0002.ply"), dict(zip(("nx", "ny", "nz"), tilted.T)))
+        for custom, wanted in ((True, tilted), (False, np.broadcast_to((0.0, 0.0, 1.0), tilted.shape))):
+            mesh = fluidtex.import_run(folder, start=0, custom_normals=custom).data
+            if bpy.app.version < (4, 1):
+                mesh.calc_normals_split()
+                found = values(mesh.loops, "normal", 3)
+            else:
+                found = values(mesh.corner_normals, "vector", 3)
+            np.testing.assert_allclose(found, wanted[square.triangles.ravel()], atol=2e-3)
+            np.testing.assert_allclose(values(mesh.attributes["surface_normal"].data, "vector", 3), tilted, atol=1e-6)
 
     def test_places_of_joint_triangles_are_those_of_each_corner(self):
         folder, (square, *_) = self.run_folder()
@@ -493,11 +509,20 @@ class Texture(InBlender):
         self.assertEqual(fluidtex.first_number(self.folder), 10)
 
 
-if __name__ == "__main__":
+def run_tests(module):
+    """All tests of a module, or those named behind --."""
     fluidtex.register()
-    names = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else None
-    suite = unittest.defaultTestLoader.loadTestsFromNames(names, sys.modules["__main__"]) if names else \
-        unittest.defaultTestLoader.loadTestsFromModule(sys.modules["__main__"])
+    names = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    suite = unittest.TestSuite()
+    for each in vars(module).values():
+        if isinstance(each, type) and issubclass(each, unittest.TestCase) and each.__module__ == "__main__" and each is not InBlender:
+            suite.addTests(unittest.defaultTestLoader.loadTestsFromTestCase(each))
+    if names:
+        suite = unittest.TestSuite(test for test in suite if any(name in test.id() for name in names))
     result = unittest.TextTestRunner(verbosity=2).run(suite)
     # Blender ends with 0 whatever a test says, unless it is told so.
     sys.exit(0 if result.wasSuccessful() and result.testsRun else 1)
+
+
+if __name__ == "__main__":
+    run_tests(sys.modules["__main__"])

@@ -6,6 +6,7 @@
 #   import fluidtex; fluidtex.register()
 #   liquid = fluidtex.import_run("out/dam_break")
 #   fluidtex.texture("cache_fluid", "lava.jpg", "out/lava")      # blocks; then import_run("out/lava")
+import atexit
 import json
 import os
 import re
@@ -197,7 +198,12 @@ def attribute_groups(properties):
 
 
 def columns(vertices, names):
-    """#V x len(names), float; one copy."""
+    """#V x len(names), float; one copy, of neighbouring floats in one go."""
+    fields = [vertices.dtype.fields[name] for name in names]
+    first = fields[0][1]
+    if all(kind == np.dtype("<f4") and place == first + 4 * k for k, (kind, place) in enumerate(fields)):
+        wide = np.dtype({"names": ["all"], "formats": [("<f4", (len(names),))], "offsets": [first], "itemsize": vertices.dtype.itemsize})
+        return np.ascontiguousarray(vertices.view(wide)["all"])
     result = np.empty((len(vertices), len(names)), np.float32)
     for k, name in enumerate(names):
         result[:, k] = vertices[name]
@@ -267,12 +273,13 @@ _MEAN_HALVINGS = 3  # means are over 8 x 8 pixels of the exemplar, as texture/sh
 _SAME = 1e-3        # squared differences of lightness below this count as none
 
 
-class _Nodes:
+class Nodes:
     """Short words for making nodes of one tree. Sockets and numbers can stand for each other as inputs."""
 
-    def __init__(self, tree):
+    def __init__(self, tree, clear=True):
         self.tree = tree
-        tree.nodes.clear()
+        if clear:
+            tree.nodes.clear()
 
     def new(self, kind, **settings):
         node = self.tree.nodes.new(kind)
@@ -348,7 +355,7 @@ def _fade_group():
     number = "NodeSocketFloat"
     group = _new_group("fluidtex fade", {"Shown": "NodeSocketColor", "Former": "NodeSocketColor", "Shown Mean": number,
                                          "Former Mean": number, "Weight": number}, {"Share": number})
-    nodes = _Nodes(group)
+    nodes = Nodes(group)
     inputs = nodes.new("NodeGroupInput").outputs
     weight, shown_mean, former_mean = inputs["Weight"], inputs["Shown Mean"], inputs["Former Mean"]
     math = nodes.math
@@ -466,7 +473,7 @@ def color_group(run, path):
     fade = _fade_group()
     see_through = image.channels == 4 and bool((_pixels(image)[..., 3] < 1).any())
     group = _look_up_group(run, image, "colours", {}, {"Color": "NodeSocketColor", "Alpha": "NodeSocketFloat"})
-    nodes = _Nodes(group)
+    nodes = Nodes(group)
     corner = _corner_weights(nodes)
 
     def layer(maps):
@@ -503,7 +510,7 @@ def value_group(run, path):
     """Node group: the numbers of a picture over the exemplar; outputs Color (three of them) and Value (the first)."""
     image = _load_image(path, True)
     group = _look_up_group(run, image, "values", {}, {"Color": "NodeSocketColor", "Value": "NodeSocketFloat"})
-    nodes = _Nodes(group)
+    nodes = Nodes(group)
     corner = _corner_weights(nodes)
 
     def layer(maps):
@@ -522,7 +529,7 @@ def normal_group(run, path):
     Normal, and input Strength."""
     image = _load_image(path, True)
     group = _look_up_group(run, image, "normals", {"Strength": "NodeSocketFloat"}, {"Normal": "NodeSocketVector"})
-    nodes = _Nodes(group)
+    nodes = Nodes(group)
     corner = _corner_weights(nodes)
     strength = nodes.new("NodeGroupInput").outputs["Strength"]
 
@@ -593,7 +600,7 @@ def make_material(liquid):
         material = bpy.data.materials.new(f"{liquid.name} texture")
         liquid.data.materials.append(material)
     material.use_nodes = True
-    nodes = _Nodes(material.node_tree)
+    nodes = Nodes(material.node_tree)
 
     def group(made):
         return nodes.new("ShaderNodeGroup", node_tree=made)
@@ -811,6 +818,7 @@ class Job:
                                          text=True, errors="replace")
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
+        atexit.register(self.stop)
 
     def _read(self):
         for line in self._process.stdout:
