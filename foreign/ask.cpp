@@ -1,6 +1,7 @@
 #include "foreign/ask.h"
 
 #include "foreign/packets.h"
+#include "foreign/program_beside.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -20,14 +21,6 @@
 
 namespace fluidtex::foreign {
 namespace {
-
-// Beside the program that asks, or else where it was built.
-std::filesystem::path readerProgram() {
-  std::error_code ignored;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  const std::filesystem::path beside = self.parent_path() / "fluidtex_reader";
-  return std::filesystem::exists(beside, ignored) ? beside : std::filesystem::path(FLUIDTEX_READER);
-}
 
 // The reader that runs, if any; it ends when its socket is closed, which the end of this program does too.
 struct Running {
@@ -58,7 +51,7 @@ struct Running {
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
-    std::string program = readerProgram().string();
+    std::string program = programBeside("fluidtex_reader", FLUIDTEX_READER).string();
     char* const arguments[] = {program.data(), nullptr};
     pid_t started = -1;
     const int error = posix_spawn(&started, program.c_str(), &actions, nullptr, arguments, environ);

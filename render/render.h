@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace fluidtex::render {
@@ -42,9 +43,15 @@ struct View {
 Picture render(const texture::TexturedSurface& surface, const std::vector<Solid>& solids,
                const Options& options, const View& view, const std::function<void(double)>& progress = {});
 
-// Writes sRGB, 8 bits, PNG. Throws std::runtime_error that names the file. Not atomic: the caller gives a
-// temporary name and renames.
-void writePng(const Picture& picture, const std::filesystem::path& file);
+// Text that is kept in a picture's file, UTF-8: a PNG keyword ("Title", of 79 Latin letters at most) and what
+// it says.
+struct PictureNote {
+  std::string key, text;
+};
+
+// Writes sRGB, 8 bits, PNG; the same picture and notes give the same bytes. Throws std::runtime_error that
+// names the file. Not atomic: the caller gives a temporary name and renames.
+void writePng(const Picture& picture, const std::filesystem::path& file, std::vector<PictureNote> notes = {});
 
 // Encodes frames first..last, FOLDER/frameName(FRAME).png, as H.264, yuv420p, bt709. Throws
 // std::runtime_error with ffmpeg's last line of output.

@@ -52,17 +52,19 @@ void writeSheet(const fs::path& out, int first, int last) {
       pictures.push_back({out / variant.folder / "frames" / (render::frameName(frame) + ".png"),
                           fmt::format("{}, {}", variant.label, frame)});
   }
-  writeContactSheet(pictures, int(kVariants.size()), kSheetWidth, out / "compare.jpg");
+  writeContactSheets({{pictures, int(kVariants.size()), kSheetWidth, out / "compare.jpg"}});
 }
 
 void writeVideo(const fs::path& out, int first, int last, double frameRate) {
+  std::vector<ContactSheet> sheets;
   for (int frame = first; frame <= last; ++frame) {
     const std::string name = render::frameName(frame) + ".png";
-    std::vector<LabelledPicture> pictures;
+    ContactSheet& sheet =
+        sheets.emplace_back(ContactSheet{{}, kVideoColumns, kVideoWidth, out / "frames" / name});
     for (const Variant& variant : kVariants)
-      pictures.push_back({out / variant.folder / "frames" / name, variant.label});
-    writeContactSheet(pictures, kVideoColumns, kVideoWidth, out / "frames" / name);
+      sheet.pictures.push_back({out / variant.folder / "frames" / name, variant.label});
   }
+  writeContactSheets(sheets);
   writeAtomically(out / "compare.mp4", [&](const fs::path& file) {
     render::writeVideo(out / "frames", first, last, frameRate, file);
   });

@@ -57,6 +57,31 @@ TEST_CASE("png: the same picture gives the same bytes", "[render]") {
   REQUIRE(readBytes(scratch.path / "a.png") == readBytes(scratch.path / "b.png"));
 }
 
+TEST_CASE("png: notes are found by another reader, in letters of any language", "[render]") {
+  const Scratch scratch;
+  const fs::path file = scratch.path / "noted.png";
+  writePng({2, 1, {0, 0, 0, 1, 1, 1}}, file,
+           {{"Title", "Flüsse & Täler 50 %"}, {"Frame", "12"}, {"Empty", ""}});
+  const auto input = OIIO::ImageInput::open(file.string());
+  REQUIRE(input);
+  // Its own names of the keywords that it knows.
+  CHECK(input->spec().get_string_attribute("DocumentName") == "Flüsse & Täler 50 %");
+  CHECK(input->spec().get_string_attribute("Frame") == "12");
+  const std::string bytes = readBytes(file);
+  CHECK(bytes.find(std::string("tEXtFrame\0"
+                               "12",
+                               12)) != bytes.npos);
+  CHECK(bytes.find("iTXtTitle") != bytes.npos);
+  CHECK(bytes.find("tIME") == bytes.npos);
+}
+
+TEST_CASE("png: a picture without pixels is refused", "[render]") {
+  const Scratch scratch;
+  CHECK_THROWS_WITH(writePng({}, scratch.path / "none.png"),
+                    Catch::Contains("none.png: the picture could not be written: "));
+  CHECK_FALSE(fs::exists(scratch.path / "none.png"));
+}
+
 TEST_CASE("png: a place that cannot be written is named", "[render]") {
   REQUIRE_THROWS_WITH(writePng({1, 1, {0, 0, 0}}, "/nonexistent_folder/x.png"),
                       Catch::StartsWith("/nonexistent_folder/x.png: the picture could not be written: "));

@@ -33,7 +33,7 @@ TEST_CASE("contact sheet: pictures in rows, scaled alike, with their names", "[t
   const fs::path light = writePicture(scratch.path / "a.png", 80, 40, 1.0f),
                  dark = writePicture(scratch.path / "b.png", 160, 80, 0.5f);
   const fs::path file = scratch.path / "sheet.png";
-  writeContactSheet({{light, ""}, {dark, ""}, {light, "name"}}, 2, 100, file);
+  writeContactSheets({{{{light, ""}, {dark, ""}, {light, "name"}}, 2, 100, file}});
   const OIIO::ImageBuf sheet(file.string());
   REQUIRE(sheet.spec().width % 2 == 0);
   REQUIRE(sheet.spec().height % 2 == 0);
@@ -49,7 +49,7 @@ TEST_CASE("contact sheet: pictures in rows, scaled alike, with their names", "[t
     for (int x = 0; x < 60; ++x) lettered += pixelOf(sheet, x, y)[1] > 0.5f || pixelOf(sheet, x, y)[0] < 0.5f;
   }
   CHECK(lettered > 20);
-  CHECK_THROWS_WITH(writeContactSheet({{scratch.path / "missing.png", ""}}, 1, 100, file),
+  CHECK_THROWS_WITH(writeContactSheets({{{{scratch.path / "missing.png", ""}}, 1, 100, file}}),
                     Catch::Contains("missing.png"));
-  CHECK_THROWS_AS(writeContactSheet({}, 1, 100, file), std::runtime_error);
+  CHECK_THROWS_AS(writeContactSheets({{{}, 1, 100, file}}), std::runtime_error);
 }
