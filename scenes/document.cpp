@@ -29,6 +29,7 @@ constexpr std::size_t kLongestAssignment = 160;
 
 const std::string kTooDeep = "is nested more than " + std::to_string(kDeepest) + " deep";
 const std::string kNotSoDeep = "no key of a scene has more than 8 parts";
+const std::string kGiveScene = "give a scene file, for example scenes/dam_break.toml";
 
 // `place` turns a position into an origin: lines and columns mean something in a file only.
 template <class Place>
@@ -213,14 +214,12 @@ const Entry* find(const Table& table, const std::string& key) {
 }
 
 Node readDocument(const std::filesystem::path& file, Faults& faults) {
-  const std::string name = file.string();
-  const Origin top = inFile(name, 1, 1);
-  Node document{Table{}, top};
-  const std::string right = "give a scene file, for example scenes/dam_break.toml";
+  const Origin top = inFile(file.string(), 1, 1);
+  const Node nothing{Table{}, top};
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
-    faults.add(top, "file", "is a folder", right);
-    return document;
+    faults.add(top, "file", "is a folder", kGiveScene);
+    return nothing;
   }
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
@@ -230,12 +229,18 @@ Node readDocument(const std::filesystem::path& file, Faults& faults) {
     const int reason = errno;
     faults.add(top, "file",
                reason == ENOENT ? "no such file" : std::string("cannot be read: ") + std::strerror(reason),
-               right);
-    return document;
+               kGiveScene);
+    return nothing;
   }
   text.resize(std::size_t(stream.gcount()));
+  return readDocument(text, file.string(), faults);
+}
+
+Node readDocument(const std::string& text, const std::string& name, Faults& faults) {
+  const Origin top = inFile(name, 1, 1);
+  Node document{Table{}, top};
   if (text.size() > kLargestFile) {
-    faults.add(top, "file", "is larger than " + std::to_string(kLargestFile >> 20) + " MB", right);
+    faults.add(top, "file", "is larger than " + std::to_string(kLargestFile >> 20) + " MB", kGiveScene);
     return document;
   }
   if (const auto deep = tooDeep(text)) {

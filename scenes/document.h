@@ -38,6 +38,9 @@ const Entry* find(const Table& table, const std::string& key);
 // an empty table.
 Node readDocument(const std::filesystem::path& file, Faults& faults);
 
+// The same of text that was read already; `name`: what it is called in faults.
+Node readDocument(const std::string& text, const std::string& name, Faults& faults);
+
 // Parses one option of the command line into a table for overlay(). KEY=VALUE: KEY dotted, VALUE as in TOML,
 // or a bare word, taken as a string. layer: its index among the options.
 Node readAssignment(const std::string& assignment, int layer, Faults& faults);

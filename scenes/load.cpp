@@ -5,10 +5,12 @@
 #include "scenes/reader.h"
 #include "scenes/scene.h"
 #include "scenes/schema.h"
+#include "scenes/source.h"
 #include "scenes/writer.h"
 
 #include <algorithm>
 #include <array>
+#include <regex>
 #include <utility>
 
 namespace fluidtex::scenes {
@@ -110,8 +112,9 @@ std::string nameOfCache(const std::filesystem::path& cache) {
   if (std::filesystem::is_directory(plain)) return plain.filename().string();
   std::string name = plain.filename().string();
   name.resize(std::min(name.find('.'), name.size()));
-  const std::size_t last = name.find_last_not_of("0123456789#%d_-");
-  return last == std::string::npos ? "cache" : name.substr(0, last + 1);
+  static const std::regex kNumber("[-_ ]*(#+|%[0-9]*d|[0-9]+)$");
+  name = std::regex_replace(name, kNumber, "");
+  return name.empty() ? "cache" : name;
 }
 
 // A scene whose liquid comes out of files, with the qualities that shipped scenes have too.
@@ -138,6 +141,18 @@ Node documentOfCache(const std::filesystem::path& cache) {
         table({{"preview", quality(10000, 480, 270, 8)}, {"final", quality(200000, 1920, 1080, 64)}})}});
 }
 
+Node readSource(const Source& source, Faults& faults) {
+  return source.text ? readDocument(*source.text, source.file.string(), faults)
+                     : readDocument(source.file, faults);
+}
+
+// The document with one of its qualities and the command line's layers over it.
+Node overlaid(Node document, const Node& quality, const std::vector<Node>& commandLine, Faults& faults) {
+  overlay(document, quality, faults);
+  for (const Node& layer : commandLine) overlay(document, layer, faults);
+  return document;
+}
+
 // A document with the command line's layers over it.
 Scene resolved(const Node& written, const std::filesystem::path& file, const Overrides& overrides) {
   Faults faults;
@@ -151,10 +166,8 @@ Scene resolved(const Node& written, const std::filesystem::path& file, const Ove
   Faults ofDefault;
   for (std::size_t i = 0; i < kQualities.size(); ++i) {
     Faults found;
-    Node overlaid = document;
-    overlay(overlaid, qualities[i], found);
-    for (const Node& layer : commandLine) overlay(overlaid, layer, found);
-    Scene candidate = readScene(overlaid, file, overrides.liquidOnly, found);
+    const Node whole = overlaid(document, qualities[i], commandLine, found);
+    Scene candidate = readScene(whole, file, overrides.liquidOnly, found);
     if (kQualities[i] == overrides.quality) scene = std::move(candidate);
     if (i == 0) ofDefault = found;
     for (Fault fault : found.all()) {
@@ -178,14 +191,31 @@ SceneError::SceneError(std::vector<std::string> lines)
     : std::runtime_error(joinedLines(lines)), faults(std::move(lines)) {}
 
 Scene loadScene(const std::filesystem::path& file, const Overrides& overrides) {
+  return loadScene(Source{file, {}}, overrides);
+}
+
+Scene loadScene(const Source& source, const Overrides& overrides) {
   Faults faults;
-  const Node written = readDocument(file, faults);
+  const Node written = readSource(source, faults);
   // Without the file's content everything would be missing from it.
   if (!faults.empty()) {
     readOverrides(overrides, faults);
     throw SceneError(faults.lines());
   }
-  return resolved(written, file, overrides);
+  return resolved(written, source.file, overrides);
+}
+
+std::string faultLine(const Source& source, const Overrides& overrides, const std::string& key,
+                      const std::string& message) {
+  Faults ignored, faults;
+  const std::vector<Node> commandLine = readOverrides(overrides, ignored);
+  Node document = expanded(readSource(source, ignored), "", ignored);
+  const std::array<Node, 3> qualities = takeQualities(document, ignored);
+  const auto quality =
+      std::find(kQualities.begin(), kQualities.end(), overrides.quality) - kQualities.begin();
+  const Node whole = overlaid(document, qualities[std::size_t(quality)], commandLine, ignored);
+  faults.add({Reader(whole, source.file.parent_path(), ignored).originOf(key), key, message});
+  return faults.lines().front();
 }
 
 Scene sceneOfCache(const std::filesystem::path& cache, const Overrides& overrides) {
