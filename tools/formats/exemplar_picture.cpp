@@ -1,0 +1,42 @@
+#include "tools/formats/exemplar_picture.h"
+
+#include "texture/exemplar/srgb.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace fluidtex::tools {
+
+bool isSeeThrough(const texture::Image& color) {
+  for (std::size_t i = 3; i < color.data.size(); i += 4)
+    if (color.data[i] < 1.0f) return true;
+  return false;
+}
+
+std::string pngOf(const texture::Image& color) {
+  const std::size_t channels = isSeeThrough(color) ? 4 : 3;
+  std::vector<png_byte> pixels;
+  pixels.reserve(color.data.size() / 4 * channels);
+  for (std::size_t i = 0; i < color.data.size(); ++i) {
+    if (i % 4 >= channels) continue;
+    const float value = i % 4 < 3 ? texture::encodeSrgb(color.data[i]) : color.data[i];
+    pixels.push_back(static_cast<png_byte>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f))));
+  }
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(color.width);
+  image.height = static_cast<png_uint_32>(color.height);
+  image.format = channels == 4 ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
+  png_alloc_size_t size = bytes.size();
+  if (!png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr))
+    throw std::runtime_error(std::string("the exemplar cannot be written as PNG: ") + image.message);
+  bytes.resize(size);
+  return bytes;
+}
+
+}  // namespace fluidtex::tools

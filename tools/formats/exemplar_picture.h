@@ -1,0 +1,20 @@
+// The exemplar as a file of the run's folder, for materials that look it up.
+#pragma once
+
+#include "texture/exemplar/image.h"
+
+#include <string>
+
+namespace fluidtex::tools {
+
+// In the folder of the run: the exemplar, and the picture that `texture.between_file` names.
+inline constexpr const char *kExemplarFile = "exemplar.png", *kBetweenFile = "between.png";
+
+// A PNG of 8 bits a channel, sRGB, of linear RGBA pixels with straight alpha. Without alpha where it is 1
+// everywhere. Throws std::runtime_error.
+std::string pngOf(const texture::Image& color);
+
+// Whether any alpha is below 1.
+bool isSeeThrough(const texture::Image& color);
+
+}  // namespace fluidtex::tools

@@ -1,0 +1,55 @@
+#include "tools/formats/obj.h"
+
+#include "texture/exemplar/srgb.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace fluidtex::tools {
+
+std::string objOf(const ExportMesh& mesh) {
+  fmt::memory_buffer text;
+  const auto to = std::back_inserter(text);
+  fmt::format_to(to, "# fluidtex, metres, Y up, frame {}, {:g} s\nmtllib {}\no surface\n", mesh.frame,
+                 mesh.time, kObjMaterials);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const texture::Vec3f& x = mesh.positions[v];
+    fmt::format_to(to, "v {} {} {}", x[0], x[2], -x[1]);
+    for (int k = 0; k < 3; ++k)
+      fmt::format_to(to, " {:.4g}", std::clamp(texture::encodeSrgb(mesh.color[v][k]), 0.0f, 1.0f));
+    text.push_back('\n');
+  }
+  for (const texture::Vec3f& n : mesh.normals)
+    fmt::format_to(to, "vn {:.5g} {:.5g} {:.5g}\n", n[0], n[2], -n[1]);
+  const Column* st = findColumn(mesh.vertex, "st");
+  for (std::size_t v = 0; st != nullptr && v < mesh.positions.size(); ++v)
+    fmt::format_to(to, "vt {} {}\n", st->values[2 * v], 1.0f - st->values[2 * v + 1]);  // origin lower left
+  fmt::format_to(to, "usemtl exemplar\ns 1\n");
+  for (const texture::Vec3I& t : mesh.triangles) {
+    if (st != nullptr)
+      fmt::format_to(to, "f {0}/{0}/{0} {1}/{1}/{1} {2}/{2}/{2}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    else
+      fmt::format_to(to, "f {0}//{0} {1}//{1} {2}//{2}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  }
+  return fmt::to_string(text);
+}
+
+std::string mtlOf(const Appearance& appearance) {
+  // Blinn's exponent of a GGX lobe of that alpha.
+  const double alpha = std::max(appearance.roughness, 0.01), exponent = 2.0 / (alpha * alpha) - 2.0;
+  // Of a coat with an index of refraction of 1.5, seen head on.
+  const double reflected = 0.04 * appearance.gloss;
+  std::string text = fmt::format(
+      "# fluidtex\nnewmtl exemplar\nKd 1 1 1\nKs {0:.4g} {0:.4g} {0:.4g}\nNs {1:.4g}\nNi 1.5\nillum 2\n",
+      reflected, std::min(exponent, 1000.0));
+  if (appearance.picture.empty()) return text;
+  const std::string options = appearance.toroidal ? "" : "-clamp on ";
+  text += fmt::format("map_Kd {}../{}\n", options, appearance.picture);
+  if (appearance.seeThrough) text += fmt::format("map_d {}../{}\n", options, appearance.picture);
+  return text;
+}
+
+}  // namespace fluidtex::tools

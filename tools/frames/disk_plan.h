@@ -1,0 +1,35 @@
+// Estimate of what a run takes on the disk.
+#pragma once
+
+#include "scenes/scene.h"
+#include "tools/formats/format.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fluidtex::tools {
+
+// What is written. Leads, not promises.
+struct DiskPlan {
+  double surfaces = 0.0;  // bytes of all frames, in all formats
+  double pictures = 0.0;  // and the video
+  double state = 0.0;     // while a new one takes the place of the last, both are there
+  double total() const { return surfaces + pictures + state; }
+};
+
+// points: on the surface of a frame. cells: of liquid; 0 where nothing is simulated.
+DiskPlan plannedDisk(const scenes::Scene& scene, int frames, double points, double cells, bool rendered,
+                     const std::vector<Format>& formats);
+
+// "about 1.2 GB: surfaces 0.9 GB, pictures 0.1 GB, state/ 0.2 GB".
+std::string textOf(const DiskPlan& plan);
+
+// Bytes that are free where the folder is, or would be made; nothing where the system does not say.
+std::optional<double> freeBytes(const std::filesystem::path& folder);
+
+// A warning where what is free there, and what an earlier run takes there, will not do; empty else.
+std::string diskNote(const DiskPlan& plan, const std::filesystem::path& out);
+
+}  // namespace fluidtex::tools

@@ -1,0 +1,70 @@
+#include "tools/frames/export_frame.h"
+
+#include "texture/exemplar/read_image.h"
+#include "texture/shown/vector_maps.h"
+#include "tools/base/atomic_file.h"
+#include "tools/base/errors.h"
+#include "tools/formats/exemplar_picture.h"
+#include "tools/output/read_ply.h"
+#include "tools/run_folder/finished_run.h"
+#include "tools/run_folder/journal.h"
+
+namespace fluidtex::tools {
+namespace fs = std::filesystem;
+namespace {
+
+// A value of the scene by its dotted place, or what is usual.
+template <typename T>
+T valueOf(const Json& scene, const char* pointer, const T& usual) {
+  try {
+    return scene.value(Json::json_pointer(pointer), usual);
+  } catch (const Json::exception&) {
+    throw UsageError(std::string("run.json: ") + pointer + " is not what a run has written");
+  }
+}
+
+}  // namespace
+
+Appearance appearanceOf(const Json& scene, const texture::Image& color) {
+  const Appearance usual;
+  Appearance appearance;
+  appearance.name = valueOf(scene, "/name", usual.name);
+  appearance.frameRate = valueOf(scene, "/frame_rate", usual.frameRate);
+  const bool lookedUp = valueOf<std::string>(scene, "/texture/method", "") == "coordinates" &&
+                        valueOf<std::string>(scene, "/texture/later_frames", "") != "advect";
+  if (lookedUp)
+    appearance.picture =
+        valueOf<std::string>(scene, "/texture/between", "") == "file" ? kBetweenFile : kExemplarFile;
+  appearance.toroidal = valueOf(scene, "/texture/toroidal", false);
+  appearance.seeThrough = isSeeThrough(color);
+  appearance.gloss = valueOf(scene, "/render/gloss", usual.gloss);
+  appearance.roughness = valueOf(scene, "/render/roughness", usual.roughness);
+  return appearance;
+}
+
+void writePictures(const fs::path& out, const texture::Image& color, const fs::path& betweenFile) {
+  const auto write = [&](const char* name, const texture::Image& picture) {
+    if (!fs::exists(out / name)) writeTextAtomically(out / name, pngOf(picture));
+  };
+  write(kExemplarFile, color);
+  if (!betweenFile.empty()) write(kBetweenFile, texture::readImage(betweenFile));
+}
+
+void exportFrame(const fs::path& out, int frame, const Exports& exports, const texture::Image& color) {
+  const double time = (frame - 1) / exports.appearance.frameRate;
+  texture::TexturedSurface surface = readPly(out / frameFile(Format::ply, frame), color.width, color.height);
+  if (lacksGradients(surface)) {
+    surface.spacing = spacingOf(out, surface, frame);
+    texture::recoverGradients(exports.appearance.toroidal, surface);
+  }
+  writeExports(surface, frame, time, exports, out);
+  updateSequences(exports, out);
+  if (!hasJournal(out)) return;
+  std::vector<JournalLine> lines;
+  for (const Format format : exports.formats)
+    if (format != Format::ply)
+      lines.push_back(lineOfFile(frameFile(format, frame), fingerprintOf(out / frameFile(format, frame))));
+  addToJournal(out, lines);
+}
+
+}  // namespace fluidtex::tools

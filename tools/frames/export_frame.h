@@ -1,0 +1,25 @@
+// The files of a run in other formats than PLY, made from its PLYs alone, so that they have the same bytes
+// whenever that is done.
+#pragma once
+
+#include "texture/exemplar/image.h"
+#include "tools/formats/exports.h"
+#include "tools/run_folder/report.h"
+
+namespace fluidtex::tools {
+
+// Of a run with this scene, as resolved. color: the exemplar. Throws UsageError for what is no such scene.
+Appearance appearanceOf(const Json& scene, const texture::Image& color);
+
+// Writes OUT/exemplar.png, and OUT/between.png of a picture that is looked up in its place, unless they are
+// there. betweenFile: that picture; empty: none.
+void writePictures(const std::filesystem::path& out, const texture::Image& color,
+                   const std::filesystem::path& betweenFile);
+
+// Writes a frame's files, brings the files up to date that list the sequence, and adds the frame's to the
+// journal if there is one. Throws UsageError where the PLY is no surface of a run, std::system_error of the
+// disk.
+void exportFrame(const std::filesystem::path& out, int frame, const Exports& exports,
+                 const texture::Image& color);
+
+}  // namespace fluidtex::tools
