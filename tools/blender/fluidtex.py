@@ -162,12 +162,12 @@ _GROUPS = {
     "orientation": ("dx", "dy", "dz"),
     "previous_position": ("bx", "by", "bz"),
     "velocity": ("vx", "vy", "vz"),
-    "place": ("s", "t"),
-    "former_place": ("fade_s", "fade_t"),
+    "st": ("s", "t"),
+    "fade_st": ("fade_s", "fade_t"),
     "gradient_s": ("sx", "sy", "sz"),
     "gradient_t": ("tx", "ty", "tz"),
-    "former_gradient_s": ("fade_sx", "fade_sy", "fade_sz"),
-    "former_gradient_t": ("fade_tx", "fade_ty", "fade_tz"),
+    "fade_gradient_s": ("fade_sx", "fade_sy", "fade_sz"),
+    "fade_gradient_t": ("fade_tx", "fade_ty", "fade_tz"),
 }
 _KINDS = {1: ("FLOAT", "value"), 2: ("FLOAT2", "vector"), 3: ("FLOAT_VECTOR", "vector"), 4: ("FLOAT_COLOR", "color")}
 UV_MAPS = ("exemplar", "exemplar1", "exemplar2")        # of the place that is shown, of each corner's piece
@@ -605,7 +605,7 @@ def make_material(liquid):
     def group(made):
         return nodes.new("ShaderNodeGroup", node_tree=made)
 
-    with_places = run.has_places()
+    with_places = run.has_places() and not settings.by_points
     settings.problem = ""
     if with_places and not os.path.exists(run.exemplar):
         settings.problem = f"{run.exemplar}: the run's exemplar is not there; name it in the panel. Colours of the points are shown"
@@ -621,8 +621,8 @@ def make_material(liquid):
         alpha = nodes.attribute("Col", "Alpha")
         wanted = [name for name in ("color", "roughness", "normal", "bump", "displacement", "alpha") if getattr(settings, f"{name}_map")]
         if wanted:
-            raise Problem(f"{run.surfaces}: holds no places in the exemplar to look up a map of {wanted[0]} at; let this version of "
-                          "fluidtex write it again")
+            raise Problem(f"{run.surfaces}: a map of {wanted[0]} needs places in the exemplar, which are not there or not used; untick Colours of "
+                          "the points, or let this version of fluidtex write the run again")
     roughness = float(np.sqrt(render.get("roughness", 0.05)))  # ours is GGX's alpha
     if settings.roughness_map:
         roughness = group(value_group(run, settings.roughness_map)).outputs["Value"]
@@ -728,6 +728,8 @@ def import_run(path, start=1, scene=None, name=None, **settings):
     own = liquid.fluidtex
     own.surfaces = bpy.path.relpath(run.surfaces) if bpy.data.filepath else run.surfaces
     own.start, own.frame_rate = start, run.frame_rate
+    # The files of onto/ do not say what fades; their colours do.
+    own.by_points = os.path.basename(run.surfaces) == "onto"
     _take_maps(own, run)
     for key, value in settings.items():
         setattr(own, key, value)
@@ -895,6 +897,7 @@ class FluidtexLiquid(bpy.types.PropertyGroup):
     custom_normals: BoolProperty(name="The run's normals", description="As custom normals; slow. Else those of the smooth mesh")
     exemplar: StringProperty(name="Exemplar", subtype="FILE_PATH", description="Where the run's exemplar is no longer at its place")
     shader: EnumProperty(name="Shader", items=_SHADERS)
+    by_points: BoolProperty(name="Colours of the points", description="Shown instead of looking the exemplar up at every place; without maps")
     color_map: _map("Colour")
     roughness_map: _map("Roughness")
     normal_map: _map("Normals")
@@ -1103,7 +1106,7 @@ class FLUIDTEX_PT_liquid(bpy.types.Panel):
         for name in ("surfaces", "start", "frame_rate", "beyond", "custom_normals"):
             layout.prop(own, name)
         layout.separator()
-        for names in (("exemplar",), ("shader",), ("color_map",), ("roughness_map",), ("normal_map", "normal_strength"),
+        for names in (("exemplar",), ("shader",), ("by_points",), ("color_map",), ("roughness_map",), ("normal_map", "normal_strength"),
                       ("bump_map", "bump_distance"), ("displacement_map", "displacement_scale"), ("alpha_map",)):
             layout.prop(own, names[0])
             if len(names) > 1 and getattr(own, names[0]):

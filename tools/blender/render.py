@@ -26,7 +26,7 @@ def arguments(words):
     options.add_argument("--shader", choices=["coat", "principled"], default="coat", help="coat: as the run's own pictures")
     options.add_argument("--color", metavar="PICTURE", help="a finer picture of the same exemplar (default: the scene's between_file, else the exemplar)")
     for name in ("roughness", "normal", "bump", "displacement", "alpha"):
-        options.add_argument(f"--{name}", metavar="PICTURE", help=f"map over the exemplar")
+        options.add_argument(f"--{name}", metavar="PICTURE", help="map over the exemplar")
     options.add_argument("--height", type=float, metavar="M", help="of white above black, with --bump and --displacement (default: 0.01)")
     options.add_argument("--plain", action="store_true", help="values above 0.8 are cut off at 1 instead of bent")
     options.add_argument("--blend", metavar="FILE", help="saves the scene for Blender and renders nothing")
