@@ -12,9 +12,11 @@ namespace fluidtex::texture {
 // Whether the name is reserved: that of a vertex property that every PLY has, or may have.
 inline bool isReservedName(const std::string& name) {
   static const std::set<std::string> kNames = {
-      "x",  "y",     "z",   "nx",      "ny",     "nz",     "red",  "green", "blue",     "alpha",
-      "s",  "t",     "dx",  "dy",      "dz",     "bx",     "by",   "bz",    "vx",       "vy",
-      "vz", "trust", "age", "contact", "fade_s", "fade_t", "fade", "scale", "guidance", "foam"};
+      "x",       "y",        "z",       "nx",      "ny",      "nz",      "red",    "green",  "blue",
+      "alpha",   "s",        "t",       "dx",      "dy",      "dz",      "bx",     "by",     "bz",
+      "vx",      "vy",       "vz",      "trust",   "age",     "contact", "fade_s", "fade_t", "fade",
+      "scale",   "guidance", "foam",    "sx",      "sy",      "sz",      "tx",     "ty",     "tz",
+      "fade_sx", "fade_sy",  "fade_sz", "fade_tx", "fade_ty", "fade_tz"};
   return kNames.contains(name);
 }
 

@@ -76,9 +76,7 @@ void applyMaps(const ApplyWishes& wishes) {
   const FinishedRun run = openRun(wishes.out, wishes.exemplar);
   const int width = run.color.width, height = run.color.height;
   std::vector<std::pair<std::string, texture::ExemplarMap>> maps;
-  bool vectors = false;
   for (const texture::MapOptions& map : wishes.maps) {
-    vectors |= map.holds != texture::MapHolds::values;
     maps.emplace_back(map.name, map.name == kColor ? texture::ExemplarMap{texture::vertexMap(
                                                          texture::readImage(map.file), width, run.toroidal)}
                                                    : texture::loadMap(map, width, run.toroidal));
@@ -88,9 +86,9 @@ void applyMaps(const ApplyWishes& wishes) {
       for (const std::string& note : imageNotes({map.file})) fmt::print(stderr, "warning: {}\n", note);
   for (const int frame : run.frames) {
     texture::TexturedSurface surface = readPly(run.surfaceOf(frame), width, height);
-    if (vectors && !surface.empty()) {
+    if (!surface.empty()) {
       surface.spacing = spacingOf(run, surface, frame);
-      texture::recoverGradients(run.toroidal, surface);
+      if (lacksGradients(surface)) texture::recoverGradients(run.toroidal, surface);
     }
     for (const auto& [name, map] : maps) {
       if (name == kColor)
@@ -99,7 +97,7 @@ void applyMaps(const ApplyWishes& wishes) {
         texture::lookUp(name, map, run.toroidal, surface);
     }
     writeAtomically(run.surfaceOf(frame), [&](const fs::path& file) {
-      writePly(surface, file);
+      writePly(surface, run.looksUp ? texture::findJoints(surface, run.toroidal) : texture::Joints{}, file);
       // What a run that goes on finds is as good as what it wrote.
       if (hasJournal(wishes.out))
         addToJournal(wishes.out, {lineOfFile(fs::relative(run.surfaceOf(frame), wishes.out).generic_string(),

@@ -2,6 +2,7 @@
 #include "render/bump.h"
 #include "render/frame_name.h"
 #include "render/render.h"
+#include "texture/shown/vector_maps.h"
 #include "tools/base/atomic_file.h"
 #include "tools/base/console.h"
 #include "tools/base/errors.h"
@@ -24,15 +25,10 @@ namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
 
-// What is looked up is the run's own exemplar, if colours were looked up there; the scene says only whether.
+// The run's own exemplar; the scene says only in what picture of it colours are looked up.
 texture::Options optionsOf(const FinishedRun& run, texture::Options options) {
-  const Json& texture = run.report["scene"]["texture"];
   options.exemplar.file = run.exemplar;
   options.exemplar.toroidal = run.toroidal;
-  options.synthesis.method =
-      texture.value("method", "") == "coordinates" ? texture::Method::coordinates : texture::Method::kwatra07;
-  options.laterFrames = texture.value("later_frames", "") == "advect" ? texture::LaterFrames::advect
-                                                                      : texture::LaterFrames::synthesize;
   return options;
 }
 
@@ -58,7 +54,7 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
   if (scene.texture.exemplar.between != texture::Between::points) {
     const FinishedRun run = openRun(from, {});
     width = run.color.width, height = run.color.height;
-    detail = detailOf(optionsOf(run, scene.texture));
+    if (run.looksUp) detail = detailOf(optionsOf(run, scene.texture));
   }
   for (int frame = first; frame <= last; ++frame) {
     texture::TexturedSurface surface = readPly(surfaceOf(frame), width, height);
@@ -74,7 +70,15 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
     nowAt(kOnPicture, frame);
     const render::Picture picture =
         render::render(surface, solids.at((frame - 1) / scene.sim.frameRate), scene.render,
-                       {scene.sim.size, progress, frame, colorBetween(detail, surface),
+                       {scene.sim.size, progress, frame, colorBetween(detail, surface, joints),
+    texture::Joints joints;
+    if (detail && !surface.empty()) {
+      if (lacksGradients(surface)) {
+        surface.spacing = spacingOf(from, surface, frame);
+        texture::recoverGradients(detail->toroidal, surface);
+      }
+      joints = texture::findJoints(surface, detail->toroidal);
+    }
                         detail && detail->seeThrough, scene.domainOrigin});
     writeAtomically(out / "frames" / (render::frameName(frame) + ".png"),
                     [&](const fs::path& file) { writePng(picture, file); });

@@ -9,34 +9,6 @@
 #include <stdexcept>
 
 namespace fluidtex::texture {
-namespace {
-
-// Neighbours within a patch are about a texel apart; texture compressed further than this is taken for a
-// seam.
-constexpr float kOnePiece = 3.0f;  // texels
-
-// Wraps q to within half an exemplar of `near`.
-Vec2f unwrapped(const Vec2f& q, const Vec2f& near, const TexturedSurface& surface) {
-  const Vec2f size(float(surface.exemplarWidth), float(surface.exemplarHeight));
-  Vec2f result = q;
-  for (int i = 0; i < 2; ++i) result[i] -= size[i] * std::round((q[i] - near[i]) / size[i]);
-  return result;
-}
-
-// Interpolated coordinate, if the three belong to one patch.
-std::optional<Vec2f> placeBetween(const std::vector<Vec2f>& places, const Vec3I& corner, const Vec3f& weights,
-                                  bool toroidal, const TexturedSurface& surface) {
-  std::array<Vec2f, 3> q;
-  for (int k = 0; k < 3; ++k) {
-    q[k] = places[corner[k]];
-    if (toroidal && k > 0) q[k] = unwrapped(q[k], q[0], surface);
-  }
-  for (int k = 0; k < 3; ++k)
-    if (!((q[(k + 1) % 3] - q[k]).length() < kOnePiece)) return std::nullopt;
-  return q[0] * weights[0] + q[1] * weights[1] + q[2] * weights[2];
-}
-
-}  // namespace
 
 Detail makeDetail(Image color, bool toroidal, int exemplarWidth) {
   if (color.channels != 4 || color.data.empty())
@@ -49,30 +21,38 @@ Detail makeDetail(Image color, bool toroidal, int exemplarWidth) {
   return {std::move(color), std::move(around), halvings, toroidal, seeThrough};
 }
 
-std::optional<Vec4f> colorBetween(const Detail& detail, const TexturedSurface& surface,
+std::optional<Vec4f> colorBetween(const Detail& detail, const TexturedSurface& surface, const Joints& joints,
                                   std::uint32_t triangle, const Vec3f& weights) {
   if (surface.coordinate.size() != surface.positions.size()) return std::nullopt;
   const Vec3I& corner = surface.triangles[triangle];
-  const auto now = placeBetween(surface.coordinate, corner, weights, detail.toroidal, surface);
-  if (!now) return std::nullopt;
-  const TexelToImage toPicture(surface, detail.color);
   float left = 0.0f;
-  int fading = 0;
-  for (int k = 0; k < 3; ++k) {
-    const float own = leftOf(surface.fading, corner[k]);
-    left += weights[k] * own;
-    fading += own > 0.0f;
-  }
-  const auto shown = [&](const Vec2f& present, const Vec2f& past, float weight) {
-    return shownColor(detail.color, detail.around, detail.toroidal, toPicture(present), toPicture(past),
-                      weight, detail.halvings);
+  for (int k = 0; k < 3; ++k) left += weights[k] * leftOf(surface.fading, corner[k]);
+  const TexelToImage toPicture(surface, detail.color);
+  const Torus torus(surface, detail.toroidal);
+  const auto reading = [&](const std::array<Vec2f, 3>& corners) {
+    const Vec2f pixel =
+        toPicture(corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2]);
+    if (left == 0.0f) return Reading{samplePremultiplied(detail.color, detail.toroidal, pixel)};
+    return readAt(detail.color, detail.around, detail.toroidal, pixel, detail.halvings);
   };
-  if (fading == 0) return shown(*now, *now, 0.0f);
-  // A corner that fades from nothing has no former coordinate.
-  if (fading < 3) return std::nullopt;
-  const auto former = placeBetween(surface.fading.coordinate, corner, weights, detail.toroidal, surface);
-  if (!former) return std::nullopt;
-  return shown(*now, *former, left);
+  const auto mixed = [&](const CornerPlaces& places) {
+    Reading sum;
+    for (int label = 0; label < 3; ++label) {
+      const Reading one = reading(places[std::size_t(label)]);
+      sum.color += one.color * weights[label];
+      sum.mean += one.mean * weights[label];
+    }
+    return sum;
+  };
+  const Joint* joint = jointIn(joints, triangle);
+  const auto read = [&](const std::vector<Vec2f>& coordinate, const CornerPlaces Joint::*places) {
+    if (joint) return mixed(joint->*places);
+    return reading({torus.brought(coordinate[corner[0]]), torus.brought(coordinate[corner[1]]),
+                    torus.brought(coordinate[corner[2]])});
+  };
+  const Reading now = read(surface.coordinate, &Joint::shown);
+  if (left == 0.0f) return straight(now.color);
+  return faded(now, read(joints.former.places.coordinate, &Joint::former), left);
 }
 
 }  // namespace fluidtex::texture

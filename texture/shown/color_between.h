@@ -3,6 +3,7 @@
 #pragma once
 
 #include "texture/exemplar/exemplar.h"
+#include "texture/joints/joints.h"
 
 #include <optional>
 
@@ -21,10 +22,10 @@ struct Detail {
 Detail makeDetail(Image color, bool toroidal, int exemplarWidth);
 
 // Colour at barycentric weights in a triangle, straight alpha: the picture at the interpolated exemplar
-// coordinate, cross-faded with the former coordinate as at vertices (shown_color.h). Nothing where the
-// corners belong to different patches, or the surface has no coordinates: there the vertices' colours are
-// interpolated.
-std::optional<Vec4f> colorBetween(const Detail& detail, const TexturedSurface& surface,
+// coordinate, cross-faded with the former coordinate as at vertices (shown_color.h). In joints the look-ups
+// of the three labels are mixed. joints: findJoints() of the surface. Nothing where the surface has no
+// coordinates.
+std::optional<Vec4f> colorBetween(const Detail& detail, const TexturedSurface& surface, const Joints& joints,
                                   std::uint32_t triangle, const Vec3f& weights);
 
 }  // namespace fluidtex::texture

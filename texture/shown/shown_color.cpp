@@ -19,19 +19,6 @@ float lightness(const float* rgb) {
   return encodeSrgb(luminance(rgb));
 }
 
-// Premultiplied colour at a coordinate, and the mean lightness around it.
-struct Reading {
-  Vec4f color;
-  float mean = 0.0f;
-};
-
-Reading readAt(const Image& colors, const Image& around, bool toroidal, const Vec2f& texel, int halvings) {
-  const auto size = float(1 << halvings), shift = 0.5f * (size - 1.0f);
-  Reading result{samplePremultiplied(colors, toroidal, texel)};
-  sampleBilinear(around, toroidal, (texel - Vec2f(shift, shift)) * (1.0f / size), &result.mean);
-  return result;
-}
-
 }  // namespace
 
 Image lightnessAround(const Image& color, bool toroidal, int halvings) {
@@ -44,22 +31,32 @@ Image lightnessAround(const Image& color, bool toroidal, int halvings) {
   return result;
 }
 
-Vec4f shownColor(const Image& color, const Image& around, bool toroidal, const Vec2f& present,
-                 const Vec2f& former, float weight, int halvings) {
-  if (weight == 0.0f) return straight(samplePremultiplied(color, toroidal, present));
-  const Reading now = readAt(color, around, toroidal, present, halvings),
-                old = readAt(color, around, toroidal, former, halvings);
+Reading readAt(const Image& color, const Image& around, bool toroidal, const Vec2f& texel, int halvings) {
+  const auto size = float(1 << halvings), shift = 0.5f * (size - 1.0f);
+  Reading result{samplePremultiplied(color, toroidal, texel)};
+  sampleBilinear(around, toroidal, (texel - Vec2f(shift, shift)) * (1.0f / size), &result.mean);
+  return result;
+}
+
+Vec4f faded(const Reading& now, const Reading& former, float weight) {
   const float angle = 0.5f * std::numbers::pi_v<float> * weight, a = std::cos(angle), b = std::sin(angle);
-  const float one = lightness(now.color.asPointer()), other = lightness(old.color.asPointer());
-  const float wanted =
-      std::clamp(now.mean + weight * (old.mean - now.mean) + a * (one - now.mean) + b * (other - old.mean),
-                 std::min(one, other), std::max(one, other));
+  const float one = lightness(now.color.asPointer()), other = lightness(former.color.asPointer());
+  const float wanted = std::clamp(
+      now.mean + weight * (former.mean - now.mean) + a * (one - now.mean) + b * (other - former.mean),
+      std::min(one, other), std::max(one, other));
   // The colour of that lightness on the line between both; by the weight where they are equally bright.
   const float from = decodeSrgb(other), way = decodeSrgb(one) - from;
   const float along = way != 0.0f ? (decodeSrgb(wanted) - from) / way : 0.0f;
   const float differ = (one - other) * (one - other);
   const float share = (along * differ + kSame * (1.0f - weight)) / (differ + kSame);
-  return straight(old.color + (now.color - old.color) * share);
+  return straight(former.color + (now.color - former.color) * share);
+}
+
+Vec4f shownColor(const Image& color, const Image& around, bool toroidal, const Vec2f& present,
+                 const Vec2f& former, float weight, int halvings) {
+  if (weight == 0.0f) return straight(samplePremultiplied(color, toroidal, present));
+  return faded(readAt(color, around, toroidal, present, halvings),
+               readAt(color, around, toroidal, former, halvings), weight);
 }
 
 }  // namespace fluidtex::texture

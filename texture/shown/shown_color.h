@@ -12,6 +12,15 @@ inline constexpr int kMeanHalvings = 3;
 // premultiplied, reduced by s = 2^halvings. Texel x of the colours lies at (x - (s - 1) / 2) / s.
 Image lightnessAround(const Image& color, bool toroidal, int halvings = kMeanHalvings);
 
+// A look-up.
+struct Reading {
+  Vec4f color{0.0f};  // premultiplied
+  float mean = 0.0f;  // lightness around
+};
+
+Reading readAt(const Image& color, const Image& around, bool toroidal, const Vec2f& texel,
+               int halvings = kMeanHalvings);
+
 // Cross-faded colour, linear RGBA, straight alpha. around: lightnessAround(color, toroidal, halvings).
 // weight, 0..1: of the former coordinate.
 // The lightness is mixed first. Local means are mixed by the weight, deviations from them with equal power
@@ -21,5 +30,8 @@ Image lightnessAround(const Image& color, bool toroidal, int halvings = kMeanHal
 // of a bright place is a third of the way to it for the eye, and would appear within one frame.
 Vec4f shownColor(const Image& color, const Image& around, bool toroidal, const Vec2f& present,
                  const Vec2f& former, float weight, int halvings = kMeanHalvings);
+
+// The same of two look-ups.
+Vec4f faded(const Reading& now, const Reading& former, float weight);
 
 }  // namespace fluidtex::texture

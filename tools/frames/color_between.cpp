@@ -8,12 +8,19 @@
 
 namespace fluidtex::tools {
 
+bool looksUp(const texture::Options& options) {
+  return options.synthesis.method == texture::Method::coordinates &&
+         options.laterFrames != texture::LaterFrames::advect;
+}
+
+texture::Joints jointsOf(const texture::Options& options, const texture::TexturedSurface& surface) {
+  if (!looksUp(options)) return {};
+  return texture::findJoints(surface, options.exemplar.toroidal);
+}
+
 std::optional<texture::Detail> detailOf(const texture::Options& options) {
   const texture::ExemplarOptions& exemplar = options.exemplar;
-  if (exemplar.between == texture::Between::points ||
-      options.synthesis.method != texture::Method::coordinates ||
-      options.laterFrames == texture::LaterFrames::advect)
-    return std::nullopt;
+  if (exemplar.between == texture::Between::points || !looksUp(options)) return std::nullopt;
   texture::Image own = texture::readImage(exemplar.file);
   const int width = own.width, height = own.height;
   if (exemplar.between == texture::Between::exemplar)
@@ -27,10 +34,10 @@ std::optional<texture::Detail> detailOf(const texture::Options& options) {
 }
 
 render::ColorBetween colorBetween(const std::optional<texture::Detail>& detail,
-                                  const texture::TexturedSurface& surface) {
+                                  const texture::TexturedSurface& surface, const texture::Joints& joints) {
   if (!detail) return {};
   return [&](std::uint32_t triangle, const texture::Vec3f& weights) {
-    return texture::colorBetween(*detail, surface, triangle, weights);
+    return texture::colorBetween(*detail, surface, joints, triangle, weights);
   };
 }
 

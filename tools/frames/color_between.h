@@ -8,13 +8,20 @@
 
 namespace fluidtex::tools {
 
+// Whether colours are looked up at exemplar coordinates.
+bool looksUp(const texture::Options& options);
+
+// findJoints() of the surface; none where colours are not looked up at exemplar coordinates.
+texture::Joints jointsOf(const texture::Options& options, const texture::TexturedSurface& surface);
+
 // The picture to look up, read from its file. Nothing if the points' colours are interpolated: because the
 // scene says so, or because its colours are not looked up at exemplar coordinates. Throws ExemplarError if it
 // cannot be read or has not the exemplar's aspect ratio.
 std::optional<texture::Detail> detailOf(const texture::Options& options);
 
-// Look-up of `detail` on `surface`; empty without `detail`. Both must outlive the result.
+// Look-up of `detail` on `surface`, whose joints these are; empty without `detail`. All must outlive the
+// result.
 render::ColorBetween colorBetween(const std::optional<texture::Detail>& detail,
-                                  const texture::TexturedSurface& surface);
+                                  const texture::TexturedSurface& surface, const texture::Joints& joints);
 
 }  // namespace fluidtex::tools

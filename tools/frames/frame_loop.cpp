@@ -97,6 +97,7 @@ class FrameLoop {
 
   void run() {
     if (!m_options.resume || !continueFromState()) {
+    m_exports = {options.formats, options.joints, appearanceOf(m_report.scene, exemplarColor())};
       nowAt(kOnMotion);
       m_motion = pipeline::makeMotion(m_scene);
       clearEarlierRun(m_options.out, m_scene.name);
@@ -220,10 +221,11 @@ class FrameLoop {
       {
         Stopwatch watch(seconds.render);
         const double progress = m_scene.frames > 1 ? double(frame - 1) / (m_scene.frames - 1) : 0.0;
-        picture = render::render(m_surface, m_solids.at(time), m_scene.render,
-                                 {m_scene.sim.size, progress, frame, colorBetween(m_detail, m_surface),
-                                  m_detail && m_detail->seeThrough, m_scene.domainOrigin},
-                                 reporter("render"));
+        picture =
+            render::render(m_surface, m_solids.at(time), m_scene.render,
+                           {m_scene.sim.size, progress, frame, colorBetween(m_detail, m_surface, joints),
+                            m_detail && m_detail->seeThrough, m_scene.domainOrigin},
+                           reporter("render"));
       }
       Stopwatch watch(seconds.write);
       writeAtomically(m_options.out / "frames" / (name + ".png"),
@@ -232,12 +234,13 @@ class FrameLoop {
     nowAt(kOnFrameFiles, frame);
     Stopwatch watch(seconds.write);
     writeAtomically(m_options.out / "surface" / (name + ".ply"),
-                    [&](const fs::path& file) { writePly(m_surface, file); });
+                    [&](const fs::path& file) { writePly(m_surface, joints, file); });
     const bool putsOnto = scenes::putsOnto(m_scene);
     if (putsOnto) {
       const texture::TexturedSurface other = onto(frame);
       writeAtomically(m_options.out / "onto" / (name + ".ply"),
-                      [&](const fs::path& file) { writePly(other, file); });
+                      [&](const fs::path& file) { writePly(other, jointsOf(m_scene.texture, other), file); });
+    const texture::Joints joints = jointsOf(m_scene.texture, m_surface);
     }
     std::vector<JournalLine> lines;
     for (const std::string& file : resultsOf(frame, m_options.render, putsOnto))

@@ -30,7 +30,8 @@ struct Property {
 
 // What a file says of itself up to the first vertex's byte.
 struct Header {
-  std::size_t vertices = 0, faces = 0, body = 0, stride = 0;
+  std::size_t vertices = 0, faces = 0, joints = 0, body = 0, stride = 0;
+  bool gradients = false;
   std::map<std::string, Property, std::less<>> property;
 };
 
@@ -51,6 +52,10 @@ const std::vector<Group> kGroups = {{true, {"x", "y", "z"}},
                                     {false, {"contact"}},
                                     {true, {"fade_s", "fade_t"}},
                                     {true, {"fade"}}};
+// What files of earlier versions do not have.
+const std::vector<Group> kGradients = {
+    {true, {"sx", "sy", "sz", "tx", "ty", "tz"}},
+    {true, {"fade_sx", "fade_sy", "fade_sz", "fade_tx", "fade_ty", "fade_tz"}}};
 
 void checkGroup(const Group& group, const Header& header, const std::filesystem::path& file) {
   std::size_t next = 0;
@@ -81,17 +86,22 @@ Header headerOf(const std::string& bytes, const std::filesystem::path& file) {
   if (!bytes.starts_with("ply\n") || end == bytes.npos) refuse(file, "is no PLY file");
   header.body = end + kEnd.size();
   std::istringstream lines(bytes.substr(0, end));
-  bool binary = false, inVertex = false;
+  bool binary = false;
+  std::string element;
+  std::size_t jointBytes = 0;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string first, second, third;
     words >> first >> second >> third;
     if (first == "format") binary = second == "binary_little_endian";
     if (first == "element") {
-      inVertex = second == "vertex";
-      (inVertex ? header.vertices : header.faces) = std::strtoull(third.c_str(), nullptr, 10);
+      element = second;
+      (second == "vertex"  ? header.vertices
+       : second == "joint" ? header.joints
+                           : header.faces) = std::strtoull(third.c_str(), nullptr, 10);
     }
-    if (first != "property" || !inVertex) continue;
+    if (first == "property" && element == "joint") jointBytes += 4;  // of numbers and coordinates
+    if (first != "property" || element != "vertex") continue;
     if (second != "float" && second != "uchar")
       refuse(file, "has a property of a vertex that is neither float nor uchar");
     const bool isFloat = second == "float";
@@ -104,12 +114,15 @@ Header headerOf(const std::string& bytes, const std::filesystem::path& file) {
   }
   if (!binary) refuse(file, "is not in the format binary_little_endian");
   for (const Group& group : kGroups) checkGroup(group, header, file);
+  header.gradients = header.property.contains("fade_sx");
+  if (header.gradients)
+    for (const Group& group : kGradients) checkGroup(group, header, file);
   for (const char* name : {"scale", "guidance", "foam"})
     if (header.property.contains(name)) checkGroup({true, {name}}, header, file);
   constexpr std::size_t kFace = 1 + 3 * 4;
   const std::size_t body = bytes.size() - header.body;
-  if (header.vertices > body / header.stride || header.faces > body / kFace ||
-      body != header.vertices * header.stride + header.faces * kFace)
+  if (header.vertices > body / header.stride || header.faces > body / kFace || header.joints > body ||
+      body != header.vertices * header.stride + header.faces * kFace + header.joints * jointBytes)
     refuse(file, "is not as long as its header says");
   return header;
 }
@@ -171,6 +184,14 @@ texture::TexturedSurface readPly(const std::filesystem::path& file, int exemplar
   for (const auto& [name, property] : header.property)
     if (!texture::isReservedName(name)) each(name, surface.maps[name], number);
   surface.gradient.resize(header.vertices);
+  if (header.gradients) {
+    const Vec2f size{float(exemplarWidth), float(exemplarHeight)};
+    const auto gradient = [&](const char* at) {
+      return texture::TexelGradient{vector(at) * size[0], vector(at + 12) * size[1]};
+    };
+    each("sx", surface.gradient, gradient);
+    each("fade_sx", surface.fading.gradient, gradient);
+  }
   const char* at = bytes.data() + header.body + header.vertices * header.stride;
   for (std::size_t f = 0; f < header.faces; ++f, at += 13) {
     std::int32_t corner[3];
@@ -181,6 +202,12 @@ texture::TexturedSurface readPly(const std::filesystem::path& file, int exemplar
     surface.triangles.emplace_back(corner[0], corner[1], corner[2]);
   }
   return surface;
+}
+
+bool lacksGradients(const texture::TexturedSurface& surface) {
+  return std::all_of(surface.gradient.begin(), surface.gradient.end(), [](const texture::TexelGradient& g) {
+    return g.s == Vec3f(0.0f) && g.t == Vec3f(0.0f);
+  });
 }
 
 }  // namespace fluidtex::tools

@@ -92,8 +92,9 @@ double spacingOf(const FinishedRun& run, const texture::TexturedSurface& surface
 
 double spacingOf(const fs::path& out, const texture::TexturedSurface& surface, int frame) {
   const Json none{{"frames", Json::array()}};
-  return spacingOf(FinishedRun{out, fs::exists(out / "run.json") ? readReport(out) : none, {}, {}, false, {}},
-                   surface, frame);
+  return spacingOf(
+      FinishedRun{out, fs::exists(out / "run.json") ? readReport(out) : none, {}, {}, false, false, {}},
+      surface, frame);
 }
 
 const fs::path& existing(const fs::path& out) {
@@ -104,7 +105,7 @@ const fs::path& existing(const fs::path& out) {
 }
 
 FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
-  FinishedRun run{out, readReport(out), exemplar, {}, false, {}};
+  FinishedRun run{out, readReport(out), exemplar, {}, false, false, {}};
   const Json& texture = run.report["scene"]["texture"];
   if (exemplar.empty()) run.exemplar = fs::path(texture.value("exemplar", ""));
   if (!fs::exists(run.exemplar))
@@ -112,6 +113,7 @@ FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
                                  run.exemplar.string()));
   run.toroidal = texture.value("toroidal", false);
   run.color = texture::readImage(run.exemplar);
+  run.looksUp = texture.value("method", "") == "coordinates" && texture.value("later_frames", "") != "advect";
   nowAt(kOnRun);
   run.frames = framesIn(out / "surface");
   return run;

@@ -16,6 +16,7 @@ struct FinishedRun {
   texture::Image color;            // and its pixels, linear RGBA
   bool toroidal = false;
   std::vector<int> frames;  // with a surface on disk, ascending; never empty
+  bool looksUp = false;     // colours were looked up at exemplar coordinates
   std::filesystem::path surfaceOf(int frame) const;
 };
 

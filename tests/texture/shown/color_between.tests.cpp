@@ -15,7 +15,8 @@ TexturedSurface oneTriangle() {
   TexturedSurface surface;
   surface.exemplarWidth = 16;
   surface.exemplarHeight = 12;
-  surface.positions.resize(3);
+  surface.positions = {{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
+  surface.gradient.assign(3, {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}});
   surface.triangles = {{0, 1, 2}};
   surface.coordinate = {{4.0f, 5.0f}, {5.0f, 5.0f}, {4.0f, 6.0f}};
   surface.fading = noFading(3);
@@ -32,6 +33,10 @@ Image ramp(int scale) {
 
 const Vec3f kMiddle(0.5f, 0.25f, 0.25f);
 
+std::optional<Vec4f> colorAt(const Detail& detail, const TexturedSurface& surface, const Vec3f& weights) {
+  return colorBetween(detail, surface, findJoints(surface, detail.toroidal), 0, weights);
+}
+
 void checkIs(const std::optional<Vec4f>& color, const Vec4f& wanted) {
   REQUIRE(color);
   for (int c = 0; c < 4; ++c) CHECK((*color)[c] == Approx(wanted[c]).margin(1e-5));
@@ -43,21 +48,32 @@ TEST_CASE("color between: the picture in any resolution at the place between the
   const int scale = GENERATE(1, 2, 5);
   const Detail detail = makeDetail(ramp(scale), false, 16);
   const TexturedSurface surface = oneTriangle();
-  checkIs(colorBetween(detail, surface, 0, kMiddle),
+  checkIs(colorAt(detail, surface, kMiddle),
           {(4.25f + 0.5f) / 16.0f, (5.25f + 0.5f) / 12.0f, (5.25f + 0.5f) / 12.0f, 1.0f});
-  checkIs(colorBetween(detail, surface, 0, {0.0f, 1.0f, 0.0f}),
-          {5.5f / 16.0f, 5.5f / 12.0f, 5.5f / 12.0f, 1.0f});
+  checkIs(colorAt(detail, surface, {0.0f, 1.0f, 0.0f}), {5.5f / 16.0f, 5.5f / 12.0f, 5.5f / 12.0f, 1.0f});
 }
 
-TEST_CASE("color between: nothing across a joint, or without coordinates") {
+TEST_CASE(
+    "color between: across a joint the pictures of its pieces, each gone on by its gradient, are mixed") {
+  const Image picture = blobImage(16, 12, 4, 6.0, 5);
+  const Detail detail = makeDetail(picture, false, 16);
+  TexturedSurface surface = oneTriangle();
+  // The third corner's piece is turned by a quarter.
+  surface.coordinate[2] = {10.0f, 8.0f};
+  surface.gradient[2] = {{0.0f, 1.0f, 0.0f}, {-1.0f, 0.0f, 0.0f}};
+  const auto at = [&](float x, float y) { return samplePremultiplied(picture, false, {x, y}); };
+  // At (0.25, 0.25): the first two agree on (4.25, 5.25); the third is at (0.25, -0.75) from its corner.
+  checkIs(colorAt(detail, surface, kMiddle),
+          at(4.25f, 5.25f) * 0.75f + at(10.0f - 0.75f, 8.0f - 0.25f) * 0.25f);
+  checkIs(colorAt(detail, surface, {0.0f, 0.0f, 1.0f}), at(10.0f, 8.0f));
+  checkIs(colorAt(detail, surface, {0.5f, 0.5f, 0.0f}), at(4.5f, 5.0f));
+}
+
+TEST_CASE("color between: nothing without coordinates") {
   const Detail detail = makeDetail(ramp(1), false, 16);
   TexturedSurface surface = oneTriangle();
-  surface.coordinate[2] = {4.0f, 9.0f};
-  CHECK_FALSE(colorBetween(detail, surface, 0, kMiddle));
-  surface.coordinate[2] = {4.0f, 7.5f};
-  CHECK(colorBetween(detail, surface, 0, kMiddle));
   surface.coordinate.clear();
-  CHECK_FALSE(colorBetween(detail, surface, 0, kMiddle));
+  CHECK_FALSE(colorAt(detail, surface, kMiddle));
   CHECK_THROWS_AS(makeDetail(noiseImage(8, 8, 3, 1), false, 8), std::invalid_argument);
   CHECK_THROWS_AS(makeDetail({}, false, 8), std::invalid_argument);
 }
@@ -68,30 +84,39 @@ TEST_CASE("color between: a piece goes on over the edge of a toroidal picture") 
   const Image picture = imageOf(16, 12, 4, [](int x, int y, int c) {
     return c == 3 ? 1.0f : x == 0 || x == 15 || y == 0 || y == 11 ? 0.8f : 0.1f;
   });
-  CHECK_FALSE(colorBetween(makeDetail(picture, false, 16), surface, 0, kMiddle));
-  checkIs(colorBetween(makeDetail(picture, true, 16), surface, 0, kMiddle), {0.8f, 0.8f, 0.8f, 1.0f});
+  checkIs(colorAt(makeDetail(picture, true, 16), surface, kMiddle), {0.8f, 0.8f, 0.8f, 1.0f});
 }
 
-TEST_CASE("color between: what fades is mixed as at vertices, where all corners have a former place") {
+TEST_CASE("color between: what fades is mixed as at vertices") {
   const Image picture = blobImage(16, 12, 4, 6.0, 3);
   const Detail detail = makeDetail(picture, false, 16);
   TexturedSurface surface = oneTriangle();
   surface.fading.coordinate = {{10.0f, 3.0f}, {11.0f, 3.0f}, {10.0f, 4.0f}};
   surface.fading.weight = {0.5f, 0.25f, 0.75f};
+  surface.fading.gradient = surface.gradient;
   for (int k = 0; k < 3; ++k) {
     Vec3f corner(0.0f);
     corner[k] = 1.0f;
-    checkIs(colorBetween(detail, surface, 0, corner),
+    checkIs(colorAt(detail, surface, corner),
             shownColor(picture, lightnessAround(picture, false), false, surface.coordinate[std::size_t(k)],
                        surface.fading.coordinate[std::size_t(k)], surface.fading.weight[std::size_t(k)]));
   }
-  checkIs(colorBetween(detail, surface, 0, kMiddle),
+  checkIs(colorAt(detail, surface, kMiddle),
           shownColor(picture, lightnessAround(picture, false), false, {4.25f, 5.25f}, {10.25f, 3.25f}, 0.5f));
+  // A corner that does not fade has the former place of one that does.
+  surface.fading.coordinate[1] = {0.0f, 0.0f};
   surface.fading.weight[1] = 0.0f;
-  CHECK_FALSE(colorBetween(detail, surface, 0, kMiddle));
-  surface.fading.weight[1] = 0.25f;
+  checkIs(colorAt(detail, surface, kMiddle), shownColor(picture, lightnessAround(picture, false), false,
+                                                        {4.25f, 5.25f}, {10.25f, 3.25f}, 0.4375f));
+  // Of two former pieces, what fades is mixed first.
   surface.fading.coordinate[1] = {2.0f, 3.0f};
-  CHECK_FALSE(colorBetween(detail, surface, 0, kMiddle));
+  surface.fading.weight[1] = 0.25f;
+  const Image around = lightnessAround(picture, false);
+  const Reading one = readAt(picture, around, false, {10.25f, 3.25f}),
+                other = readAt(picture, around, false, {1.25f, 3.25f});
+  const Reading former{one.color * 0.75f + other.color * 0.25f, one.mean * 0.75f + other.mean * 0.25f};
+  checkIs(colorAt(detail, surface, kMiddle),
+          faded(readAt(picture, around, false, {4.25f, 5.25f}), former, 0.5f));
 }
 
 TEST_CASE("color between: means for fades are taken over as much of a finer picture") {
@@ -105,7 +130,7 @@ TEST_CASE("color between: means for fades are taken over as much of a finer pict
   surface.fading.coordinate = {{40.0f, 33.0f}, {41.0f, 33.0f}, {40.0f, 34.0f}};
   surface.fading.weight = {0.5f, 0.5f, 0.5f};
   const auto shown = [&](const Image& image) {
-    const auto color = colorBetween(makeDetail(image, false, 64), surface, 0, {1.0f, 0.0f, 0.0f});
+    const auto color = colorAt(makeDetail(image, false, 64), surface, {1.0f, 0.0f, 0.0f});
     REQUIRE(color);
     return *color;
   };
