@@ -225,8 +225,13 @@ class Pictures(InBlender):
         folder = self.make_run()
         cycles.main([folder, "--frames", "2:9", "--size", "90", "60", "--samples", "4", "--shutter", "0.5"])
         self.assertEqual(sorted(os.listdir(os.path.join(folder, "cycles"))), ["0002.png", "0003.png"])
-        image = bpy.data.images.load(os.path.join(folder, "cycles", "0002.png"))
+        picture = os.path.join(folder, "cycles", "0002.png")
+        image = bpy.data.images.load(picture)
         self.assertEqual((*image.size, image.channels), (90, 60, 4))
+        before = os.stat(picture).st_mtime_ns
+        cycles.main([folder, "--missing", "--size", "90", "60", "--samples", "1"])
+        self.assertEqual(sorted(os.listdir(os.path.join(folder, "cycles"))), ["0001.png", "0002.png", "0003.png"])
+        self.assertEqual(os.stat(picture).st_mtime_ns, before)
 
     def test_values_are_bent_as_in_the_runs_own_pictures(self):
         light = np.array([0.0, 0.3, 0.64, 0.8, 2.0, np.nan])

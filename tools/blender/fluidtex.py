@@ -725,6 +725,8 @@ def import_run(path, start=1, scene=None, name=None, **settings):
     mesh = bpy.data.meshes.new(name)
     liquid = bpy.data.objects.new(name, mesh)
     scene.collection.objects.link(liquid)
+    # While a picture is rendered in the background, its frames replace the mesh that the window would draw.
+    scene.render.use_lock_interface = True
     own = liquid.fluidtex
     own.surfaces = bpy.path.relpath(run.surfaces) if bpy.data.filepath else run.surfaces
     own.start, own.frame_rate = start, run.frame_rate

@@ -28,6 +28,7 @@ def arguments(words):
     for name in ("roughness", "normal", "bump", "displacement", "alpha"):
         options.add_argument(f"--{name}", metavar="PICTURE", help="map over the exemplar")
     options.add_argument("--height", type=float, metavar="M", help="of white above black, with --bump and --displacement (default: 0.01)")
+    options.add_argument("--missing", action="store_true", help="only frames that have no picture yet")
     options.add_argument("--plain", action="store_true", help="values above 0.8 are cut off at 1 instead of bent")
     options.add_argument("--blend", metavar="FILE", help="saves the scene for Blender and renders nothing")
     options = options.parse_args(words)
@@ -135,13 +136,16 @@ def main(words):
         return
     pictures = os.path.join(run.folder, "cycles")
     os.makedirs(pictures, exist_ok=True)
+    picture_of = lambda frame: os.path.join(pictures, f"{frame:04d}.png")
+    if options.missing:
+        frames = [frame for frame in frames if not os.path.exists(picture_of(frame))]
     with tempfile.TemporaryDirectory() as folder:
         for count, frame in enumerate(frames, 1):
             bpy.context.scene.frame_set(frame)
             light = rendered(folder)
             light[..., :3] = developed(light[..., :3], run.scene["render"]["exposure"], options.plain)
             light[..., 3] = 1.0
-            write_png(light, os.path.join(pictures, f"{frame:04d}.png"))
+            write_png(light, picture_of(frame))
             print(f"frame {frame} ({count}/{len(frames)})", flush=True)
     print(f"done: {pictures}")
 
