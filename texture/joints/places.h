@@ -39,8 +39,8 @@ struct Torus {
   // q, or where the exemplar is toroidal that repetition of q which is nearest to `near`.
   Vec2f unwrapped(const Vec2f& q, const Vec2f& near) const {
     if (!toroidal) return q;
-    return {q[0] - size[0] * std::round((q[0] - near[0]) / size[0]),
-            q[1] - size[1] * std::round((q[1] - near[1]) / size[1])};
+    return {q[0] - size[0] * std::floor((q[0] - near[0]) / size[0] + 0.5f),
+            q[1] - size[1] * std::floor((q[1] - near[1]) / size[1] + 0.5f)};
   }
 };
 
