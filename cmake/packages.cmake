@@ -17,10 +17,12 @@ find_package(nlohmann_json REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(PNG REQUIRED)
 find_package(pugixml REQUIRED)
+find_package(meshoptimizer REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(heif REQUIRED IMPORTED_TARGET libheif)
 pkg_check_modules(lcms2 REQUIRED IMPORTED_TARGET lcms2)
+pkg_check_modules(httplib REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(webpmux REQUIRED IMPORTED_TARGET libwebpmux)
 
 # System headers: their warnings are not ours. OpenImageIO exports a folder that need not exist.

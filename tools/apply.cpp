@@ -11,6 +11,7 @@
 #include "tools/frames/image_notes.h"
 #include "tools/output/ply.h"
 #include "tools/output/read_ply.h"
+#include "tools/report/write_report.h"
 #include "tools/run_folder/finished_run.h"
 #include "tools/run_folder/journal.h"
 #include "tools/run_folder/out_folder.h"
@@ -133,6 +134,8 @@ void addApply(CLI::App& app, int& exitCode) {
     exitCode = guarded([&] {
       for (const std::string& text : arguments->maps) arguments->wishes.maps.push_back(parseMap(text));
       applyMaps(arguments->wishes);
+      const std::filesystem::path& out = arguments->wishes.out;
+      if (std::filesystem::exists(out / "report.html")) writeReport({out, out});
     });
   });
 }

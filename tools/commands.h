@@ -15,7 +15,7 @@ struct CommonOptions {
   std::string frames, quality = "default";
   std::vector<std::string> set;
   int threads = 0;  // 0: one per core
-  bool resume = false, noRender = false, follow = false, quiet = false, verbose = false;
+  bool resume = false, noRender = false, noReport = false, follow = false, quiet = false, verbose = false;
 };
 
 void addRun(CLI::App& app, int& exitCode);
@@ -26,6 +26,8 @@ void addCompare(CLI::App& app, int& exitCode);
 void addCheck(CLI::App& app, int& exitCode);
 void addRender(CLI::App& app, int& exitCode);
 void addMeasure(CLI::App& app, int& exitCode);
+void addReport(CLI::App& app, int& exitCode);
+void addView(CLI::App& app, int& exitCode);
 void addValidate(CLI::App& app, int& exitCode);
 
 }  // namespace fluidtex::tools

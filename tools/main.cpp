@@ -40,6 +40,8 @@ int main(int argc, char** argv) {
   addCheck(app, exitCode);
   addRender(app, exitCode);
   addMeasure(app, exitCode);
+  addReport(app, exitCode);
+  addView(app, exitCode);
   addValidate(app, exitCode);
   if (argc > 1 && argv[1][0] != '-') {
     bool found = false;

@@ -12,6 +12,7 @@
 #include "tools/commands.h"
 #include "tools/output/ply.h"
 #include "tools/output/read_ply.h"
+#include "tools/report/write_report.h"
 #include "tools/run_folder/finished_run.h"
 #include "tools/run_folder/out_folder.h"
 
@@ -157,10 +158,11 @@ class Measurer {
     for (const Json& row : rows) {
       Json* record = recordOf(m_run, row["frame"].get<int>());
       if (record == nullptr) continue;
-      for (const char* key : {"likeness", "sharpness", "change_along_flow"})
+      for (const char* key : {"likeness", "sharpness", "pop", "change_along_flow"})
         if (row.contains(key)) (*record)[key] = row[key];
     }
     writeTextAtomically(m_wishes.out / "run.json", m_run.report.dump(2) + "\n");
+    if (fs::exists(m_wishes.out / "report.html")) writeReport({m_wishes.out, m_wishes.out});
   }
 
   const MeasureWishes& m_wishes;

@@ -13,8 +13,9 @@ struct MeasureWishes {
   bool quiet = false;              // no table on stdout
 };
 
-// Reads run.json and surface/, and fills likeness, sharpness and change_along_flow of run.json. Throws
-// UsageError if the folder holds no run, or its exemplar is missing.
+// Reads run.json and surface/, and fills likeness, sharpness, pop and change_along_flow of run.json;
+// report.html, if there is one, is written anew. Throws UsageError if the folder holds no run, or its exemplar
+// is missing.
 void measureRun(const MeasureWishes& wishes);
 
 }  // namespace fluidtex::tools

@@ -12,6 +12,7 @@
 #include "tools/frames/visible_solids.h"
 #include "tools/output/ply.h"
 #include "tools/output/read_ply.h"
+#include "tools/report/write_report.h"
 #include "tools/run_folder/finished_run.h"
 #include "tools/run_folder/out_folder.h"
 
@@ -87,6 +88,10 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
   writeAtomically(out / (scene.name + ".mp4"), [&](const fs::path& file) {
     render::writeVideo(out / "frames", first, last, scene.sim.frameRate, file);
   });
+  // Surfaces alone, without a run's figures, have no page.
+  if (options.noReport || !fs::exists(from / "run.json")) return;
+  writeReport({from, out});
+  if (!options.quiet) say("report: {}\n", (out / "report.html").string());
 }
 
 }  // namespace
@@ -99,6 +104,7 @@ void addRender(CLI::App& app, int& exitCode) {
   command->add_option("--from", *from, "Folder of the run whose surfaces are rendered")
       ->required()
       ->type_name("DIR");
+  command->add_flag("--no-report", options->noReport, "Write no report.html");
   command->footer(
       "Example:\n  fluidtex render scenes/dam_break.toml --from out/dam_break --out out/closer --set "
       "camera.fov=15");

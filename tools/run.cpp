@@ -1,12 +1,14 @@
 // fluidtex run SCENE: simulate, texture, render and write, frame by frame, in memory.
 #include "tools/run.h"
 
+#include "tools/base/console.h"
 #include "tools/base/errors.h"
 #include "tools/base/stop_signal.h"
 #include "tools/base/work.h"
 #include "tools/common_options.h"
 #include "tools/frames/frame_loop.h"
 #include "tools/frames/memory_plan.h"
+#include "tools/report/write_report.h"
 #include "tools/run_folder/out_folder.h"
 
 #include <fmt/core.h>
@@ -63,6 +65,9 @@ void runInto(const std::filesystem::path& out, const scenes::Scene& scene, const
   } catch (const std::bad_alloc&) {
     throw std::runtime_error(outOfMemory() + neededBy(scene));
   }
+  if (options.noReport) return;
+  writeReport({run.out, run.out});
+  if (!options.quiet) say("report: {}\n", (run.out / "report.html").string());
 }
 
 namespace {
@@ -75,6 +80,7 @@ void addRunOptions(CLI::App& command, const std::shared_ptr<CommonOptions>& opti
       "--follow", options->follow,
       "Wait for files of another program that still runs; --set frames=N says how many there will be");
   command.add_flag("--no-render", options->noRender, "Write surfaces only, no pictures and no video");
+  command.add_flag("--no-report", options->noReport, "Write no report.html");
   command.callback([options, &exitCode] {
     exitCode = guarded([&] {
       const scenes::Scene scene = loadScene(*options);

@@ -7,6 +7,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 install_missing_packages() {
   local wanted missing
   wanted=$(sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$root/tools/$1")
+  # Node.js from elsewhere brings its own npm, beside which Debian's cannot be installed.
+  ! command -v npm >/dev/null || wanted=$(grep -vx npm <<<"$wanted")
   if ! command -v dpkg-query >/dev/null; then
     echo "tools/setup.sh: this is not Debian; install the like of these packages by hand:" $wanted >&2
     return

@@ -27,6 +27,7 @@ void clearEarlierRun(const fs::path& out, const std::string& sceneName) {
   removeLeftovers(out);
   removeStates(out / "state");
   fs::remove(out / "run.json");
+  fs::remove(out / "report.html");
   fs::remove(out / (sceneName + ".mp4"));
   removeFrames(out / "frames", ".png");
   removeFrames(out / "surface", ".ply");

@@ -34,7 +34,8 @@ bool isReport(const Json& report) {
          });
 }
 
-// run.json, and what it lacks of a run that was killed or goes on.
+}  // namespace
+
 Json readReport(const fs::path& out) {
   const fs::path file = out / "run.json";
   std::ifstream in(file, std::ios::binary);
@@ -49,19 +50,15 @@ Json readReport(const fs::path& out) {
   return report;
 }
 
-std::vector<int> framesIn(const fs::path& folder) {
+std::vector<int> framesIn(const fs::path& folder, std::string_view extension) {
   std::vector<int> frames;
   std::error_code missing;
   for (const auto& entry : fs::directory_iterator(folder, missing))
-    if (entry.path().extension() == ".ply")
+    if (entry.path().extension() == extension)
       if (const auto frame = render::frameNumber(entry.path().stem().string())) frames.push_back(*frame);
   std::sort(frames.begin(), frames.end());
-  if (frames.empty())
-    throw UsageError(folder.string() + ": holds no surface; give the folder of a run of fluidtex run");
   return frames;
 }
-
-}  // namespace
 
 fs::path FinishedRun::surfaceOf(int frame) const {
   return out / "surface" / (render::frameName(frame) + ".ply");
@@ -115,7 +112,10 @@ FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
   run.color = texture::readImage(run.exemplar);
   run.looksUp = texture.value("method", "") == "coordinates" && texture.value("later_frames", "") != "advect";
   nowAt(kOnRun);
-  run.frames = framesIn(out / "surface");
+  run.frames = framesIn(out / "surface", ".ply");
+  if (run.frames.empty())
+    throw UsageError((out / "surface").string() +
+                     ": holds no surface; give the folder of a run of fluidtex run");
   return run;
 }
 

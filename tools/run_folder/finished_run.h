@@ -5,6 +5,7 @@
 #include "tools/run_folder/report.h"
 
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 namespace fluidtex::tools {
@@ -19,6 +20,13 @@ struct FinishedRun {
   bool looksUp = false;     // colours were looked up at exemplar coordinates
   std::filesystem::path surfaceOf(int frame) const;
 };
+
+// run.json, and of a run that was killed or goes on the frames that it lacks, from the journal. Throws
+// UsageError if the folder holds none, or one that is damaged.
+Json readReport(const std::filesystem::path& out);
+
+// Frames whose file is in the folder, ascending. extension: with its dot.
+std::vector<int> framesIn(const std::filesystem::path& folder, std::string_view extension);
 
 // The report's record of a frame; null if there is none.
 const Json* recordOf(const FinishedRun& run, int frame);
