@@ -41,6 +41,9 @@ void append(png_structp png, png_bytep data, std::size_t size) {
   png_longjmp(png, 1);
 }
 
+// What it warns of is said where it fails.
+void pass(png_structp, png_const_charp) {}
+
 // libpng leaves through longjmp() where something is wrong: nothing here has a destructor.
 void encode(png_structp png, png_infop info, PngFile& file, int width, int height, png_bytepp rows,
             png_textp notes, int noteCount) {
@@ -86,7 +89,7 @@ void writePng(const Picture& picture, const std::filesystem::path& file, std::ve
     throw std::runtime_error(file.string() + ": the picture could not be written: " + why);
   };
   PngFile content;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &content, refuse, nullptr);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &content, refuse, pass);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
   if (info != nullptr)
     encode(png, info, content, picture.width, picture.height, rows.data(), texts.data(), int(texts.size()));

@@ -12,18 +12,19 @@
 #include "tools/common_options.h"
 #include "tools/frames/check_relief.h"
 #include "tools/frames/color_between.h"
+#include "tools/frames/exemplar_fit.h"
 #include "tools/frames/image_notes.h"
 #include "tools/frames/memory_plan.h"
+#include "tools/frames/progress.h"
+#include "tools/frames/time_plan.h"
 
 #include <fmt/core.h>
+#include <tbb/task_arena.h>
 
 #include <memory>
 
 namespace fluidtex::tools {
 namespace {
-
-// Of an exemplar that cover the surface: with less, no feature of a usual one is seen whole.
-constexpr double kFewExemplars = 0.25;
 
 struct CheckOptions : CommonOptions {
   CheckCacheWishes cache;
@@ -43,9 +44,26 @@ void printPlannedPoints(const scenes::Scene& scene, const std::optional<double>&
   }
 }
 
-void check(const CheckOptions& options) {
-  if (isCache(options.scene) && options.exemplar.empty()) return checkCache(options, options.cache);
-  const scenes::Scene scene = loadScene(options);
+int threadsOf(const CommonOptions& options) {
+  return options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
+}
+
+// Frames up to `last` are computed, whichever are written.
+void printTime(const scenes::Scene& scene, const CommonOptions& options, const PlannedTime& time, int last) {
+  const auto seconds = [](double value) {
+    return value < 9.5 ? fmt::format("{:.1g} s", value) : fmt::format("{:.0f} s", value);
+  };
+  print("time      about {} a frame on {} threads: simulate {}, texture {}, render {}; ",
+        seconds(time.frame()), threadsOf(options), seconds(time.simulate), seconds(time.texture),
+        seconds(time.render));
+  print("the first texture {}; {} in all{}\n", seconds(time.firstTexture),
+        humanDuration(time.frame() * (last - 1) + time.firstTexture + time.render),
+        scene.sim.sources.empty() ? "" : ", and more for what flows in");
+  if (const std::string note = waysNote(scene.texture.orientation); !note.empty())
+    print("          {}\n", note);
+}
+
+void printPlan(const scenes::Scene& scene, const CheckOptions& options) {
   int first = 1, last = 0;
   parseFrames(options.frames, scene, first, last);
   nowAt(kOnExemplar);
@@ -86,10 +104,12 @@ void check(const CheckOptions& options) {
   if (spacing > 0.0)
     print("the exemplar is {:.3g} x {:.3g} m", spacing * exemplar.color.width,
           spacing * exemplar.color.height);
-  if (points)
-    print("{}{:.2g} exemplars cover the surface{}", spacing > 0.0 ? ", and " : "", *points / pixels,
-          *points < kFewExemplars * pixels ? "; more points, or a smaller image, would show more of it" : "");
+  if (points) print("{}{:.2g} exemplars cover the surface", spacing > 0.0 ? ", and " : "", *points / pixels);
   print("\n");
+  if (const std::string note =
+          fitNote(scene.texture, exemplar.color.width, exemplar.color.height, points.value_or(0.0));
+      !note.empty())
+    print("          {}\n", note);
   print("guidance  {}\n", exemplar.guided ? scene.texture.exemplar.guidance.string() : std::string("none"));
   for (const texture::MapOptions& map : scene.texture.exemplar.maps) {
     const bool matched = map.weight > 0.0 && exemplar.mapChannels > 0;
@@ -112,9 +132,17 @@ void check(const CheckOptions& options) {
   // How much sources bring cannot be told beforehand.
   if (!scene.sim.sources.empty()) print(", and {:.0f} kB a cell of what flows in", kBytesPerLiquidCell / 1e3);
   print("\n");
+  if (points)
+    printTime(scene, options, plannedTime(scene, liquid, *points, pixels, threadsOf(options)), last);
   for (const std::string& note : imageNotes(colorPictures(scene.texture.exemplar)))
     say("warning: {}\n", note);
   for (const std::string& warning : pipeline::warningsOf(scene)) say("warning: {}\n", warning);
+}
+
+void check(const CheckOptions& options) {
+  if (isCache(options.scene) && options.exemplar.empty()) return checkCache(options, options.cache);
+  const scenes::Scene scene = loadScene(options);
+  atItsLine(options, scene, [&] { printPlan(scene, options); });
 }
 
 }  // namespace

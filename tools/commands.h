@@ -29,5 +29,9 @@ void addMeasure(CLI::App& app, int& exitCode);
 void addReport(CLI::App& app, int& exitCode);
 void addView(CLI::App& app, int& exitCode);
 void addValidate(CLI::App& app, int& exitCode);
+void addNew(CLI::App& app, int& exitCode);
+void addDoctor(CLI::App& app, int& exitCode);
+// help, version, completion, man; to be called last, as they tell of the others.
+void addHelp(CLI::App& app, int& exitCode);
 
 }  // namespace fluidtex::tools

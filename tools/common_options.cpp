@@ -13,10 +13,12 @@
 #include "tools/base/errors.h"
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
-#include <cstdio>
+#include <iostream>
 #include <system_error>
 
 namespace fluidtex::tools {
@@ -64,7 +66,7 @@ void tryMeshes(const sim::Shape& shape, const openvdb::BBoxd& reach, const sim::
     for (const sim::Shape& part : parts) tryMeshes(part, reach, size, quiet);
   };
   const auto warn = [&](const std::string& warning) {
-    if (!quiet && !warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
+    if (!quiet && !warning.empty()) say("warning: {}\n", warning);
   };
   if (const auto* mesh = std::get_if<sim::MeshShape>(&shape.kind))
     warn(farAway(mesh->file, mesh->place.scale, sim::readMesh(*mesh), reach, size));
@@ -73,10 +75,67 @@ void tryMeshes(const sim::Shape& shape, const openvdb::BBoxd& reach, const sim::
   if (const auto* rest = std::get_if<sim::Difference>(&shape.kind)) tryParts(rest->parts);
 }
 
+// One byte more than a scene may have.
+const std::string& standardInput() {
+  static const std::string text = [] {
+    std::string read((4 << 20) + 1, '\0');
+    std::cin.read(read.data(), std::streamsize(read.size()));
+    read.resize(std::size_t(std::cin.gcount()));
+    return read;
+  }();
+  return text;
+}
+
+// Whether the file is the one that the scene names, or one of the sequence.
+bool isNamed(const std::string& file, const std::string& named) {
+  const std::size_t percent = named.find('%'), letter = named.find('d', percent);
+  if (file == named || percent == named.npos || letter == named.npos) return file == named;
+  const std::string head = named.substr(0, percent), tail = named.substr(letter + 1);
+  return file.size() > head.size() + tail.size() && file.starts_with(head) && file.ends_with(tail) &&
+         std::all_of(file.begin() + long(head.size()), file.end() - long(tail.size()),
+                     [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+// The key, dotted, that names the file with which the message begins; empty where there is none.
+std::string keyOfFile(const std::string& message, const scenes::Scene& scene) {
+  const nlohmann::json keys = nlohmann::json::parse(scene.resolved).flatten();
+  for (std::size_t end = message.size(); end != message.npos && end > 0;
+       end = message.find_last_of(": ", end - 1)) {
+    const std::string file =
+        std::filesystem::absolute(message.substr(0, end)).lexically_normal().generic_string();
+    for (const auto& [key, value] : keys.items()) {
+      if (!value.is_string() || !isNamed(file, value.get<std::string>())) continue;
+      std::string dotted = key.substr(1);
+      std::replace(dotted.begin(), dotted.end(), '/', '.');
+      return dotted;
+    }
+  }
+  return {};
+}
+
+// Where a quality was asked for and nothing comes of it.
+std::string qualityNote(const CommonOptions& options, const scenes::Scene& scene) {
+  if (options.quality == "default") return {};
+  scenes::Overrides plain = overridesOf(options);
+  plain.quality = scenes::Quality::standard;
+  const auto keys = [](const scenes::Scene& of) {
+    nlohmann::json resolved = nlohmann::json::parse(of.resolved);
+    resolved.erase("quality");
+    return resolved;
+  };
+  if (keys(scenes::loadScene(sourceOf(options), plain)) != keys(scene)) return {};
+  return fmt::format(
+      "--quality {0}: changes nothing, since {1} sets nothing in a [quality.{0}] table; give --set "
+      "texture.points=N, --set domain.resolution=N and --set render.samples=N instead",
+      options.quality, scene.file.string());
+}
+
 }  // namespace
 
 void addSimulationOptions(CLI::App& command, CommonOptions& options) {
-  command.add_option("scene", options.scene, "Scene file, or a folder or file of another program's cache")
+  command
+      .add_option("scene", options.scene,
+                  "Scene file, - for one on stdin, or a folder or file of another program's cache")
       ->required()
       ->type_name("SCENE");
   command
@@ -114,6 +173,7 @@ void addSceneOptions(CLI::App& command, CommonOptions& options) {
 }
 
 bool isCache(const std::filesystem::path& scene) {
+  if (scene == "-") return false;
   std::error_code unknown;
   return std::filesystem::is_directory(scene, unknown) ||
          (scene.extension() != ".toml" &&
@@ -130,11 +190,17 @@ scenes::Overrides overridesOf(const CommonOptions& options, bool liquidOnly) {
   return overrides;
 }
 
+scenes::Source sourceOf(const CommonOptions& options) {
+  if (options.scene != "-") return {options.scene, {}};
+  if (standardInput().empty()) throw UsageError("-: no scene comes on stdin");
+  return {"stdin", standardInput()};
+}
+
 scenes::Scene loadScene(const CommonOptions& options) {
   const scenes::Overrides overrides = overridesOf(options);
   const bool ofCache = isCache(options.scene);
-  if (std::error_code unknown;
-      !ofCache && options.scene.extension() != ".toml" && !std::filesystem::exists(options.scene, unknown))
+  if (std::error_code unknown; !ofCache && options.scene != "-" && options.scene.extension() != ".toml" &&
+                               !std::filesystem::exists(options.scene, unknown))
     throw UsageError(
         fmt::format("{}: there is no such scene file, and no such cache", options.scene.string()));
   const auto givesExemplar = [](const std::string& set) { return set.starts_with("texture.exemplar"); };
@@ -143,8 +209,10 @@ scenes::Scene loadScene(const CommonOptions& options) {
     throw UsageError(
         fmt::format("{}: what it should be textured with is missing; give a picture, --exemplar IMAGE",
                     options.scene.string()));
-  scenes::Scene scene =
-      ofCache ? scenes::sceneOfCache(options.scene, overrides) : scenes::loadScene(options.scene, overrides);
+  scenes::Scene scene = ofCache ? scenes::sceneOfCache(options.scene, overrides)
+                                : scenes::loadScene(sourceOf(options), overrides);
+  if (!ofCache && !options.quiet)
+    if (const std::string note = qualityNote(options, scene); !note.empty()) say("warning: {}\n", note);
   scene.files.follow = options.follow;
   if (options.follow && scene.motion.flow != sim::MotionKind::files)
     throw UsageError("--follow: the scene's liquid does not come out of files that could be waited for");
@@ -155,11 +223,23 @@ scenes::Scene loadScene(const CommonOptions& options) {
       for (const std::string& line : found) print("{}\n", line);
   }
   const openvdb::BBoxd domain = sim::domainBox(scene.sim);
-  for (const sim::LiquidBody& body : scene.sim.liquid)
-    tryMeshes(body.shape, domain, scene.sim.size, options.quiet);
-  for (const sim::Solid& solid : scene.sim.solids)
-    tryMeshes(solid.shape, sim::reachOf(solid, domain), scene.sim.size, options.quiet);
+  atItsLine(options, scene, [&] {
+    for (const sim::LiquidBody& body : scene.sim.liquid)
+      tryMeshes(body.shape, domain, scene.sim.size, options.quiet);
+    for (const sim::Solid& solid : scene.sim.solids)
+      tryMeshes(solid.shape, sim::reachOf(solid, domain), scene.sim.size, options.quiet);
+  });
   return scene;
+}
+
+void atItsLine(const CommonOptions& options, const scenes::Scene& scene, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const std::runtime_error& error) {
+    const std::string key = isCache(options.scene) ? "" : keyOfFile(error.what(), scene);
+    if (key.empty()) throw;
+    throw scenes::SceneError({scenes::faultLine(sourceOf(options), overridesOf(options), key, error.what())});
+  }
 }
 
 void parseFrames(const std::string& text, const scenes::Scene& scene, int& first, int& last) {

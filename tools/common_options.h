@@ -2,8 +2,10 @@
 #pragma once
 
 #include "scenes/scene.h"
+#include "scenes/source.h"
 #include "tools/commands.h"
 
+#include <functional>
 #include <string>
 
 namespace fluidtex::tools {
@@ -11,6 +13,9 @@ namespace fluidtex::tools {
 void addSceneOptions(CLI::App& command, CommonOptions& options);
 // Those that a simulation alone has a use for: no --out, no --exemplar.
 void addSimulationOptions(CLI::App& command, CommonOptions& options);
+
+// The scene file, or for "-" what comes on stdin, which is read once. Throws UsageError where nothing comes.
+scenes::Source sourceOf(const CommonOptions& options);
 
 // Whether this is the cache of another program and no scene file: a folder, a pattern, or a file that does
 // not end in .toml.
@@ -23,6 +28,10 @@ scenes::Overrides overridesOf(const CommonOptions& options, bool liquidOnly = fa
 // where the scene's liquid comes out of files, what is found in these is filled in. Throws
 // scenes::SceneError, sim::MeshError, caches::LayoutError, caches::FormatError.
 scenes::Scene loadScene(const CommonOptions& options);
+
+// Does the work. What it finds wrong with a file that the scene names is thrown on as a scenes::SceneError
+// with the line that names it.
+void atItsLine(const CommonOptions& options, const scenes::Scene& scene, const std::function<void()>& work);
 
 // Parses "A:B", "A:" or "A" into first and last frame of the scene; empty means all. Throws UsageError.
 void parseFrames(const std::string& text, const scenes::Scene& scene, int& first, int& last);

@@ -1,4 +1,5 @@
 // The fluidtex program: one small file per subcommand.
+#include "scenes/faults.h"
 #include "tools/base/console.h"
 #include "tools/base/errors.h"
 #include "tools/base/keep_memory.h"
@@ -9,8 +10,28 @@
 #include <spdlog/sinks/null_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <filesystem>
 #include <memory>
 #include <sstream>
+#include <vector>
+
+namespace {
+
+// A sentence where there is no such command, with what was meant, as far as that can be told; else empty.
+std::string unknownCommand(const CLI::App& app, const std::string& name) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->check_name(name)) return {};
+    known.push_back(command->get_name());
+  }
+  if (std::error_code unknown; std::filesystem::exists(name, unknown))
+    return fmt::format("{0}: no such command; to run a scene or texture a cache, fluidtex run {0}", name);
+  if (const std::string near = fluidtex::scenes::nearestName(name, known); !near.empty())
+    return fmt::format("{}: no such command; did you mean {}?", name, near);
+  return fmt::format("{}: no such command; there are {}", name, fluidtex::scenes::listed(known));
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace fluidtex::tools;
@@ -25,12 +46,16 @@ int main(int argc, char** argv) {
       "fluidtex simulates a liquid and covers its moving surface, or that of another program's liquid, with "
       "texture grown from an example image.",
       "fluidtex");
-  app.set_version_flag("--version", std::string("fluidtex ") + FLUIDTEX_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Examples:\n  fluidtex run scenes/dam_break.toml\n  fluidtex texture cache_fluid --exemplar lava.jpg\n "
-      " fluidtex check scenes/dam_break.toml --quality "
-      "final");
+      "Examples:\n"
+      "  fluidtex run scenes/dam_break.toml\n"
+      "  fluidtex texture cache_fluid --exemplar lava.jpg\n"
+      "  fluidtex check scenes/dam_break.toml --quality final\n"
+      "Exit status: 0 done, 1 the input is wrong, 2 it failed while running, 130 interrupted; --resume goes "
+      "on.\n"
+      "Variables: NO_COLOR, if set, leaves messages without colour; XDG_CACHE_HOME is where tables are kept "
+      "between runs (default: ~/.cache).");
   int exitCode = kDone;
   addRun(app, exitCode);
   addSimulate(app, exitCode);
@@ -39,19 +64,17 @@ int main(int argc, char** argv) {
   addApply(app, exitCode);
   addCheck(app, exitCode);
   addRender(app, exitCode);
+  addExport(app, exitCode);
   addMeasure(app, exitCode);
   addReport(app, exitCode);
   addView(app, exitCode);
   addValidate(app, exitCode);
+  addNew(app, exitCode);
+  addDoctor(app, exitCode);
+  addHelp(app, exitCode);
   if (argc > 1 && argv[1][0] != '-') {
-    bool found = false;
-    std::string known;
-    for (const CLI::App* command : app.get_subcommands({})) {
-      found = found || command->check_name(argv[1]);
-      known += (known.empty() ? "" : ", ") + command->get_name();
-    }
-    if (!found) {
-      say("error: {}: no such command; there are: {}\n", argv[1], known);
+    if (const std::string fault = unknownCommand(app, argv[1]); !fault.empty()) {
+      say("error: {}\n", fault);
       return kInputWrong;
     }
   }

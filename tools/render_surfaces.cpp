@@ -9,6 +9,7 @@
 #include "tools/base/work.h"
 #include "tools/common_options.h"
 #include "tools/frames/color_between.h"
+#include "tools/frames/picture_notes.h"
 #include "tools/frames/visible_solids.h"
 #include "tools/output/ply.h"
 #include "tools/output/read_ply.h"
@@ -34,6 +35,9 @@ texture::Options optionsOf(const FinishedRun& run, texture::Options options) {
 }
 
 void renderSurfaces(const CommonOptions& options, const fs::path& from) {
+  if (!fs::is_directory(from))
+    throw UsageError(
+        fmt::format("--from {}: there is no such folder; give that of a run of fluidtex run", from.string()));
   const scenes::Scene scene = loadScene(options);
   int first = 1, last = 0;
   parseFrames(options.frames, scene, first, last);
@@ -82,12 +86,14 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
     }
                         detail && detail->seeThrough, scene.domainOrigin});
     writeAtomically(out / "frames" / (render::frameName(frame) + ".png"),
-                    [&](const fs::path& file) { writePng(picture, file); });
+                    [&](const fs::path& file) { writePng(picture, file, pictureNotes(scene, frame)); });
     if (!options.quiet) say("frame {}\n", frame);
   }
-  writeAtomically(out / (scene.name + ".mp4"), [&](const fs::path& file) {
+  const fs::path video = out / (scene.name + ".mp4");
+  writeAtomically(video, [&](const fs::path& file) {
     render::writeVideo(out / "frames", first, last, scene.sim.frameRate, file);
   });
+  if (!options.quiet) say("done: {}\n", video.string());
   // Surfaces alone, without a run's figures, have no page.
   if (options.noReport || !fs::exists(from / "run.json")) return;
   writeReport({from, out});

@@ -61,7 +61,7 @@ void runInto(const std::filesystem::path& out, const scenes::Scene& scene, const
   logTo(run.out / "log.txt", options.verbose);
   nowAt(kOnExemplar);
   try {
-    runScene(scene, run, stopOnSignals());
+    atItsLine(options, scene, [&] { runScene(scene, run, stopOnSignals()); });
   } catch (const std::bad_alloc&) {
     throw std::runtime_error(outOfMemory() + neededBy(scene));
   }

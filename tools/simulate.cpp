@@ -126,7 +126,7 @@ void addSimulate(CLI::App& app, int& exitCode) {
                          ": its liquid comes out of files; there is nothing to simulate");
       const int threads = options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
       const tbb::global_control control(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
-      simulate(scene, options, arguments->cache);
+      atItsLine(options, scene, [&] { simulate(scene, options, arguments->cache); });
     });
   });
 }

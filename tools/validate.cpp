@@ -21,8 +21,6 @@
 #include <memory>
 #include <set>
 
-#include <unistd.h>
-
 namespace fluidtex::tools {
 namespace {
 
@@ -108,23 +106,20 @@ class JobProgress {
   JobProgress(const Job& job, std::size_t number, std::size_t count)
       : m_label(fmt::format("{} {} ({} of {})", job.test->name, job.resolution, number, count)),
         m_start(Clock::now()) {}
-  ~JobProgress() {
-    if (m_terminal) say("\r\033[K");
-  }
+  ~JobProgress() { clearStatus(); }
 
   void update(double part) {
     const auto now = Clock::now();
-    if (!m_terminal || now - m_drawn < std::chrono::milliseconds(100)) return;
+    if (!drawsStatus() || now - m_drawn < std::chrono::milliseconds(100)) return;
     m_drawn = now;
     const double gone = std::chrono::duration<double>(now - m_start).count();
-    say("\r\033[K{}: {:.0f}%, {} left", m_label, 100.0 * part,
-        part > 0.01 ? humanDuration(gone / part - gone) : "?");
+    showStatus(fmt::format("{}: {:.0f}%, {} left", m_label, 100.0 * part,
+                           part > 0.01 ? humanDuration(gone / part - gone) : "?"));
   }
 
  private:
   using Clock = std::chrono::steady_clock;
   std::string m_label;
-  bool m_terminal = isatty(STDERR_FILENO) == 1;
   Clock::time_point m_start, m_drawn;
 };
 
@@ -234,18 +229,27 @@ void addValidate(CLI::App& app, int& exitCode) {
   CLI::App* command =
       app.add_subcommand("validate", "Run the reference tests and print each figure beside its bar");
   auto options = std::make_shared<ValidateOptions>();
-  command->add_option("names", options->names,
-                      "Tests, or sets of them (level_set, fluid, quick); all when none is named");
-  command->add_option("--json", options->json, "Write the figures to this file");
-  command->add_option("--plots", options->plots, "Write the plots into this folder, as SVG");
-  command->add_option("--docs", options->page,
-                      "Bring the tables of this page up to date (docs/results/validation.md)");
-  command->add_option("--figures", options->figures,
-                      "The same for the page of figures without a bar (docs/results/figures.md)");
+  command
+      ->add_option("names", options->names,
+                   "Tests, or sets of them (level_set, fluid, quick); all when none is named")
+      ->type_name("NAME");
+  command->add_option("--json", options->json, "Write the figures to this file")->type_name("FILE");
+  command->add_option("--plots", options->plots, "Write the plots into this folder, as SVG")
+      ->type_name("DIR");
+  command
+      ->add_option("--docs", options->page,
+                   "Bring the tables of this page up to date (docs/results/validation.md)")
+      ->type_name("PAGE");
+  command
+      ->add_option("--figures", options->figures,
+                   "The same for the page of figures without a bar (docs/results/figures.md)")
+      ->type_name("PAGE");
   command->add_option("--resolution", options->resolution, "Run at this resolution only")
-      ->check(CLI::Range(8, 4096));
+      ->check(CLI::Range(8, 4096))
+      ->type_name("N");
   command->add_option("--threads", options->threads, "Threads to use; one a core where not given")
-      ->check(CLI::Range(1, 4096));
+      ->check(CLI::Range(1, 4096))
+      ->type_name("N");
   command->add_flag("--list", options->list, "Print the tests and their resolutions");
   command->footer(
       "Example:\n  fluidtex validate zalesak vortex_8 --plots docs/validation --json figures.json");

@@ -8,7 +8,7 @@ namespace fluidtex::scenes {
 
 TEST_CASE("source: text that was read already is the same scene as in a file", "[scenes]") {
   const SceneFolder folder;
-  const std::filesystem::path file = folder.write("s.toml", kGoodScene + "frames = 7\n");
+  const std::filesystem::path file = folder.write("s.toml", "frames = 7\n" + kGoodScene);
   const Scene ofText = loadScene(Source{file, textOf(file)});
   CHECK(ofText.resolved == loadScene(file).resolved);
   CHECK(ofText.name == "s");
@@ -32,11 +32,11 @@ TEST_CASE("source: a later fault of a file is told where the scene names the fil
   CHECK(faultLine(source, plain, "solid.0.mesh.file", "m.obj: is not closed") ==
         "s.toml:7:10: error: solid.0.mesh.file: m.obj: is not closed");
   CHECK(faultLine(source, plain, "texture.exemplar", "wrong") ==
-        "s.toml:1:1: error: texture.exemplar: wrong");
+        "s.toml:1:9: error: texture.exemplar: wrong");
   Overrides preview;
   preview.quality = Quality::preview;
   CHECK(faultLine(source, preview, "texture.exemplar", "wrong") ==
-        "s.toml:9:1: error: quality.preview.texture.exemplar: wrong");
+        "s.toml:9:9: error: quality.preview.texture.exemplar: wrong");
   Overrides set;
   set.set = {"solid.0.mesh.file=n.obj"};
   CHECK(faultLine(source, set, "solid.0.mesh.file", "wrong") ==

@@ -42,7 +42,10 @@ int guarded(const std::function<void()>& body) {
     finishPrinting();
     return kDone;
   } catch (const scenes::SceneError& error) {
-    for (const std::string& line : error.faults) say("{}\n", line);
+    for (const std::string& line : error.faults) {
+      say("{}\n", line);
+      spdlog::error("{}", line);
+    }
     return kInputWrong;
   } catch (const texture::ExemplarError& error) {
     return fault(error.what(), kInputWrong);

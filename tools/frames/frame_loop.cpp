@@ -11,9 +11,12 @@
 #include "tools/base/work.h"
 #include "tools/frames/check_relief.h"
 #include "tools/frames/color_between.h"
+#include "tools/frames/exemplar_fit.h"
 #include "tools/frames/image_notes.h"
 #include "tools/frames/onto_mesh.h"
+#include "tools/frames/picture_notes.h"
 #include "tools/frames/progress.h"
+#include "tools/frames/time_plan.h"
 #include "tools/frames/visible_solids.h"
 #include "tools/output/ply.h"
 #include "tools/run_folder/cache_folder.h"
@@ -104,6 +107,8 @@ class FrameLoop {
     }
     tellWarnings();
     for (const std::string& note : imageNotes(colorPictures(m_scene.texture.exemplar))) warn(note);
+    if (m_scene.texture.spacing <= 0.0 && m_surface.empty()) tellFit(m_scene.texture.points);
+    tellNote(waysNote(m_scene.texture.orientation));
     const int first = pipeline::stateOf(*m_motion).frame + 1;
     spdlog::info("{}: frames {} to {}, {} threads", m_scene.name, first, m_last, m_options.threads);
     Progress progress(first, m_last, m_options.quiet);
@@ -130,6 +135,20 @@ class FrameLoop {
     for (; m_warningsTold < all.size(); ++m_warningsTold) warn(all[m_warningsTold]);
   }
 
+  // Once it is known how many points there are.
+  void tellFit(double points) {
+    if (m_fitTold || points <= 0.0) return;
+    m_fitTold = true;
+    const texture::Image& color = m_texturing.synthesizer.exemplar.color;
+    tellNote(fitNote(m_scene.texture, color.width, color.height, points));
+  }
+
+  void tellNote(const std::string& note) const {
+    if (note.empty()) return;
+    spdlog::info("{}", note);
+    if (!m_options.quiet) say("note: {}\n", note);
+  }
+
   texture::CacheFolder kept() const {
     return {cacheFolder(), [this](const std::string& warning) { warn(warning); }};
   }
@@ -140,6 +159,7 @@ class FrameLoop {
     StageSeconds& seconds = result.seconds;
     const pipeline::TexturedFrame& textured = result.textured;
     m_surface = std::move(result.textured.surface);
+    tellFit(double(m_surface.positions.size()));
     Json record = frameRecord(motion, m_surface, textured.singularities, textured.synthesis);
     const std::size_t substeps = motion.substeps.size();
     motion.substeps.clear();  // their grids would stay in memory while the picture is drawn
@@ -187,9 +207,10 @@ class FrameLoop {
   FrameResult computeFrame() {
     FrameResult result;
     StageSeconds& seconds = result.seconds;
+    m_frame = pipeline::stateOf(*m_motion).frame + 1;
     {
       Stopwatch watch(seconds.simulate);
-      nowAt(kOnMotion, pipeline::stateOf(*m_motion).frame + 1);
+      nowAt(kOnMotion, m_frame);
       waitForFiles();
       result.motion = pipeline::nextFrame(*m_motion, reporter("simulate"));
     }
@@ -229,7 +250,7 @@ class FrameLoop {
       }
       Stopwatch watch(seconds.write);
       writeAtomically(m_options.out / "frames" / (name + ".png"),
-                      [&](const fs::path& file) { writePng(picture, file); });
+                      [&](const fs::path& file) { writePng(picture, file, pictureNotes(m_scene, frame)); });
     }
     nowAt(kOnFrameFiles, frame);
     Stopwatch watch(seconds.write);
@@ -271,13 +292,16 @@ class FrameLoop {
 
   void finish() {
     m_reportFile.write(m_report);
-    if (m_options.render && m_last >= m_options.firstFrame) writeVideo();
-    if (!m_options.quiet) say("done: {}\n", m_options.out.string());
+    const bool rendered = m_options.render && m_last >= m_options.firstFrame;
+    if (rendered) writeVideo();
+    if (!m_options.quiet) say("done: {}\n", (rendered ? videoFile() : m_options.out / "surface").string());
   }
+
+  fs::path videoFile() const { return m_options.out / (m_scene.name + ".mp4"); }
 
   void writeVideo() {
     try {
-      writeAtomically(m_options.out / (m_scene.name + ".mp4"), [&](const fs::path& file) {
+      writeAtomically(videoFile(), [&](const fs::path& file) {
         render::writeVideo(m_options.out / "frames", m_options.firstFrame, m_last, m_scene.sim.frameRate,
                            file);
       });
@@ -309,8 +333,7 @@ class FrameLoop {
       if (m_stop) throw Interrupted();
       // None while files of an earlier run are made again.
       if (m_progress == nullptr) return;
-      m_progress->update(pipeline::stateOf(*m_motion).frame + (std::string_view(stage) == "simulate" ? 1 : 0),
-                         stage, part);
+      m_progress->update(m_frame, stage, part);
     };
   }
 
@@ -324,6 +347,8 @@ class FrameLoop {
   pipeline::Texturing m_texturing;
   std::optional<pipeline::Motion> m_motion;
   std::size_t m_warningsTold = 0;
+  bool m_fitTold = false;
+  int m_frame = 0;  // that is being made
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
   VisibleSolids m_solids;
   Report m_report;

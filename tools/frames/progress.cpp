@@ -3,22 +3,14 @@
 #include "tools/base/console.h"
 
 #include <fmt/core.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace fluidtex::tools {
 namespace {
 
 constexpr auto kRedraw = std::chrono::milliseconds(100);
-
-int terminalWidth() {
-  winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
-}
 
 std::string bar(double share, int cells) {
   const int full = static_cast<int>(std::clamp(share, 0.0, 1.0) * cells + 0.5);
@@ -36,18 +28,10 @@ std::string humanDuration(double seconds) {
 }
 
 Progress::Progress(int first, int last, bool quiet)
-    : m_first(first),
-      m_last(last),
-      m_quiet(quiet),
-      m_terminal(isatty(STDERR_FILENO) != 0),
-      m_start(Clock::now()) {}
+    : m_first(first), m_last(last), m_quiet(quiet), m_start(Clock::now()) {}
 
 Progress::~Progress() {
-  clearLine();
-}
-
-void Progress::clearLine() {
-  if (!m_quiet && m_terminal) say("\r\033[K");
+  clearStatus();
 }
 
 std::string Progress::timeLeft() const {
@@ -57,22 +41,18 @@ std::string Progress::timeLeft() const {
 }
 
 void Progress::update(int frame, const std::string& stage, double part) {
-  if (m_quiet || !m_terminal || Clock::now() - m_drawn < kRedraw) return;
+  if (m_quiet || !drawsStatus() || Clock::now() - m_drawn < kRedraw) return;
   m_drawn = Clock::now();
   const double share = static_cast<double>(m_done) / std::max(1, m_last - m_first + 1);
   const std::string words =
       fmt::format("frame {}/{}  {:<10} {:3.0f}%  {}", frame, m_last, stage, 100.0 * part, timeLeft());
-  const int cells = std::clamp(terminalWidth() - static_cast<int>(words.size()) - 5, 0, 40);
-  clearLine();
-  say("{} {}", bar(share, cells), words);
+  const int cells = std::clamp(statusWidth() - static_cast<int>(words.size()) - 4, 0, 40);
+  showStatus(bar(share, cells) + " " + words);
 }
 
 void Progress::frameDone(int frame, const std::string& summary) {
   ++m_done;
-  if (m_quiet) return;
-  clearLine();
-  const std::string left = timeLeft();
-  if (!m_terminal) say("frame {}/{}: {}; {}\n", frame, m_last, summary, left);
+  if (!m_quiet && !drawsStatus()) say("frame {}/{}: {}; {}\n", frame, m_last, summary, timeLeft());
 }
 
 }  // namespace fluidtex::tools

@@ -19,11 +19,10 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void clearLine();
   std::string timeLeft() const;
 
   int m_first, m_last;
-  bool m_quiet, m_terminal;
+  bool m_quiet;
   int m_done = 0;
   Clock::time_point m_start, m_drawn;
 };
