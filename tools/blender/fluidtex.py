@@ -854,8 +854,8 @@ class Job:
         if code in (130, -signal.SIGINT):
             raise Problem("stopped; Go on (resume) continues from the last frame")
         if code != 0:
-            said = [line for line in self.lines if line and not re.match(r"(frame|warning|waiting)\b", line)]
-            sentence = re.sub(r"^error: ", "", said[-1]) if said else f"ended with code {code}"
+            faults = [re.sub(r"^error: ", "", line) for line in self.lines if "error: " in line]
+            sentence = "; ".join(faults) or f"ended with code {code}: {' '.join(list(self.lines)[-1:])}"
             raise Problem(f"fluidtex texture: {sentence}")
 
 
