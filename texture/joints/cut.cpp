@@ -7,7 +7,6 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <tuple>
 #include <type_traits>
@@ -144,16 +143,18 @@ class Cutter {
     };
     std::vector<Use> uses = gathered<Use>(m_triangles.size(), [&](std::uint32_t t, std::vector<Use>& list) {
       Shift shift[3]{};
-      for (std::size_t axis = 0; axis < 4; ++axis) {
-        const bool shown = axis < 2;
-        float q[3], largest = -std::numeric_limits<float>::max();
+      for (const std::size_t layer : {0, 1}) {
+        Vec2f q[3];
         for (int k = 0; k < 3; ++k) {
           const NewVertex& vertex = m_vertices[m_triangles[t][k]];
-          q[k] = placeOf(shown || !m_former.known[vertex.side] ? m_shown : m_former.places, vertex)[axis % 2];
-          largest = std::max(largest, q[k]);
+          q[k] = placeOf(layer == 1 && m_former.known[vertex.side] ? m_former.places : m_shown, vertex);
         }
-        for (int k = 0; k < 3; ++k)
-          shift[k][axis] = std::int16_t(std::lround((largest - q[k]) / m_torus.size[int(axis % 2)]));
+        for (const int axis : {0, 1}) {
+          const float largest = std::max({q[0][axis], q[1][axis], q[2][axis]});
+          for (int k = 0; k < 3; ++k)
+            shift[k][2 * layer + std::size_t(axis)] =
+                std::int16_t(std::lround((largest - q[k][axis]) / m_torus.size[axis]));
+        }
       }
       for (int k = 0; k < 3; ++k)
         if (shift[k] != Shift{}) list.push_back({m_triangles[t][k], shift[k], t, k});
