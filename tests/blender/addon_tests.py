@@ -26,7 +26,11 @@ def values(collection, key, width, kind=np.float32):
 def render(width, height, samples=1, filter_width=0.01, transparent=True):
     """height x width x 4, linear, premultiplied, rows from the bottom."""
     scene = bpy.context.scene
-    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = width, height, 100
+    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = (
+        width,
+        height,
+        100,
+    )
     scene.cycles.samples = samples
     scene.cycles.pixel_filter_type = "GAUSSIAN"
     scene.cycles.filter_width = filter_width
@@ -54,7 +58,8 @@ def camera_above(low, high):
 
 
 def baked_difference(liquid):
-    """Of the colours that its material emits at the corners of its triangles from those of the vertices, sRGB-encoded."""
+    """Of the colours that its material emits at the corners of its triangles from those of the vertices,
+    sRGB-encoded."""
     mesh = liquid.data
     mesh.color_attributes.active_color = mesh.color_attributes.new("baked", "FLOAT_COLOR", "CORNER")
     for thing in bpy.context.scene.objects:
@@ -63,7 +68,9 @@ def baked_difference(liquid):
     bpy.context.scene.cycles.samples = 1
     bpy.ops.object.bake(type="EMIT", target="VERTEX_COLORS")
     baked = values(mesh.attributes["baked"].data, "color", 4)[:, :3]
-    own = values(mesh.attributes["Col"].data, "color", 4)[:, :3][values(mesh.loops, "vertex_index", 1, np.int32)]
+    own = values(mesh.attributes["Col"].data, "color", 4)[:, :3][
+        values(mesh.loops, "vertex_index", 1, np.int32)
+    ]
     return small_run.encoded(baked) - small_run.encoded(own)
 
 
@@ -92,7 +99,9 @@ class Import(InBlender):
             bpy.context.scene.frame_set(frame)
             mesh = liquid.data
             np.testing.assert_array_equal(values(mesh.vertices, "co", 3), square.position.astype(np.float32))
-            np.testing.assert_array_equal(values(mesh.loops, "vertex_index", 1, np.int32).reshape(-1, 3), square.triangles)
+            np.testing.assert_array_equal(
+                values(mesh.loops, "vertex_index", 1, np.int32).reshape(-1, 3), square.triangles
+            )
             self.assertFalse(mesh.validate(verbose=True))
             self.assertTrue(values(mesh.polygons, "use_smooth", 1, bool).all())
 
@@ -104,24 +113,49 @@ class Import(InBlender):
             vertices = fluidtex.read_ply(os.path.join(folder, "surface", f"{frame:04d}.ply"))["vertex"]
             attributes = liquid.data.attributes
             for name, properties, key in (
-                    ("surface_normal", "nx ny nz", "vector"), ("orientation", "dx dy dz", "vector"),
-                    ("previous_position", "bx by bz", "vector"), ("velocity", "vx vy vz", "vector"),
-                    ("st", "s t", "vector"), ("fade_st", "fade_s fade_t", "vector"),
-                    ("gradient_s", "sx sy sz", "vector"), ("fade_gradient_t", "fade_tx fade_ty fade_tz", "vector"),
-                    ("fibre", "fibre_x fibre_y fibre_z", "vector"), ("trust", "trust", "value"), ("age", "age", "value"),
-                    ("contact", "contact", "value"), ("fade", "fade", "value"), ("height", "height", "value")):
+                ("surface_normal", "nx ny nz", "vector"),
+                ("orientation", "dx dy dz", "vector"),
+                ("previous_position", "bx by bz", "vector"),
+                ("velocity", "vx vy vz", "vector"),
+                ("st", "s t", "vector"),
+                ("fade_st", "fade_s fade_t", "vector"),
+                ("gradient_s", "sx sy sz", "vector"),
+                ("fade_gradient_t", "fade_tx fade_ty fade_tz", "vector"),
+                ("fibre", "fibre_x fibre_y fibre_z", "vector"),
+                ("trust", "trust", "value"),
+                ("age", "age", "value"),
+                ("contact", "contact", "value"),
+                ("fade", "fade", "value"),
+                ("height", "height", "value"),
+            ):
                 wanted = np.stack([vertices[part] for part in properties.split()], 1).astype(np.float32)
                 self.assertEqual(attributes[name].domain, "POINT")
-                np.testing.assert_array_equal(values(attributes[name].data, key, wanted.shape[1]).reshape(wanted.shape), wanted)
+                np.testing.assert_array_equal(
+                    values(attributes[name].data, key, wanted.shape[1]).reshape(wanted.shape), wanted
+                )
             rgba = np.stack([vertices[part] for part in ("red", "green", "blue", "alpha")], 1) / 255
             shown = values(attributes["Col"].data, "color", 4)
             np.testing.assert_allclose(small_run.encoded(shown[:, :3]), rgba[:, :3], atol=1e-5)
             np.testing.assert_allclose(shown[:, 3], rgba[:, 3], atol=1e-6)
 
+    def test_names_that_are_taken_are_told_apart(self):
+        folder, (square, *_) = self.run_folder()
+        own = {name: square.fade for name in ("exemplar", "position", "corner")}
+        square.write(os.path.join(folder, "surface", "0001.ply"), own)
+        mesh = fluidtex.import_run(folder).data
+        for name in own:
+            np.testing.assert_array_equal(
+                values(mesh.attributes[name + "_"].data, "value", 1), square.fade.astype(np.float32)
+            )
+        self.assertIn("exemplar", mesh.uv_layers)
+
     def test_normals_are_the_runs_own_where_asked_for(self):
         folder, squares = self.run_folder()
         square = squares[1]
-        tilted = np.stack([0.6 * np.sin(square.position[:, 0] * 9), np.zeros(len(square.fade)), np.ones(len(square.fade))], 1)
+        tilted = np.stack(
+            [0.6 * np.sin(square.position[:, 0] * 9), np.zeros(len(square.fade)), np.ones(len(square.fade))],
+            1,
+        )
         tilted /= np.linalg.norm(tilted, axis=1)[:, None]
         square.write(os.path.join(folder, "surface", "0002.ply"), dict(zip(("nx", "ny", "nz"), tilted.T)))
         for custom, wanted in ((True, tilted), (False, np.broadcast_to((0.0, 0.0, 1.0), tilted.shape))):
@@ -132,7 +166,9 @@ class Import(InBlender):
             else:
                 found = values(mesh.corner_normals, "vector", 3)
             np.testing.assert_allclose(found, wanted[square.triangles.ravel()], atol=2e-3)
-            np.testing.assert_allclose(values(mesh.attributes["surface_normal"].data, "vector", 3), tilted, atol=1e-6)
+            np.testing.assert_allclose(
+                values(mesh.attributes["surface_normal"].data, "vector", 3), tilted, atol=1e-6
+            )
 
     def test_places_of_joint_triangles_are_those_of_each_corner(self):
         folder, (square, *_) = self.run_folder()
@@ -140,7 +176,10 @@ class Import(InBlender):
         self.assertGreater(len(square.joint_faces), 10)
         self.assertLess(len(square.joint_faces), len(square.triangles))
         others = np.setdiff1d(np.arange(len(square.triangles)), square.joint_faces)
-        for names, places in ((fluidtex.UV_MAPS, square.places), (fluidtex.FORMER_UV_MAPS, square.former_places)):
+        for names, places in (
+            (fluidtex.UV_MAPS, square.places),
+            (fluidtex.FORMER_UV_MAPS, square.former_places),
+        ):
             for label, name in enumerate(names):
                 uv = values(mesh.uv_layers[name].data, "uv", 2).reshape(-1, 3, 2)
                 wanted = square.share(places[:, label])
@@ -149,7 +188,9 @@ class Import(InBlender):
                 # Elsewhere within one repeat of the picture.
                 np.testing.assert_allclose((uv - wanted - np.round(uv - wanted))[others], 0, atol=1e-6)
         corner = values(mesh.attributes["corner"].data, "vector", 3)
-        np.testing.assert_array_equal(corner.reshape(-1, 3, 3), np.broadcast_to(np.eye(3), (len(square.triangles), 3, 3)))
+        np.testing.assert_array_equal(
+            corner.reshape(-1, 3, 3), np.broadcast_to(np.eye(3), (len(square.triangles), 3, 3))
+        )
 
     def test_folder_report_and_surface_name_the_same_run(self):
         folder, squares = self.run_folder()
@@ -159,11 +200,21 @@ class Import(InBlender):
         shutil.copytree(os.path.join(folder, "surface"), os.path.join(folder, "onto"))
         liquid = fluidtex.import_run(os.path.join(folder, "onto", "0001.ply"))
         self.assertTrue(liquid.fluidtex.surfaces.endswith("onto"))
-        self.assertIn("Col", [node.attribute_name for node in liquid.data.materials[0].node_tree.nodes if node.type == "ATTRIBUTE"])
+        self.assertIn(
+            "Col",
+            [
+                node.attribute_name
+                for node in liquid.data.materials[0].node_tree.nodes
+                if node.type == "ATTRIBUTE"
+            ],
+        )
 
     def test_operator_imports_and_selects(self):
         folder, squares = self.run_folder()
-        self.assertEqual(bpy.ops.fluidtex.import_run(filepath=os.path.join(folder, "surface", "0001.ply"), start=3), {"FINISHED"})
+        self.assertEqual(
+            bpy.ops.fluidtex.import_run(filepath=os.path.join(folder, "surface", "0001.ply"), start=3),
+            {"FINISHED"},
+        )
         self.assertEqual(bpy.context.object.name, "small")
         bpy.context.scene.frame_set(4)
         self.assertEqual(len(bpy.context.object.data.vertices), len(squares[1].fade))
@@ -174,14 +225,39 @@ class Import(InBlender):
         with open(file, "rb") as good:
             whole = good.read()
         head = whole.index(b"end_header\n")
-        for damaged in (whole[:-1], whole[:head], whole[: len(whole) // 2], b"", b"ply\nformat ascii 1.0\n",
-                        whole.replace(b"property list uchar int vertex_indices", b"property list uchar int vertices"),
-                        whole.replace(b"property float fade_t22\n", b"property float fade_t23\n"),
-                        whole.replace(b"property float trust", b"property floot trust")):
+        for damaged in (
+            whole[:-1],
+            whole[:head],
+            whole[: len(whole) // 2],
+            b"",
+            b"ply\nformat ascii 1.0\n",
+            whole.replace(b"property list uchar int vertex_indices", b"property list uchar int vertices"),
+            whole.replace(b"property float fade_t22\n", b"property float fade_t23\n"),
+            whole.replace(b"property float trust", b"property floot trust"),
+            whole.replace(b"property float trust", b"property float age"),
+            whole.replace(b"element vertex 144", b"element vertex -14"),
+            whole.replace(b"element vertex 144", b"element vertex"),
+            whole.replace(b"property float x\n", b"property float X\n"),
+        ):
             with open(file, "wb") as bad:
                 bad.write(damaged)
             with self.assertRaisesRegex(fluidtex.Problem, "0001.ply: .*; "):
                 fluidtex.read_ply(file)
+        # Whatever is in a file, it is read or refused in one sentence.
+        random, refused = np.random.default_rng(7), 0
+        for _ in range(400):
+            changed = bytearray(whole)
+            for _ in range(random.integers(1, 4)):
+                changed[
+                    random.integers(0, head + 40 if random.random() < 0.8 else len(whole))
+                ] = random.integers(0, 256)
+            with open(file, "wb") as bad:
+                bad.write(changed)
+            try:
+                fluidtex.read_ply(file)
+            except fluidtex.Problem:
+                refused += 1
+        self.assertGreater(refused, 100)
         with self.assertRaisesRegex(fluidtex.Problem, "holds no surface"):
             fluidtex.import_run(self.folder)
         with self.assertRaisesRegex(RuntimeError, "holds no surface"):
@@ -202,19 +278,31 @@ class Timeline(InBlender):
         folder, squares = self.run_folder()
         sizes = [len(square.fade) for square in squares]
         liquid = fluidtex.import_run(folder, start=5)
-        self.assertEqual([self.count(liquid, frame) for frame in (1, 5, 6, 7, 8, 50)], [sizes[0], *sizes, sizes[2], sizes[2]])
+        self.assertEqual(
+            [self.count(liquid, frame) for frame in (1, 5, 6, 7, 8, 50)],
+            [sizes[0], *sizes, sizes[2], sizes[2]],
+        )
         liquid.fluidtex.beyond = "EMPTY"
-        self.assertEqual([self.count(liquid, frame) for frame in (4, 5, 7, 8, 6)], [0, sizes[0], sizes[2], 0, sizes[1]])
+        self.assertEqual(
+            [self.count(liquid, frame) for frame in (4, 5, 7, 8, 6)], [0, sizes[0], sizes[2], 0, sizes[1]]
+        )
 
     def test_a_frame_without_liquid_is_empty(self):
         folder, squares = self.run_folder()
         square = squares[0]
         names = fluidtex.read_ply(os.path.join(folder, "surface", "0001.ply"))["vertex"].dtype.names
         nothing = np.empty((0, 3, 3, 2))
-        small_run.write_ply(os.path.join(folder, "surface", "0002.ply"), {name: np.empty(0) for name in names}, np.empty((0, 3)),
-                            (np.empty(0), nothing, nothing))
+        small_run.write_ply(
+            os.path.join(folder, "surface", "0002.ply"),
+            {name: np.empty(0) for name in names},
+            np.empty((0, 3)),
+            (np.empty(0), nothing, nothing),
+        )
         liquid = fluidtex.import_run(folder)
-        self.assertEqual([self.count(liquid, frame) for frame in (2, 3, 2, 1)], [0, len(squares[2].fade), 0, len(square.fade)])
+        self.assertEqual(
+            [self.count(liquid, frame) for frame in (2, 3, 2, 1)],
+            [0, len(squares[2].fade), 0, len(square.fade)],
+        )
 
     def test_loaded_frames_and_moments_between_frames_read_nothing(self):
         folder, _ = self.run_folder()
@@ -265,11 +353,17 @@ class Timeline(InBlender):
 
 class Material(InBlender):
     def rendered(self, square, pixels=64):
-        """A picture from above of the inside of a square, and the triangle and weights below the middle of each pixel."""
+        """A picture from above of the inside of a square, and the triangle and weights below the middle of
+        each pixel."""
         low, high = square.position[0, :2], square.position[-1, :2]
         camera_above(low, high)
         picture = render(pixels, pixels)
-        at = (np.stack(np.meshgrid(np.arange(pixels), np.arange(pixels)), -1).reshape(-1, 2) + 0.5) / pixels * (high - low) / STEP
+        at = (
+            (np.stack(np.meshgrid(np.arange(pixels), np.arange(pixels)), -1).reshape(-1, 2) + 0.5)
+            / pixels
+            * (high - low)
+            / STEP
+        )
         side = int(round(np.sqrt(len(square.fade))))
         cell, inside = np.floor(at).astype(int), at % 1
         lower = inside[:, 0] >= inside[:, 1]
@@ -368,7 +462,10 @@ class Material(InBlender):
         right = square.right[square.triangles[faces]]
         half = np.sqrt(0.5)
         # Emission shows no negative numbers; both directions have none.
-        for where, wanted in ((~right.any(1) & ~fades, (half, 0, half)), (right.all(1) & ~fades, (0, half, half))):
+        for where, wanted in (
+            (~right.any(1) & ~fades, (half, 0, half)),
+            (right.all(1) & ~fades, (0, half, half)),
+        ):
             self.assertGreater(where.sum(), 100)
             self.assertLess(np.abs(picture[where][:, :3] - wanted).max(), 0.02)
 
@@ -401,6 +498,7 @@ class Material(InBlender):
     def test_the_relief_of_the_run_is_taken(self):
         folder, _ = self.run_folder(map=[{"name": "height", "file": "", "holds": "values"}])
         import json
+
         file = os.path.join(folder, "run.json")
         with open(file) as report:
             report = json.load(report)
@@ -408,6 +506,8 @@ class Material(InBlender):
         report["scene"]["render"]["bump"] = {"map": "height", "height": 3.0}
         with open(file, "w") as out:
             json.dump(report, out)
+        shutil.copytree(os.path.join(folder, "surface"), os.path.join(folder, "onto"))
+        self.assertEqual(fluidtex.import_run(os.path.join(folder, "onto")).fluidtex.bump_map, "")
         own = fluidtex.import_run(folder).fluidtex
         self.assertEqual(own.bump_map, os.path.join(folder, "noise.png"))
         self.assertAlmostEqual(own.bump_distance, 3 * STEP, 6)
@@ -415,8 +515,11 @@ class Material(InBlender):
 
 class MotionBlur(InBlender):
     def streak(self, shutter, fps=24, speed=0.48, start=1):
-        """By how much longer a square looks whose surface moves along x, and by how far its middle is moved, m."""
-        folder, squares = self.run_folder(f"run {shutter} {fps}", velocity=(speed, 0.0, 0.0), sides=(12, 9, 16))
+        """By how much longer a square looks whose surface moves along x, and by how far its middle is moved,
+        m."""
+        folder, squares = self.run_folder(
+            f"run {shutter} {fps}", velocity=(speed, 0.0, 0.0), sides=(12, 9, 16)
+        )
         scene = bpy.context.scene
         fluidtex.import_run(folder, shader="EMISSION")
         scene.render.fps = fps
@@ -453,18 +556,47 @@ class Texture(InBlender):
         os.chmod(file, os.stat(file).st_mode | stat.S_IXUSR)
         before = os.environ.get("FLUIDTEX")
         os.environ["FLUIDTEX"] = file
-        self.addCleanup(lambda: os.environ.__setitem__("FLUIDTEX", before) if before else os.environ.pop("FLUIDTEX"))
+        self.addCleanup(
+            lambda: os.environ.__setitem__("FLUIDTEX", before) if before else os.environ.pop("FLUIDTEX")
+        )
 
     def test_the_command_says_all_that_is_chosen(self):
         self.program('printf "%s\\n" "$@" > "${0%/*}/said"\necho "frame 7/7: done" >&2\n')
         told = []
-        fluidtex.texture(self.folder, HERE, "some where", told.append, quality="final", settings=["texture.spacing=0.01"],
-                         frame_rate=24000 / 1001, frames="1:7", resume=True)
+        fluidtex.texture(
+            self.folder,
+            HERE,
+            "some where",
+            told.append,
+            quality="final",
+            settings=["texture.spacing=0.01"],
+            frame_rate=24000 / 1001,
+            frames="1:7",
+            resume=True,
+        )
         with open(os.path.join(self.folder, "said")) as said:
             words = said.read().split("\n")[:-1]
-        self.assertEqual(words, ["texture", self.folder, "--exemplar", HERE, "--out", "some where", "--quality", "final", "--set",
-                                 "frame_rate=23.976023976023978", "--set", "texture.spacing=0.01", "--frames", "1:7", "--resume",
-                                 "--no-render"])
+        self.assertEqual(
+            words,
+            [
+                "texture",
+                self.folder,
+                "--exemplar",
+                HERE,
+                "--out",
+                "some where",
+                "--quality",
+                "final",
+                "--set",
+                "frame_rate=23.976023976023978",
+                "--set",
+                "texture.spacing=0.01",
+                "--frames",
+                "1:7",
+                "--resume",
+                "--no-render",
+            ],
+        )
 
     def test_progress_is_told(self):
         self.program('for f in 1 2 3; do echo "frame $f/3: 5 s; 1 s left" >&2; sleep 0.5; done\n')
@@ -508,7 +640,12 @@ class Texture(InBlender):
             bpy.ops.fluidtex.texture()
 
     def test_the_first_frame_is_that_of_the_cache(self):
-        for name in ("data/fluid_data_0010.vdb", "data/fluid_data_0011.vdb", "mesh/fluid_mesh_0011.bobj.gz", "config/x"):
+        for name in (
+            "data/fluid_data_0010.vdb",
+            "data/fluid_data_0011.vdb",
+            "mesh/fluid_mesh_0011.bobj.gz",
+            "config/x",
+        ):
             os.makedirs(os.path.dirname(os.path.join(self.folder, name)), exist_ok=True)
             open(os.path.join(self.folder, name), "w").close()
         self.assertEqual(fluidtex.first_number(self.folder), 11)
@@ -519,10 +656,15 @@ class Texture(InBlender):
 def run_tests(module):
     """All tests of a module, or those named behind --."""
     fluidtex.register()
-    names = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    names = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     suite = unittest.TestSuite()
     for each in vars(module).values():
-        if isinstance(each, type) and issubclass(each, unittest.TestCase) and each.__module__ == "__main__" and each is not InBlender:
+        if (
+            isinstance(each, type)
+            and issubclass(each, unittest.TestCase)
+            and each.__module__ == "__main__"
+            and each is not InBlender
+        ):
             suite.addTests(unittest.defaultTestLoader.loadTestsFromTestCase(each))
     if names:
         suite = unittest.TestSuite(test for test in suite if any(name in test.id() for name in names))

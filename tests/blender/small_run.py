@@ -1,7 +1,8 @@
-# Writes the folder of a small run by the documented format (docs/reference/files.md), for tests of the add-on: a square
-# of SIDE x SIDE points, a texel apart, that moves with a given velocity, textured by a picture of noise. Two pieces of
-# texture meet in it, one of them turned by a quarter, and a former place fades in its upper part. What is seen of it
-# is computed here once more, from the law that the page gives, without the program and without Blender.
+# Writes the folder of a small run by the documented format (docs/reference/files.md), for tests of the
+# add-on: a square of SIDE x SIDE points, a texel apart, that moves with a given velocity, textured by a
+# picture of noise. Two pieces of texture meet in it, one of them turned by a quarter, and a former place
+# fades in its upper part. What is seen of it is computed here once more, from the law that the page gives,
+# without the program and without Blender.
 import json
 import os
 
@@ -36,7 +37,9 @@ def write_ply(path, vertices, triangles, joints):
     rows = np.zeros(len(vertices["x"]), record)
     for name in names:
         rows[name] = vertices[name]
-    text = f"ply\nformat binary_little_endian 1.0\ncomment fluidtex, metres, Z up\nelement vertex {len(rows)}\n"
+    text = (
+        f"ply\nformat binary_little_endian 1.0\ncomment fluidtex, metres, Z up\nelement vertex {len(rows)}\n"
+    )
     text += "".join(f"property {'uchar' if record[name] == np.uint8 else 'float'} {name}\n" for name in names)
     text += f"element face {len(triangles)}\nproperty list uchar int vertex_indices\n"
     faces = np.zeros(len(triangles), [("n", "u1"), ("v", "<i4", 3)])
@@ -44,9 +47,16 @@ def write_ply(path, vertices, triangles, joints):
     blocks = [rows.tobytes(), faces.tobytes()]
     if joints is not None:
         text += f"element joint {len(joints[0])}\nproperty int face\n"
-        text += "".join(f"property float {fade}{axis}{label}{corner}\n" for fade in ("", "fade_") for label in range(3)
-                        for corner in range(3) for axis in "st")
-        listed = np.zeros(len(joints[0]), [("face", "<i4"), ("st", "<f4", (3, 3, 2)), ("fade_st", "<f4", (3, 3, 2))])
+        text += "".join(
+            f"property float {fade}{axis}{label}{corner}\n"
+            for fade in ("", "fade_")
+            for label in range(3)
+            for corner in range(3)
+            for axis in "st"
+        )
+        listed = np.zeros(
+            len(joints[0]), [("face", "<i4"), ("st", "<f4", (3, 3, 2)), ("fade_st", "<f4", (3, 3, 2))]
+        )
         listed["face"], listed["st"], listed["fade_st"] = joints
         blocks.append(listed.tobytes())
     with open(path, "wb") as file:
@@ -58,7 +68,9 @@ def decoded(values):
 
 
 def encoded(values):
-    return np.where(values <= 0.0031308, 12.92 * values, 1.055 * np.maximum(values, 1e-9) ** (1 / 2.4) - 0.055)
+    return np.where(
+        values <= 0.0031308, 12.92 * values, 1.055 * np.maximum(values, 1e-9) ** (1 / 2.4) - 0.055
+    )
 
 
 def sampled(image, texel):
@@ -77,12 +89,18 @@ class Square:
         self.pixels, self.velocity = pixels, velocity
         self.position = np.stack([i * STEP + at[0], j * STEP + at[1], np.full(side * side, at[2])], 1)
         a = (np.arange(side - 1)[:, None] * side + np.arange(side - 1)[None]).ravel()
-        self.triangles = np.concatenate([np.stack([a, a + 1, a + side + 1], 1), np.stack([a, a + side + 1, a + side], 1)])
+        self.triangles = np.concatenate(
+            [np.stack([a, a + 1, a + side + 1], 1), np.stack([a, a + side + 1, a + side], 1)]
+        )
         # Left, the piece lies as the picture does; right, turned by a quarter, and across the picture's edge.
         local = np.stack([i, j], 1).astype(float)
         self.right = i >= side // 2
-        self.linear = np.where(self.right[:, None, None], [[0, 1], [1, 0]], [[1, 0], [0, -1]]).astype(float)  # texels a step
-        self.texel = np.where(self.right[:, None], [40, 50], [3, 50]) + np.einsum("vab,vb->va", self.linear, local)
+        self.linear = np.where(self.right[:, None, None], [[0, 1], [1, 0]], [[1, 0], [0, -1]]).astype(
+            float
+        )  # texels a step
+        self.texel = np.where(self.right[:, None], [40, 50], [3, 50]) + np.einsum(
+            "vab,vb->va", self.linear, local
+        )
         self.fade = np.where(j > side // 3, (j - side // 3) / side, 0.0)
         touched = np.zeros(side * side, bool)
         touched[self.triangles[(self.fade[self.triangles] > 0).any(1)]] = True
@@ -91,15 +109,20 @@ class Square:
 
         # Of each corner's piece, its place at all three corners: [face, L, C].
         corner = self.triangles
-        step = (local[corner][:, None] - local[corner][:, :, None])
+        step = local[corner][:, None] - local[corner][:, :, None]
         fades = (self.fade[corner] > 0).any(1)[:, None, None, None]
         self.places = self.texel[corner][:, :, None] + np.einsum("flab,flcb->flca", self.linear[corner], step)
         self.former_places = np.where(fades, self.former[corner][:, :, None] + step @ turned, self.places)
-        whole = lambda places, own: (places == own[corner][:, None]).all((1, 2, 3)) & (np.ptp(self.share(own)[corner] % 1, 1) < 0.5).all(1)
-        self.joint_faces = np.flatnonzero(~(whole(self.places, self.texel) & whole(self.former_places, self.former)))
+        whole = lambda places, own: (places == own[corner][:, None]).all((1, 2, 3)) & (
+            np.ptp(self.share(own)[corner] % 1, 1) < 0.5
+        ).all(1)
+        self.joint_faces = np.flatnonzero(
+            ~(whole(self.places, self.texel) & whole(self.former_places, self.former))
+        )
 
     def seen(self, faces, weights):
-        """Linear RGBA, straight alpha, at barycentric weights in triangles, by the law of docs/reference/files.md."""
+        """Linear RGBA, straight alpha, at barycentric weights in triangles, by the law of
+        docs/reference/files.md."""
         rgba = self.pixels / 255.0
         color = np.concatenate([decoded(rgba[..., :3]) * rgba[..., 3:], rgba[..., 3:]], -1)  # premultiplied
         lightness = lambda c: encoded(c[..., :3] @ [0.2126, 0.7152, 0.0722])
@@ -139,30 +162,65 @@ class Square:
         shown = self.seen_at_vertices()
         shown = np.round(255 * np.concatenate([encoded(shown[:, :3]), shown[:, 3:]], 1)).astype(np.uint8)
         constant = lambda value: np.full(count, value, np.float32)
-        vertices = {**dict(zip("xyz", self.position.T)), "nx": constant(0), "ny": constant(0), "nz": constant(1),
-                    **dict(zip(("red", "green", "blue", "alpha"), shown.T)), **dict(zip("st", self.share(self.texel).T % 1)),
-                    "dx": constant(1), "dy": constant(0), "dz": constant(0),
-                    **dict(zip(("bx", "by", "bz"), (self.position - np.array(self.velocity) / 24).T)),
-                    **dict(zip(("vx", "vy", "vz"), np.tile(self.velocity, (count, 1)).T)),
-                    "trust": constant(0.75), "age": self.position[:, 0].copy(), "contact": np.ones(count, np.uint8),
-                    **dict(zip(("fade_s", "fade_t"), self.share(self.former).T % 1)), "fade": self.fade}
+        vertices = {
+            **dict(zip("xyz", self.position.T)),
+            "nx": constant(0),
+            "ny": constant(0),
+            "nz": constant(1),
+            **dict(zip(("red", "green", "blue", "alpha"), shown.T)),
+            **dict(zip("st", self.share(self.texel).T % 1)),
+            "dx": constant(1),
+            "dy": constant(0),
+            "dz": constant(0),
+            **dict(zip(("bx", "by", "bz"), (self.position - np.array(self.velocity) / 24).T)),
+            **dict(zip(("vx", "vy", "vz"), np.tile(self.velocity, (count, 1)).T)),
+            "trust": constant(0.75),
+            "age": self.position[:, 0].copy(),
+            "contact": np.ones(count, np.uint8),
+            **dict(zip(("fade_s", "fade_t"), self.share(self.former).T % 1)),
+            "fade": self.fade,
+        }
         if places:
             for fade in ("", "fade_"):
                 for axis in ("sx", "sy", "sz", "tx", "ty", "tz"):
                     vertices[fade + axis] = constant(1)
         vertices.update(more)
-        joints = (self.joint_faces, self.share(self.places[self.joint_faces]), self.share(self.former_places[self.joint_faces]))
-        write_ply(path, {name: np.asarray(values) for name, values in vertices.items()}, self.triangles,
-                  joints if places else None)
+        joints = (
+            self.joint_faces,
+            self.share(self.places[self.joint_faces]),
+            self.share(self.former_places[self.joint_faces]),
+        )
+        write_ply(
+            path,
+            {name: np.asarray(values) for name, values in vertices.items()},
+            self.triangles,
+            joints if places else None,
+        )
 
 
 def write_report(folder, picture, frames, **texture):
     with open(os.path.join(folder, "run.json"), "w") as file:
-        json.dump({"version": "0", "scene": {"name": "small", "frames": frames, "frame_rate": 24.0,
-                                             "texture": {"exemplar": picture, "toroidal": True, "method": "coordinates",
-                                                         "later_frames": "synthesize", "map": [], **texture},
-                                             "render": {"roughness": 0.05, "gloss": 1.0, "bump": {"map": "", "height": 1.0}}},
-                   "frames": [{"frame": frame + 1, "spacing": STEP} for frame in range(frames)]}, file)
+        json.dump(
+            {
+                "version": "0",
+                "scene": {
+                    "name": "small",
+                    "frames": frames,
+                    "frame_rate": 24.0,
+                    "texture": {
+                        "exemplar": picture,
+                        "toroidal": True,
+                        "method": "coordinates",
+                        "later_frames": "synthesize",
+                        "map": [],
+                        **texture,
+                    },
+                    "render": {"roughness": 0.05, "gloss": 1.0, "bump": {"map": "", "height": 1.0}},
+                },
+                "frames": [{"frame": frame + 1, "spacing": STEP} for frame in range(frames)],
+            },
+            file,
+        )
 
 
 def write_run(folder, sides=(12, 16, 9), velocity=(0.48, 0.0, 0.0), alpha=False, places=True, **texture):
@@ -173,9 +231,16 @@ def write_run(folder, sides=(12, 16, 9), velocity=(0.48, 0.0, 0.0), alpha=False,
     squares = []
     for frame, side in enumerate(sides):
         square = Square(pixels, side, np.array(velocity) * frame / 24, velocity)
-        square.write(os.path.join(folder, "surface", f"{frame + 1:04d}.ply"),
-                     {"height": square.position[:, 1], "fibre_x": square.position[:, 0], "fibre_y": square.position[:, 1],
-                      "fibre_z": square.fade}, places)
+        square.write(
+            os.path.join(folder, "surface", f"{frame + 1:04d}.ply"),
+            {
+                "height": square.position[:, 1],
+                "fibre_x": square.position[:, 0],
+                "fibre_y": square.position[:, 1],
+                "fibre_z": square.fade,
+            },
+            places,
+        )
         squares.append(square)
     write_report(folder, picture, len(sides), **texture)
     return squares

@@ -1,4 +1,5 @@
-# Tests of what surrounds a run's liquid when Cycles draws it (tools/blender/stage.py, solids.py), run by Blender.
+# Tests of what surrounds a run's liquid when Cycles draws it (tools/blender/stage.py, solids.py), run by
+# Blender.
 import json
 import math
 import os
@@ -21,14 +22,42 @@ import stage
 from addon_tests import InBlender, render, run_tests
 
 SCENE = {
-    "name": "small", "frames": 5, "frame_rate": 20.0, "motion": {"flow": "solver"},
-    "domain": {"size": [2.0, 1.0, 1.0], "sides": {f"{axis}_{side}": "wall" for axis in "xyz" for side in ("low", "high")}},
+    "name": "small",
+    "frames": 5,
+    "frame_rate": 20.0,
+    "motion": {"flow": "solver"},
+    "domain": {
+        "size": [2.0, 1.0, 1.0],
+        "sides": {f"{axis}_{side}": "wall" for axis in "xyz" for side in ("low", "high")},
+    },
     "camera": {"from": [3.0, -4.0, 2.5], "at": [1.0, 0.5, 0.3], "fov": 40.0, "turn": 80.0},
-    "light": {"sun_direction": [0.0, 0.0, 2.0], "sun_color": [1.5, 1.0, 0.5], "sun_size": 4.0, "sky_color": [0.2, 0.3, 0.5],
-              "horizon_color": [0.8, 0.7, 0.6]},
-    "render": {"size": [64, 48], "samples": 1, "bounces": 2, "gloss": 1.0, "roughness": 0.05, "exposure": 1.0, "ground": False,
-               "ground_color": [0.7, 0.7, 0.7], "tank": False, "tank_color": [0.1, 0.1, 0.1], "bump": {"map": "", "height": 1.0}},
-    "texture": {"exemplar": "", "toroidal": True, "method": "coordinates", "later_frames": "synthesize", "map": []},
+    "light": {
+        "sun_direction": [0.0, 0.0, 2.0],
+        "sun_color": [1.5, 1.0, 0.5],
+        "sun_size": 4.0,
+        "sky_color": [0.2, 0.3, 0.5],
+        "horizon_color": [0.8, 0.7, 0.6],
+    },
+    "render": {
+        "size": [64, 48],
+        "samples": 1,
+        "bounces": 2,
+        "gloss": 1.0,
+        "roughness": 0.05,
+        "exposure": 1.0,
+        "ground": False,
+        "ground_color": [0.7, 0.7, 0.7],
+        "tank": False,
+        "tank_color": [0.1, 0.1, 0.1],
+        "bump": {"map": "", "height": 1.0},
+    },
+    "texture": {
+        "exemplar": "",
+        "toroidal": True,
+        "method": "coordinates",
+        "later_frames": "synthesize",
+        "map": [],
+    },
 }
 
 
@@ -37,8 +66,18 @@ def scene(**changes):
 
 
 def solid(shape, **more):
-    return {"name": "solid 0", **shape, "from": 0.0, "until": None, "visible": True, "color": [0.5, 0.25, 0.1], "pivot": [0, 0, 0],
-            "axis": [0, 0, 1], "keyframe": [], **more}
+    return {
+        "name": "solid 0",
+        **shape,
+        "from": 0.0,
+        "until": None,
+        "visible": True,
+        "color": [0.5, 0.25, 0.1],
+        "pivot": [0, 0, 0],
+        "axis": [0, 0, 1],
+        "keyframe": [],
+        **more,
+    }
 
 
 def volume(thing):
@@ -61,7 +100,13 @@ class Camera(InBlender):
             current.frame_set(frame)
             angle = math.radians(80) * (frame - 1) / 4
             arm = np.array([2.0, -4.5, 2.2])
-            arm = np.array([math.cos(angle) * arm[0] - math.sin(angle) * arm[1], math.sin(angle) * arm[0] + math.cos(angle) * arm[1], arm[2]])
+            arm = np.array(
+                [
+                    math.cos(angle) * arm[0] - math.sin(angle) * arm[1],
+                    math.sin(angle) * arm[0] + math.cos(angle) * arm[1],
+                    arm[2],
+                ]
+            )
             at = np.array([1.0, 0.5, 0.3])
             forward = -arm / np.linalg.norm(arm)
             right = np.cross(forward, [0, 0, 1])
@@ -124,8 +169,14 @@ class Solids(InBlender):
         hole = {"box": {"min": [0.4, 0.3, -1.0], "max": [0.6, 0.5, 2.0]}}
         far = {"box": {"min": [1.2, 0.2, 0.0], "max": [1.4, 0.6, 0.5]}}
         pi = math.pi
-        for shape, wanted in ((box, 0.12), (ball, 4 / 3 * pi * 0.027), (rod, pi * 0.01), (plane, 0.5), ({"union": [box, far]}, 0.16),
-                              ({"difference": [box, hole]}, 0.1)):
+        for shape, wanted in (
+            (box, 0.12),
+            (ball, 4 / 3 * pi * 0.027),
+            (rod, pi * 0.01),
+            (plane, 0.5),
+            ({"union": [box, far]}, 0.16),
+            ({"difference": [box, hole]}, 0.1),
+        ):
             with self.subTest(list(shape)[0]):
                 (thing,) = solids.add_solids(scene(solid=[solid(shape)]), stage._matt)
                 measured, closed = volume(thing)
@@ -149,18 +200,37 @@ class Solids(InBlender):
         corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
         faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
         with open(file + ".obj", "w") as out:
-            out.write("".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join("f %d %d %d\n" % tuple(k + 1 for k in face) for face in faces))
+            out.write(
+                "".join(f"v {x} {y} {z}\n" for x, y, z in corners)
+                + "".join("f %d %d %d\n" % tuple(k + 1 for k in face) for face in faces)
+            )
         with open(file + ".stl", "w") as out:
             out.write("solid a\n")
             for face in faces:
-                out.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % corners[k] for k in face) + "endloop\nendfacet\n")
+                out.write(
+                    "facet normal 0 0 0\nouter loop\n"
+                    + "".join("vertex %g %g %g\n" % corners[k] for k in face)
+                    + "endloop\nendfacet\n"
+                )
             out.write("endsolid a\n")
         with open(file + ".ply", "w") as out:
-            out.write("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\n"
-                      "property list uchar int vertex_indices\nend_header\n" + "".join("%g %g %g\n" % c for c in corners) +
-                      "".join("3 %d %d %d\n" % face for face in faces))
+            out.write(
+                "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                "element face 4\n"
+                "property list uchar int vertex_indices\nend_header\n"
+                + "".join("%g %g %g\n" % c for c in corners)
+                + "".join("3 %d %d %d\n" % face for face in faces)
+            )
         for ending in ("obj", "stl", "ply"):
-            mesh = {"mesh": {"file": f"{file}.{ending}", "up": "y", "rotate": [0, 0, 90], "scale": 0.5, "translate": [1.0, 0.25, 0.25]}}
+            mesh = {
+                "mesh": {
+                    "file": f"{file}.{ending}",
+                    "up": "y",
+                    "rotate": [0, 0, 90],
+                    "scale": 0.5,
+                    "translate": [1.0, 0.25, 0.25],
+                }
+            }
             (thing,) = solids.add_solids(scene(solid=[solid(mesh)]), stage._matt)
             # y up: (x, y, z) is (x, -z, y); turned about z: (z, x, y).
             wanted = sorted((1.0 + 0.5 * z, 0.25 + 0.5 * x, 0.25 + 0.5 * y) for x, y, z in corners)
@@ -172,12 +242,20 @@ class Solids(InBlender):
     def test_ground_has_the_heights_of_its_picture(self):
         image = bpy.data.images.new("bed", 4, 2, is_data=True)
         grey = np.ones((2, 4, 4), np.float32)
-        grey[..., :3] = (np.arange(8).reshape(2, 4, 1) * 32 / 255)
+        grey[..., :3] = np.arange(8).reshape(2, 4, 1) * 32 / 255
         image.pixels.foreach_set(grey.ravel())
         image.filepath_raw, image.file_format = os.path.join(self.folder, "bed.png"), "PNG"
         image.save()
         bpy.data.images.remove(image)
-        field = {"height_field": {"file": os.path.join(self.folder, "bed.png"), "pixel": 0.5, "low": 0.0, "high": 1.0, "translate": [0.0, 0.0, 0.1]}}
+        field = {
+            "height_field": {
+                "file": os.path.join(self.folder, "bed.png"),
+                "pixel": 0.5,
+                "low": 0.0,
+                "high": 1.0,
+                "translate": [0.0, 0.0, 0.1],
+            }
+        }
         (thing,) = solids.add_solids(scene(solid=[solid(field)]), stage._matt)
         self.assertTrue(volume(thing)[1])
         hit, place, *_ = thing.ray_cast(Vector((0.75, 0.75, 5)), Vector((0, 0, -1)))
@@ -186,24 +264,51 @@ class Solids(InBlender):
 
     def test_solids_move_come_and_go_as_the_scene_says(self):
         box = {"box": {"min": [0.0, 0.0, 0.0], "max": [0.2, 0.2, 0.2]}}
-        keys = [{"time": 0.05, "move": [0, 0, 0], "turn": 0.0}, {"time": 0.15, "move": [0.4, 0, 0], "turn": 180.0}]
-        (thing,) = solids.add_solids(scene(solid=[solid(box, keyframe=keys, pivot=[0.1, 0.1, 0], until=0.2)]), stage._matt)
+        keys = [
+            {"time": 0.05, "move": [0, 0, 0], "turn": 0.0},
+            {"time": 0.15, "move": [0.4, 0, 0], "turn": 180.0},
+        ]
+        (thing,) = solids.add_solids(
+            scene(solid=[solid(box, keyframe=keys, pivot=[0.1, 0.1, 0], until=0.2)]), stage._matt
+        )
         current = bpy.context.scene
-        for frame, move, degrees, hidden in ((1, 0, 0, False), (2, 0, 0, False), (3, 0.2, 90, False), (4, 0.4, 180, False), (5, 0.4, 180, True)):
+        for frame, move, degrees, hidden in (
+            (1, 0, 0, False),
+            (2, 0, 0, False),
+            (3, 0.2, 90, False),
+            (4, 0.4, 180, False),
+            (5, 0.4, 180, True),
+        ):
             current.frame_set(frame)
             corner = thing.matrix_world @ Vector((0.2, 0.2, 0))
             turn = math.radians(degrees)
             c, s = math.cos(turn), math.sin(turn)
-            np.testing.assert_allclose(corner, (0.1 + 0.1 * (c - s) + move, 0.1 + 0.1 * (c + s), 0), atol=1e-5)
+            np.testing.assert_allclose(
+                corner, (0.1 + 0.1 * (c - s) + move, 0.1 + 0.1 * (c + s), 0), atol=1e-5
+            )
             self.assertEqual(thing.hide_render, hidden)
         self.assertEqual(len(solids.add_solids(scene(solid=[solid(box, visible=False)]), stage._matt)), 0)
 
     def test_a_sequence_changes_its_shape_evenly(self):
         for number in (3, 4, 5):
             with open(os.path.join(self.folder, f"s{number:04d}.obj"), "w") as out:
-                out.write(f"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 {0.1 * (number - 2) ** 2:g}\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
-        sequence = {"mesh_sequence": {"files": os.path.join(self.folder, "s%04d.obj"), "first": 3, "last": 5, "frame_rate": 10.0, "start": 0.0,
-                                      "up": "z", "rotate": [0, 0, 0], "scale": 1.0, "translate": [0, 0, 0]}}
+                out.write(
+                    f"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 {0.1 * (number - 2) ** 2:g}\n"
+                    "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+                )
+        sequence = {
+            "mesh_sequence": {
+                "files": os.path.join(self.folder, "s%04d.obj"),
+                "first": 3,
+                "last": 5,
+                "frame_rate": 10.0,
+                "start": 0.0,
+                "up": "z",
+                "rotate": [0, 0, 0],
+                "scale": 1.0,
+                "translate": [0, 0, 0],
+            }
+        }
         (thing,) = solids.add_solids(scene(solid=[solid(sequence)]), stage._matt)
         for frame, height in ((1, 0.1), (2, 0.25), (3, 0.4), (4, 0.65), (5, 0.9)):
             bpy.context.scene.frame_set(frame)
@@ -230,14 +335,22 @@ class Pictures(InBlender):
         self.assertEqual((*image.size, image.channels), (90, 60, 4))
         before = os.stat(picture).st_mtime_ns
         cycles.main([folder, "--missing", "--size", "90", "60", "--samples", "1"])
-        self.assertEqual(sorted(os.listdir(os.path.join(folder, "cycles"))), ["0001.png", "0002.png", "0003.png"])
+        self.assertEqual(
+            sorted(os.listdir(os.path.join(folder, "cycles"))), ["0001.png", "0002.png", "0003.png"]
+        )
         self.assertEqual(os.stat(picture).st_mtime_ns, before)
 
     def test_values_are_bent_as_in_the_runs_own_pictures(self):
         light = np.array([0.0, 0.3, 0.64, 0.8, 2.0, np.nan])
         bent = 0.8 + 0.2 * (1 - np.exp(-(1.25 * np.array([0.8, 2.0]) - 0.8) / 0.2))
-        np.testing.assert_allclose(cycles.developed(light, 1.25, False), small_run.encoded(np.array([0, 0.375, 0.8, *bent, 0])), atol=1e-9)
-        np.testing.assert_allclose(cycles.developed(light, 1.0, True)[3:5], small_run.encoded(np.array([0.8, 1.0])), atol=1e-9)
+        np.testing.assert_allclose(
+            cycles.developed(light, 1.25, False),
+            small_run.encoded(np.array([0, 0.375, 0.8, *bent, 0])),
+            atol=1e-9,
+        )
+        np.testing.assert_allclose(
+            cycles.developed(light, 1.0, True)[3:5], small_run.encoded(np.array([0.8, 1.0])), atol=1e-9
+        )
 
     def test_the_scene_can_be_saved_instead(self):
         folder = self.make_run()
@@ -252,9 +365,13 @@ class Pictures(InBlender):
 
     def test_faults_are_told(self):
         folder = self.make_run()
-        for words, sentence in (([folder, "--frames", "7:9"], "from 1 to 3"), ([folder, "--frames", "a"], "no range"),
-                                ([folder, "--samples", "0"], "above 0"), ([self.folder], "holds no surface"),
-                                ([folder, "--bump", "nothing.png"], "is no picture")):
+        for words, sentence in (
+            ([folder, "--frames", "7:9"], "from 1 to 3"),
+            ([folder, "--frames", "a"], "no range"),
+            ([folder, "--samples", "0"], "above 0"),
+            ([self.folder], "holds no surface"),
+            ([folder, "--bump", "nothing.png"], "is no picture"),
+        ):
             with self.assertRaisesRegex(fluidtex.Problem, sentence):
                 cycles.main(words)
 

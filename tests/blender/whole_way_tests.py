@@ -1,5 +1,5 @@
-# The whole way, run by Blender with the program itself (variable FLUIDTEX): Blender bakes a liquid, the add-on has it
-# textured and shows the result, and Cycles draws what fluidtex has drawn of it.
+# The whole way, run by Blender with the program itself (variable FLUIDTEX): Blender bakes a liquid, the
+# add-on has it textured and shows the result, and Cycles draws what fluidtex has drawn of it.
 import json
 import os
 import subprocess
@@ -34,7 +34,15 @@ def pixels(file):
 def blurred(picture, side=4):
     """Means over squares of pixels: without the noise of few samples."""
     height, width, _ = picture.shape
-    return picture[: height // side * side, : width // side * side].reshape(height // side, side, width // side, side, 3).mean((1, 3))
+    return (
+        picture[: height // side * side, : width // side * side]
+        .reshape(height // side, side, width // side, side, 3)
+        .mean((1, 3))
+    )
+
+
+def rms(values):
+    return np.sqrt((values**2).mean())
 
 
 class WholeWay(InBlender):
@@ -56,7 +64,9 @@ class WholeWay(InBlender):
         """Of the mesh as it is shown, in the world."""
         shown = thing.evaluated_get(bpy.context.evaluated_depsgraph_get())
         mesh = shown.to_mesh()
-        points = values(mesh.vertices, "co", 3) @ np.array(shown.matrix_world.to_3x3()).T + np.array(shown.matrix_world.translation)
+        points = values(mesh.vertices, "co", 3) @ np.array(shown.matrix_world.to_3x3()).T + np.array(
+            shown.matrix_world.translation
+        )
         shown.to_mesh_clear()
         return points.min(0), points.max(0)
 
@@ -83,9 +93,13 @@ class WholeWay(InBlender):
         # Where the liquid is after a frame is where its velocities lead.
         scene.frame_set(4)
         velocity = values(liquid.data.attributes["velocity"].data, "vector", 3)
-        moved = values(liquid.data.vertices, "co", 3) - values(liquid.data.attributes["previous_position"].data, "vector", 3)
+        moved = values(liquid.data.vertices, "co", 3) - values(
+            liquid.data.attributes["previous_position"].data, "vector", 3
+        )
         self.assertGreater(np.abs(velocity).max(), 0.3)
-        self.assertLess(np.sqrt(((velocity / 25 - moved) ** 2).sum(1).mean()), 0.35 * np.sqrt((moved ** 2).sum(1).mean()))
+        self.assertLess(
+            np.sqrt(((velocity / 25 - moved) ** 2).sum(1).mean()), 0.35 * np.sqrt((moved**2).sum(1).mean())
+        )
         # The material looks the colours up that fluidtex gave the points: bilinear, where that is cubic.
         liquid.fluidtex.shader = "EMISSION"
         fluidtex.make_material(liquid)
@@ -93,8 +107,10 @@ class WholeWay(InBlender):
         self.assertGreater(len(surface["joint"]), 100)
         self.assertGreater((surface["vertex"]["fade"] > 0).sum(), 30)
         difference = baked_difference(liquid)
-        print(f"difference of colours at the points: rms {np.sqrt((difference ** 2).mean()):.4f}, most {np.abs(difference).max():.4f}")
-        self.assertLess(np.sqrt((difference ** 2).mean()), 0.015)
+        print(
+            f"difference of colours at the points: rms {rms(difference):.4f}, most {np.abs(difference).max():.4f}"
+        )
+        self.assertLess(rms(difference), 0.015)
         self.assertLess(np.abs(difference).max(), 0.08)
         # Once more: the same object is brought up to date.
         bpy.context.view_layer.objects.active = domain
@@ -118,7 +134,12 @@ class WholeWay(InBlender):
     def test_faults_of_the_program_are_told(self):
         self.bake()
         with self.assertRaisesRegex(fluidtex.Problem, "texture.windwos: unknown key"):
-            fluidtex.texture(os.path.join(self.folder, "cache"), EXEMPLAR, os.path.join(self.folder, "out"), settings=["texture.windwos=3"])
+            fluidtex.texture(
+                os.path.join(self.folder, "cache"),
+                EXEMPLAR,
+                os.path.join(self.folder, "out"),
+                settings=["texture.windwos=3"],
+            )
 
     def test_cycles_draws_what_fluidtex_draws(self):
         self.bake()
@@ -127,14 +148,28 @@ class WholeWay(InBlender):
         fine.scale(2 * fine.size[0], 2 * fine.size[1])
         fine.filepath_raw, fine.file_format = os.path.join(self.folder, "fine.png"), "PNG"
         fine.save()
-        fluidtex.texture(cache, EXEMPLAR, out, quality="preview", pictures=True, frame_rate=25.0, settings=[
-            "texture.points=3000", "texture.toroidal=true", "texture.between=file", f"texture.between_file={fine.filepath_raw}",
-            "render.size=[240,136]", "render.samples=64", "render.ground=true"])
+        fluidtex.texture(
+            cache,
+            EXEMPLAR,
+            out,
+            quality="preview",
+            pictures=True,
+            frame_rate=25.0,
+            settings=[
+                "texture.points=3000",
+                "texture.toroidal=true",
+                "texture.between=file",
+                f"texture.between_file={fine.filepath_raw}",
+                "render.size=[240,136]",
+                "render.samples=64",
+                "render.ground=true",
+            ],
+        )
         cycles.main([out, "--frames", "4"])
         ours, theirs = (pixels(os.path.join(out, folder, "0004.png")) for folder in ("frames", "cycles"))
         difference = blurred(ours) - blurred(theirs)
-        print(f"difference of pictures: rms {np.sqrt((difference ** 2).mean()):.4f}, mean {difference.mean():.4f}")
-        self.assertLess(np.sqrt((difference ** 2).mean()), 0.01)
+        print(f"difference of pictures: rms {rms(difference):.4f}, mean {difference.mean():.4f}")
+        self.assertLess(rms(difference), 0.01)
         self.assertGreater(np.ptp(blurred(ours)), 0.3)
 
 

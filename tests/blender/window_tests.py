@@ -1,5 +1,6 @@
-# The add-on's panels and the button that textures a liquid, in a window of Blender's (tests/blender/in_window). The
-# program is a stand-in that takes its time; steps follow one another by a timer, while the window draws itself.
+# The add-on's panels and the button that textures a liquid, in a window of Blender's
+# (tests/blender/in_window). The program is a stand-in that takes its time; steps follow one another by a
+# timer, while the window draws itself.
 import os
 import shutil
 import sys
@@ -32,12 +33,16 @@ def in_view(act):
     """Calls act as if from the 3D view."""
     window = bpy.context.window_manager.windows[0]
     area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
-    with bpy.context.temp_override(window=window, area=area, region=next(region for region in area.regions if region.type == "WINDOW")):
+    with bpy.context.temp_override(
+        window=window, area=area, region=next(region for region in area.regions if region.type == "WINDOW")
+    ):
         return act()
 
 
 def show_panel(context):
-    next(area for area in bpy.context.window_manager.windows[0].screen.areas if area.type == "PROPERTIES").spaces.active.context = context
+    next(
+        area for area in bpy.context.window_manager.windows[0].screen.areas if area.type == "PROPERTIES"
+    ).spaces.active.context = context
 
 
 def choose(thing):
@@ -61,15 +66,26 @@ def steps():
     yield 0.5
     show_panel("PHYSICS")
     yield 1.0
-    expect(in_view(lambda: bpy.ops.fluidtex.texture("INVOKE_DEFAULT")) == {"RUNNING_MODAL"}, "the button starts the work")
+    expect(
+        in_view(lambda: bpy.ops.fluidtex.texture("INVOKE_DEFAULT")) == {"RUNNING_MODAL"},
+        "the button starts the work",
+    )
     expect(not in_view(bpy.ops.fluidtex.texture.poll), "one at a time")
     yield 2.0
-    expect(own.status.startswith("frame ") and own.status.endswith(" of 3"), f"progress is shown, not {own.status!r}")
+    expect(
+        own.status.startswith("frame ") and own.status.endswith(" of 3"),
+        f"progress is shown, not {own.status!r}",
+    )
     expect(in_view(bpy.ops.fluidtex.stop) == {"FINISHED"}, "it can be stopped")
     yield 2.0
     expect("stopped" in own.status, f"that it stopped is said, not {own.status!r}")
-    expect(not any(thing.fluidtex.surfaces for thing in bpy.context.scene.objects), "nothing is shown of stopped work")
-    expect(in_view(lambda: bpy.ops.fluidtex.texture("INVOKE_DEFAULT")) == {"RUNNING_MODAL"}, "it starts again")
+    expect(
+        not any(thing.fluidtex.surfaces for thing in bpy.context.scene.objects),
+        "nothing is shown of stopped work",
+    )
+    expect(
+        in_view(lambda: bpy.ops.fluidtex.texture("INVOKE_DEFAULT")) == {"RUNNING_MODAL"}, "it starts again"
+    )
     yield 6.0
     expect(own.status == "done", f"it ends, not {own.status!r}")
     liquid = next(thing for thing in bpy.context.scene.objects if thing.fluidtex.surfaces)

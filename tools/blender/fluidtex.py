@@ -1,6 +1,6 @@
-# Blender add-on: textured liquids of fluidtex on the timeline, and the texture itself on a liquid that is baked here.
-# What arrives as which attribute, and how to use it: docs/tutorial-blender.md. Made and tested with Blender 3.4; where
-# later versions differ, the code says so.
+# Blender add-on: textured liquids of fluidtex on the timeline, and the texture itself on a liquid that is
+# baked here. What arrives as which attribute, and how to use it: docs/tutorial-blender.md. Made and tested
+# with Blender 3.4; where later versions differ, the code says so.
 #
 # Without a window:
 #   import fluidtex; fluidtex.register()
@@ -37,38 +37,58 @@ class Problem(Exception):
     """One sentence for the user: what is wrong with which file or setting."""
 
 
-# ---- files of a run -------------------------------------------------------------------------------------------------
+# ---- files of a run ----------------------------------------------------------------------------------------
 # Their format is documented in docs/reference/files.md.
 
-_NUMBERS = {"char": "i1", "uchar": "u1", "short": "<i2", "ushort": "<u2", "int": "<i4", "uint": "<u4",
-            "float": "<f4", "double": "<f8"}
+_NUMBERS = {
+    "char": "i1",
+    "uchar": "u1",
+    "short": "<i2",
+    "ushort": "<u2",
+    "int": "<i4",
+    "uint": "<u4",
+    "float": "<f4",
+    "double": "<f8",
+}
 _FACE = np.dtype([("n", "u1"), ("v", "<i4", 3)])
 # Of each corner L's piece of texture, its place at each corner C: st[L, C].
 _JOINT = np.dtype([("face", "<i4"), ("st", "<f4", (3, 3, 2)), ("fade_st", "<f4", (3, 3, 2))])
-_JOINT_PROPERTIES = ["face"] + [f"{fade}{axis}{label}{corner}" for fade in ("", "fade_") for label in range(3)
-                                for corner in range(3) for axis in "st"]
+_JOINT_PROPERTIES = ["face"] + [
+    f"{fade}{axis}{label}{corner}"
+    for fade in ("", "fade_")
+    for label in range(3)
+    for corner in range(3)
+    for axis in "st"
+]
 
 
 def _elements(data, path):
-    """Where each element of a PLY file lies: [(name, count, [(property, type)])], and where its header ends."""
+    """Where each element of a PLY file lies: [(name, count, [(property, type)])], and where its header
+    ends."""
     end = data.find(b"end_header\n", 0, 1 << 16)
     if not data.startswith(b"ply\nformat binary_little_endian 1.0\n") or end < 0:
         raise Problem(f"{path}: is no surface of fluidtex; give a binary little-endian PLY file")
     elements = []
-    for line in data[:end].decode("ascii", "replace").split("\n"):
-        words = line.split()
-        if words[:1] == ["element"]:
-            elements.append((words[1], int(words[2]), []))
-        elif words[:2] == ["property", "list"]:
-            elements[-1][2].append((words[-1], "list"))
-        elif words[:1] == ["property"]:
-            elements[-1][2].append((words[2], words[1]))
+    try:
+        for line in data[:end].decode("ascii", "replace").split("\n"):
+            words = line.split()
+            if words[:1] == ["element"]:
+                elements.append((words[1], int(words[2]), []))
+            elif words[:2] == ["property", "list"]:
+                elements[-1][2].append((words[-1], "list"))
+            elif words[:1] == ["property"]:
+                elements[-1][2].append((words[2], words[1]))
+        for _, count, properties in elements:
+            if count < 0 or len(dict(properties)) < len(properties):
+                raise ValueError
+    except (ValueError, IndexError):
+        raise Problem(f"{path}: its header is damaged; let fluidtex write it again") from None
     return elements, end + len(b"end_header\n")
 
 
 def read_ply(path):
-    """{"vertex", "face", "joint"}: a structured array each, of a file that fluidtex has written; "joint" is None where the
-    file has no such element. Nothing is parsed: each element is a block of equal records."""
+    """{"vertex", "face", "joint"}: a structured array each, of a file that fluidtex has written; "joint" is
+    None where the file has no such element. Nothing is parsed: each element is a block of equal records."""
     try:
         with open(path, "rb") as file:
             data = file.read()
@@ -79,7 +99,9 @@ def read_ply(path):
     for name, count, properties in elements:
         if name == "face":
             if properties != [("vertex_indices", "list")]:
-                raise Problem(f"{path}: its faces have other properties than vertex_indices; give a surface of fluidtex")
+                raise Problem(
+                    f"{path}: its faces have other properties than vertex_indices; give a surface of fluidtex"
+                )
             record = _FACE
         else:
             if any(kind not in _NUMBERS for _, kind in properties):
@@ -87,7 +109,10 @@ def read_ply(path):
             record = np.dtype([(prop, _NUMBERS[kind]) for prop, kind in properties])
         if name == "joint":
             if [prop for prop, _ in properties] != _JOINT_PROPERTIES or record.itemsize != _JOINT.itemsize:
-                raise Problem(f"{path}: its joints are of another version of fluidtex than this add-on; install the one beside it")
+                raise Problem(
+                    f"{path}: its joints are of another version of fluidtex than this add-on; "
+                    "install the one beside it"
+                )
             record = _JOINT
         if len(data) < offset + count * record.itemsize:
             raise Problem(f"{path}: is cut short; let fluidtex write it again")
@@ -97,15 +122,23 @@ def read_ply(path):
         raise Problem(f"{path}: lacks vertices or faces; give a surface of fluidtex")
     if not (result["face"]["n"] == 3).all():
         raise Problem(f"{path}: has faces that are no triangles; give a surface of fluidtex")
-    corners = result["face"]["v"]
+    corners, joints = result["face"]["v"], result["joint"]
     if corners.size and not (0 <= corners.min() and corners.max() < len(result["vertex"])):
-        raise Problem(f"{path}: a triangle has a corner that is not there; let fluidtex write the file again")
+        raise Problem(f"{path}: a triangle has a corner that is not there; let fluidtex write it again")
+    if (
+        joints is not None
+        and len(joints)
+        and not (0 <= joints["face"].min() and joints["face"].max() < len(corners))
+    ):
+        raise Problem(f"{path}: a joint is of a triangle that is not there; let fluidtex write it again")
+    if not set("xyz") <= set(result["vertex"].dtype.names):
+        raise Problem(f"{path}: its vertices have no positions; give a surface of fluidtex")
     return result
 
 
 class Run:
-    """A finished or growing run, as far as Blender needs it. `path`: its folder, run.json, surface/, onto/, or a PLY file in one
-    of these."""
+    """A finished or growing run, as far as Blender needs it. `path`: its folder, run.json, surface/, onto/,
+    or a PLY file in one of these."""
 
     def __init__(self, path):
         path = os.path.abspath(bpy.path.abspath(path)).rstrip(os.sep)
@@ -126,7 +159,9 @@ class Run:
         except FileNotFoundError:
             pass  # meshes alone: colours, at the scene's frame rate
         except (OSError, ValueError, KeyError) as error:
-            raise Problem(f"{os.path.join(folder, 'run.json')}: cannot be read ({error}); let fluidtex write it again") from None
+            raise Problem(
+                f"{os.path.join(folder, 'run.json')}: cannot be read ({error}); let fluidtex write it again"
+            ) from None
         texture = self.scene.get("texture") or {}
         self.frame_rate = float(self.scene.get("frame_rate") or 0)
         self.exemplar = texture.get("exemplar") or ""
@@ -154,7 +189,7 @@ class Run:
         return os.path.join(self.surfaces, f"{frame:04d}.ply")
 
 
-# ---- the mesh -------------------------------------------------------------------------------------------------------
+# ---- the mesh ----------------------------------------------------------------------------------------------
 
 # Properties of a vertex that become one attribute; all others keep their names.
 _GROUPS = {
@@ -169,13 +204,18 @@ _GROUPS = {
     "fade_gradient_s": ("fade_sx", "fade_sy", "fade_sz"),
     "fade_gradient_t": ("fade_tx", "fade_ty", "fade_tz"),
 }
-_KINDS = {1: ("FLOAT", "value"), 2: ("FLOAT2", "vector"), 3: ("FLOAT_VECTOR", "vector"), 4: ("FLOAT_COLOR", "color")}
-UV_MAPS = ("exemplar", "exemplar1", "exemplar2")        # of the place that is shown, of each corner's piece
-FORMER_UV_MAPS = ("former", "former1", "former2")       # of the place that fades
-CORNER = "corner"                                       # (1,0,0), (0,1,0), (0,0,1): inside, the barycentric coordinates
+_KINDS = {
+    1: ("FLOAT", "value"),
+    2: ("FLOAT2", "vector"),
+    3: ("FLOAT_VECTOR", "vector"),
+    4: ("FLOAT_COLOR", "color"),
+}
+UV_MAPS = ("exemplar", "exemplar1", "exemplar2")  # of the place that is shown, of each corner's piece
+FORMER_UV_MAPS = ("former", "former1", "former2")  # of the place that fades
+CORNER = "corner"  # (1,0,0), (0,1,0), (0,0,1): inside, the barycentric coordinates
 
-_DECODED = np.arange(256, dtype=np.float64) / 255
-_DECODED = np.where(_DECODED <= 0.04045, _DECODED / 12.92, ((_DECODED + 0.055) / 1.055) ** 2.4).astype(np.float32)
+_CODES = np.arange(256) / 255
+_DECODED = np.where(_CODES <= 0.04045, _CODES / 12.92, ((_CODES + 0.055) / 1.055) ** 2.4).astype(np.float32)
 
 
 def attribute_groups(properties):
@@ -194,7 +234,9 @@ def attribute_groups(properties):
                 groups[stem] = names
                 left = [other for other in left if other not in names]
     groups.update({name: (name,) for name in left})
-    return groups
+    # Names that Blender or the UV maps have for something else.
+    taken = ("position", "Col", CORNER, *UV_MAPS, *FORMER_UV_MAPS)
+    return {name + "_" if name in taken else name: names for name, names in groups.items()}
 
 
 def columns(vertices, names):
@@ -202,7 +244,14 @@ def columns(vertices, names):
     fields = [vertices.dtype.fields[name] for name in names]
     first = fields[0][1]
     if all(kind == np.dtype("<f4") and place == first + 4 * k for k, (kind, place) in enumerate(fields)):
-        wide = np.dtype({"names": ["all"], "formats": [("<f4", (len(names),))], "offsets": [first], "itemsize": vertices.dtype.itemsize})
+        wide = np.dtype(
+            {
+                "names": ["all"],
+                "formats": [("<f4", (len(names),))],
+                "offsets": [first],
+                "itemsize": vertices.dtype.itemsize,
+            }
+        )
         return np.ascontiguousarray(vertices.view(wide)["all"])
     result = np.empty((len(vertices), len(names)), np.float32)
     for k, name in enumerate(names):
@@ -216,7 +265,8 @@ def _set_attribute(mesh, name, domain, values):
 
 
 def _set_uv_maps(mesh, names, st, corners, joint_faces, joint_st):
-    """One UV map for the piece of each corner of a triangle. They differ in joint triangles only. Blender's v runs upwards."""
+    """One UV map for the piece of each corner of a triangle. They differ in joint triangles only. Blender's v
+    runs upwards."""
     uv = np.array(st)
     uv[:, 1] = 1 - uv[:, 1]
     whole = uv.view(np.uint64).ravel()[corners.ravel()].view(np.float32).reshape(-1, 3, 2)
@@ -229,8 +279,10 @@ def _set_uv_maps(mesh, names, st, corners, joint_faces, joint_st):
 
 
 def fill(mesh, surface, velocity_factor=1.0, custom_normals=False):
-    """Replaces all geometry of the mesh by a surface of read_ply(). Uses no operator, so that it works while rendering."""
-    vertices, corners, joints = surface["vertex"], np.ascontiguousarray(surface["face"]["v"]), surface["joint"]
+    """Replaces all geometry of the mesh by a surface of read_ply(). Uses no operator, so that it works while
+    rendering."""
+    vertices, joints = surface["vertex"], surface["joint"]
+    corners = np.ascontiguousarray(surface["face"]["v"])
     count, faces = len(vertices), len(corners)
     mesh.clear_geometry()
     if count == 0:
@@ -241,7 +293,8 @@ def fill(mesh, surface, velocity_factor=1.0, custom_normals=False):
     mesh.vertices.foreach_set("co", columns(vertices, "xyz").ravel())
     mesh.loops.foreach_set("vertex_index", corners.ravel())
     mesh.polygons.foreach_set("loop_start", np.arange(0, 3 * faces, 3, dtype=np.int32))
-    if not bpy.types.MeshPolygon.bl_rna.properties["loop_total"].is_readonly:  # follows from loop_start in later versions
+    totals = bpy.types.MeshPolygon.bl_rna.properties["loop_total"]
+    if not totals.is_readonly:  # as in later versions, where they follow from loop_start
         mesh.polygons.foreach_set("loop_total", np.full(faces, 3, np.int32))
     mesh.polygons.foreach_set("use_smooth", np.ones(faces, bool))
     mesh.update(calc_edges=True)
@@ -258,7 +311,10 @@ def fill(mesh, surface, velocity_factor=1.0, custom_normals=False):
             values *= np.float32(velocity_factor)
         _set_attribute(mesh, name, "POINT", values)
     if joints is not None and "fade_s" in properties:
-        for maps, names, record in ((UV_MAPS, ("s", "t"), "st"), (FORMER_UV_MAPS, ("fade_s", "fade_t"), "fade_st")):
+        for maps, names, record in (
+            (UV_MAPS, ("s", "t"), "st"),
+            (FORMER_UV_MAPS, ("fade_s", "fade_t"), "fade_st"),
+        ):
             _set_uv_maps(mesh, maps, columns(vertices, names), corners, joints["face"], joints[record])
         _set_attribute(mesh, CORNER, "CORNER", np.tile(np.eye(3, dtype=np.float32), (faces, 1)))
     if custom_normals:
@@ -267,10 +323,10 @@ def fill(mesh, surface, velocity_factor=1.0, custom_normals=False):
             mesh.use_auto_smooth = True
 
 
-# ---- the material ---------------------------------------------------------------------------------------------------
+# ---- the material ------------------------------------------------------------------------------------------
 
 _MEAN_HALVINGS = 3  # means are over 8 x 8 pixels of the exemplar, as texture/shown/shown_color.h has it
-_SAME = 1e-3        # squared differences of lightness below this count as none
+_SAME = 1e-3  # squared differences of lightness below this count as none
 
 
 class Nodes:
@@ -332,7 +388,8 @@ class Nodes:
 
 
 def _new_group(name, inputs, outputs):
-    """A node group of that name with sockets {name: type}. One that is there keeps them, and so its links to other nodes."""
+    """A node group of that name with sockets {name: type}. One that is there keeps them, and so its links to
+    other nodes."""
     group = bpy.data.node_groups.get(name)
     if group is None:
         group = bpy.data.node_groups.new(name, "ShaderNodeTree")
@@ -346,22 +403,35 @@ def _new_group(name, inputs, outputs):
 
 
 def _look_up_group(run, image, holds, inputs, outputs):
-    return _new_group(f"fluidtex {holds} of {image.name}{' repeated' if run.toroidal else ''}", inputs, outputs)
+    return _new_group(
+        f"fluidtex {holds} of {image.name}{' repeated' if run.toroidal else ''}", inputs, outputs
+    )
 
 
 def _fade_group():
-    """The law by which the place that is shown and the one that fades are mixed: texture/shown/shown_color.h. Gives the share of
-    the colour that is shown."""
+    """The law by which the place that is shown and the one that fades are mixed: texture/shown/shown_color.h.
+    Gives the share of the colour that is shown."""
     number = "NodeSocketFloat"
-    group = _new_group("fluidtex fade", {"Shown": "NodeSocketColor", "Former": "NodeSocketColor", "Shown Mean": number,
-                                         "Former Mean": number, "Weight": number}, {"Share": number})
+    group = _new_group(
+        "fluidtex fade",
+        {
+            "Shown": "NodeSocketColor",
+            "Former": "NodeSocketColor",
+            "Shown Mean": number,
+            "Former Mean": number,
+            "Weight": number,
+        },
+        {"Share": number},
+    )
     nodes = Nodes(group)
     inputs = nodes.new("NodeGroupInput").outputs
     weight, shown_mean, former_mean = inputs["Weight"], inputs["Shown Mean"], inputs["Former Mean"]
     math = nodes.math
 
     def either(condition, yes, no):
-        return math("ADD", math("MULTIPLY", condition, yes), math("MULTIPLY", math("SUBTRACT", 1.0, condition), no))
+        return math(
+            "ADD", math("MULTIPLY", condition, yes), math("MULTIPLY", math("SUBTRACT", 1.0, condition), no)
+        )
 
     def encoded(linear):
         curve = math("SUBTRACT", math("MULTIPLY", math("POWER", linear, 1 / 2.4), 1.055), 0.055)
@@ -377,16 +447,26 @@ def _fade_group():
     one, other = lightness(inputs["Shown"]), lightness(inputs["Former"])
     angle = math("MULTIPLY", weight, np.pi / 2)
     mean = math("ADD", shown_mean, math("MULTIPLY", weight, math("SUBTRACT", former_mean, shown_mean)))
-    detail = math("ADD", math("MULTIPLY", math("COSINE", angle), math("SUBTRACT", one, shown_mean)),
-                  math("MULTIPLY", math("SINE", angle), math("SUBTRACT", other, former_mean)))
-    wanted = math("MINIMUM", math("MAXIMUM", math("ADD", mean, detail), math("MINIMUM", one, other)), math("MAXIMUM", one, other))
+    detail = math(
+        "ADD",
+        math("MULTIPLY", math("COSINE", angle), math("SUBTRACT", one, shown_mean)),
+        math("MULTIPLY", math("SINE", angle), math("SUBTRACT", other, former_mean)),
+    )
+    wanted = math(
+        "MINIMUM",
+        math("MAXIMUM", math("ADD", mean, detail), math("MINIMUM", one, other)),
+        math("MAXIMUM", one, other),
+    )
     start = decoded(other)
     # A Math node gives 0 where it divides by 0, which is what is wanted of colours that are equally bright.
     along = math("DIVIDE", math("SUBTRACT", decoded(wanted), start), math("SUBTRACT", decoded(one), start))
     apart = math("SUBTRACT", one, other)
     squared = math("MULTIPLY", apart, apart)
-    share = math("DIVIDE", math("ADD", math("MULTIPLY", along, squared), math("MULTIPLY", math("SUBTRACT", 1.0, weight), _SAME)),
-                 math("ADD", squared, _SAME))
+    share = math(
+        "DIVIDE",
+        math("ADD", math("MULTIPLY", along, squared), math("MULTIPLY", math("SUBTRACT", 1.0, weight), _SAME)),
+        math("ADD", squared, _SAME),
+    )
     nodes.put(share, nodes.new("NodeGroupOutput").inputs["Share"])
     return group
 
@@ -394,8 +474,11 @@ def _fade_group():
 def _load_image(path, is_data):
     path = os.path.abspath(bpy.path.abspath(path))
     for image in bpy.data.images:  # a picture may be used as colours and as numbers: two images then
-        if image.source == "FILE" and os.path.abspath(bpy.path.abspath(image.filepath)) == path and \
-                image.colorspace_settings.is_data == is_data:
+        if (
+            image.source == "FILE"
+            and os.path.abspath(bpy.path.abspath(image.filepath)) == path
+            and image.colorspace_settings.is_data == is_data
+        ):
             break
     else:
         try:
@@ -422,15 +505,20 @@ def _pixels(image):
     pixels = pixels.reshape(height, width, 4)[::-1]
     if not image.is_float and not image.colorspace_settings.is_data:  # bytes come as they are stored
         color = pixels[..., :3]
-        pixels = np.concatenate([np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4), pixels[..., 3:]], 2)
+        pixels = np.concatenate(
+            [np.where(color <= 0.04045, color / 12.92, ((color + 0.055) / 1.055) ** 2.4), pixels[..., 3:]], 2
+        )
     return pixels
 
 
 def _mean_lightness(image, exemplar_width, toroidal):
-    """An image of the mean lightness around each place of a picture, and by how much its extent is larger than the picture's."""
+    """An image of the mean lightness around each place of a picture, and by how much its extent is larger
+    than the picture's."""
     pixels = _pixels(image)
     luminance = (pixels[..., :3] * pixels[..., 3:]) @ np.array([0.2126, 0.7152, 0.0722])
-    means = np.where(luminance <= 0.0031308, 12.92 * luminance, 1.055 * np.maximum(luminance, 0) ** (1 / 2.4) - 0.055)
+    means = np.where(
+        luminance <= 0.0031308, 12.92 * luminance, 1.055 * np.maximum(luminance, 0) ** (1 / 2.4) - 0.055
+    )
     halvings = max(0, _MEAN_HALVINGS + round(np.log2(image.size[0] / max(exemplar_width, 1))))
     for _ in range(halvings):
         odd = [(0, size % 2) for size in means.shape]
@@ -447,16 +535,22 @@ def _mean_lightness(image, exemplar_width, toroidal):
     result.pixels.foreach_set(rgba.ravel())
     result.update()
     result.pack()  # a generated picture is not saved otherwise
-    side = 2 ** halvings
+    side = 2**halvings
     return result, (image.size[0] / (side * width), image.size[1] / (side * height))
 
 
 def _look_up(nodes, image, uv_map, toroidal, extent=(1.0, 1.0)):
-    """The image texture node at a UV map's place. extent: of the picture in the image, from its top left corner on."""
+    """The image texture node at a UV map's place. extent: of the picture in the image, from its top left
+    corner on."""
     place = nodes.new("ShaderNodeUVMap", uv_map=uv_map).outputs[0]
     if extent != (1.0, 1.0):
         place = nodes.vector("MULTIPLY_ADD", place, (*extent, 1.0), (0.0, 1.0 - extent[1], 0.0))
-    node = nodes.new("ShaderNodeTexImage", image=image, interpolation="Linear", extension="REPEAT" if toroidal else "EXTEND")
+    node = nodes.new(
+        "ShaderNodeTexImage",
+        image=image,
+        interpolation="Linear",
+        extension="REPEAT" if toroidal else "EXTEND",
+    )
     nodes.put(place, node.inputs[0])
     return node
 
@@ -466,13 +560,16 @@ def _corner_weights(nodes):
 
 
 def color_group(run, path):
-    """Node group: the colours of a picture over the exemplar, as the run shows them; outputs Color and Alpha."""
+    """Node group: the colours of a picture over the exemplar, as the run shows them; outputs Color and
+    Alpha."""
     image = _load_image(path, False)
     exemplar = _load_image(run.exemplar, False)
     means, extent = _mean_lightness(image, exemplar.size[0], run.toroidal)
     fade = _fade_group()
     see_through = image.channels == 4 and bool((_pixels(image)[..., 3] < 1).any())
-    group = _look_up_group(run, image, "colours", {}, {"Color": "NodeSocketColor", "Alpha": "NodeSocketFloat"})
+    group = _look_up_group(
+        run, image, "colours", {}, {"Color": "NodeSocketColor", "Alpha": "NodeSocketFloat"}
+    )
     nodes = Nodes(group)
     corner = _corner_weights(nodes)
 
@@ -486,19 +583,26 @@ def color_group(run, path):
                 part = nodes.math("MULTIPLY", weight, texture.outputs["Alpha"])
                 alphas.append(part)
             colors.append(nodes.scaled(texture.outputs["Color"], part))
-            lightnesses.append(nodes.scaled(_look_up(nodes, means, uv_map, run.toroidal, extent).outputs["Color"], weight))
+            lightnesses.append(
+                nodes.scaled(_look_up(nodes, means, uv_map, run.toroidal, extent).outputs["Color"], weight)
+            )
         alpha = nodes.math("ADD", nodes.math("ADD", alphas[0], alphas[1]), alphas[2]) if see_through else 1.0
         return nodes.sum(colors), alpha, nodes.parts(nodes.sum(lightnesses))[0]
 
     shown, shown_alpha, shown_mean = layer(UV_MAPS)
     former, former_alpha, former_mean = layer(FORMER_UV_MAPS)
     node = nodes.new("ShaderNodeGroup", node_tree=fade)
-    for value, socket in zip((shown, former, shown_mean, former_mean, nodes.attribute("fade", "Fac")), node.inputs):
+    for value, socket in zip(
+        (shown, former, shown_mean, former_mean, nodes.attribute("fade", "Fac")), node.inputs
+    ):
         nodes.put(value, socket)
     color, alpha = nodes.mixed(node.outputs["Share"], former, shown), 1.0
     if see_through:
-        alpha = nodes.math("ADD", former_alpha,
-                           nodes.math("MULTIPLY", node.outputs["Share"], nodes.math("SUBTRACT", shown_alpha, former_alpha)))
+        alpha = nodes.math(
+            "ADD",
+            former_alpha,
+            nodes.math("MULTIPLY", node.outputs["Share"], nodes.math("SUBTRACT", shown_alpha, former_alpha)),
+        )
         color = nodes.scaled(color, nodes.math("DIVIDE", 1.0, alpha))
     output = nodes.new("NodeGroupOutput")
     nodes.put(color, output.inputs["Color"])
@@ -507,15 +611,20 @@ def color_group(run, path):
 
 
 def value_group(run, path):
-    """Node group: the numbers of a picture over the exemplar; outputs Color (three of them) and Value (the first)."""
+    """Node group: the numbers of a picture over the exemplar; outputs Color (three of them) and Value (the
+    first)."""
     image = _load_image(path, True)
     group = _look_up_group(run, image, "values", {}, {"Color": "NodeSocketColor", "Value": "NodeSocketFloat"})
     nodes = Nodes(group)
     corner = _corner_weights(nodes)
 
     def layer(maps):
-        return nodes.sum([nodes.scaled(_look_up(nodes, image, uv_map, run.toroidal).outputs["Color"], weight)
-                          for weight, uv_map in zip(corner, maps)])
+        return nodes.sum(
+            [
+                nodes.scaled(_look_up(nodes, image, uv_map, run.toroidal).outputs["Color"], weight)
+                for weight, uv_map in zip(corner, maps)
+            ]
+        )
 
     mixed = nodes.mixed(nodes.attribute("fade", "Fac"), layer(UV_MAPS), layer(FORMER_UV_MAPS))
     output = nodes.new("NodeGroupOutput")
@@ -525,10 +634,12 @@ def value_group(run, path):
 
 
 def normal_group(run, path):
-    """Node group: normals of a tangent-space normal map (green upwards) over the exemplar, turned as each piece lies; output
-    Normal, and input Strength."""
+    """Node group: normals of a tangent-space normal map (green upwards) over the exemplar, turned as each
+    piece lies; output Normal, and input Strength."""
     image = _load_image(path, True)
-    group = _look_up_group(run, image, "normals", {"Strength": "NodeSocketFloat"}, {"Normal": "NodeSocketVector"})
+    group = _look_up_group(
+        run, image, "normals", {"Strength": "NodeSocketFloat"}, {"Normal": "NodeSocketVector"}
+    )
     nodes = Nodes(group)
     corner = _corner_weights(nodes)
     strength = nodes.new("NodeGroupInput").outputs["Strength"]
@@ -570,9 +681,13 @@ def _principled(nodes, color, roughness, normal):
 
 
 def _coat(nodes, color, roughness, normal, gloss):
-    """As the run's own pictures have it (render/material.h): a matt base below a clear film of index 1.45, the film only where
-    the camera sees it first."""
-    base, film, fresnel = nodes.new("ShaderNodeBsdfDiffuse"), nodes.new("ShaderNodeBsdfGlossy"), nodes.new("ShaderNodeFresnel")
+    """As the run's own pictures have it (render/material.h): a matt base below a clear film of index 1.45,
+    the film only where the camera sees it first."""
+    base, film, fresnel = (
+        nodes.new("ShaderNodeBsdfDiffuse"),
+        nodes.new("ShaderNodeBsdfGlossy"),
+        nodes.new("ShaderNodeFresnel"),
+    )
     nodes.put(color, base.inputs["Color"])
     nodes.put((1.0, 1.0, 1.0, 1.0), film.inputs["Color"])
     nodes.put(roughness, film.inputs["Roughness"])
@@ -589,12 +704,31 @@ def _coat(nodes, color, roughness, normal, gloss):
 
 
 def make_material(liquid):
-    """Makes the material of an imported run anew, from the settings of its panel. Throws Problem if a picture is missing."""
+    """Makes the material of an imported run anew, from the settings of its panel. Throws Problem if a picture
+    is missing."""
     settings = liquid.fluidtex
     run = Run(settings.surfaces)
     if settings.exemplar:
         run.exemplar = bpy.path.abspath(settings.exemplar)
     render = run.scene.get("render") or {}
+    names = ("color", "roughness", "normal", "bump", "displacement", "alpha")
+    maps = {name: path for name in names if (path := getattr(settings, f"{name}_map"))}
+    with_places = run.has_places() and not settings.by_points
+    if maps and not with_places:
+        raise Problem(
+            f"{run.surfaces}: a map of {next(iter(maps))} needs places in the exemplar, which are not there "
+            "or not used; untick Colours of the points, or let this version of fluidtex write the run again"
+        )
+    settings.problem = ""
+    if with_places and not os.path.exists(run.exemplar):
+        settings.problem = (
+            f"{run.exemplar}: the run's exemplar is not there; name it in the panel. "
+            "Colours of the points are shown"
+        )
+        with_places, maps = False, {}
+    for name, path in maps.items():  # those that cannot be read leave the material as it is
+        _load_image(path, name != "color")
+
     material = liquid.data.materials[0] if liquid.data.materials else None
     if material is None:
         material = bpy.data.materials.new(f"{liquid.name} texture")
@@ -605,36 +739,27 @@ def make_material(liquid):
     def group(made):
         return nodes.new("ShaderNodeGroup", node_tree=made)
 
-    with_places = run.has_places() and not settings.by_points
-    settings.problem = ""
-    if with_places and not os.path.exists(run.exemplar):
-        settings.problem = f"{run.exemplar}: the run's exemplar is not there; name it in the panel. Colours of the points are shown"
-        with_places = False
     alpha = normal = None
     if with_places:
-        shown = group(color_group(run, settings.color_map or run.exemplar))
+        shown = group(color_group(run, maps.get("color") or run.exemplar))
         color = shown.outputs["Color"]
         output_alpha = shown.node_tree.nodes["Group Output"].inputs["Alpha"]
         alpha = shown.outputs["Alpha"] if output_alpha.is_linked else None
     else:
         color = nodes.attribute("Col", "Color")
         alpha = nodes.attribute("Col", "Alpha")
-        wanted = [name for name in ("color", "roughness", "normal", "bump", "displacement", "alpha") if getattr(settings, f"{name}_map")]
-        if wanted:
-            raise Problem(f"{run.surfaces}: a map of {wanted[0]} needs places in the exemplar, which are not there or not used; untick Colours of "
-                          "the points, or let this version of fluidtex write the run again")
     roughness = float(np.sqrt(render.get("roughness", 0.05)))  # ours is GGX's alpha
-    if settings.roughness_map:
-        roughness = group(value_group(run, settings.roughness_map)).outputs["Value"]
-    if settings.alpha_map:
-        alpha = group(value_group(run, settings.alpha_map)).outputs["Value"]
-    if settings.normal_map:
-        node = group(normal_group(run, settings.normal_map))
+    if "roughness" in maps:
+        roughness = group(value_group(run, maps["roughness"])).outputs["Value"]
+    if "alpha" in maps:
+        alpha = group(value_group(run, maps["alpha"])).outputs["Value"]
+    if "normal" in maps:
+        node = group(normal_group(run, maps["normal"]))
         nodes.put(settings.normal_strength, node.inputs["Strength"])
         normal = node.outputs["Normal"]
-    if settings.bump_map:
+    if "bump" in maps:
         bump = nodes.new("ShaderNodeBump")
-        nodes.put(group(value_group(run, settings.bump_map)).outputs["Value"], bump.inputs["Height"])
+        nodes.put(group(value_group(run, maps["bump"])).outputs["Value"], bump.inputs["Height"])
         nodes.put(settings.bump_distance, bump.inputs["Distance"])
         if normal is not None:
             nodes.put(normal, bump.inputs["Normal"])
@@ -649,17 +774,19 @@ def make_material(liquid):
     else:
         shader = _principled(nodes, color, roughness, normal)
     output = _output(nodes, shader, alpha)
-    if settings.displacement_map:
+    if "displacement" in maps:
         node = nodes.new("ShaderNodeDisplacement")
-        nodes.put(group(value_group(run, settings.displacement_map)).outputs["Value"], node.inputs["Height"])
+        nodes.put(group(value_group(run, maps["displacement"])).outputs["Value"], node.inputs["Height"])
         nodes.put(settings.displacement_scale, node.inputs["Scale"])
         nodes.put(node.outputs[0], output.inputs["Displacement"])
-        owner = material if hasattr(material, "displacement_method") else material.cycles  # the former from 4.1 on
+        # Of the material itself from 4.1 on.
+        owner = material if hasattr(material, "displacement_method") else material.cycles
         owner.displacement_method = "BOTH"
     return material
 
 
-# ---- the timeline ---------------------------------------------------------------------------------------------------
+# ---- the timeline ------------------------------------------------------------------------------------------
+
 
 def _file_at(settings, scene):
     """The surface that a frame of the scene shows; None where it shows none."""
@@ -671,7 +798,9 @@ def _file_at(settings, scene):
     try:
         frames = sorted(int(name[:-4]) for name in os.listdir(folder) if re.fullmatch(r"\d+\.ply", name))
     except OSError:
-        raise Problem(f"{folder}: is not there; name the folder with the surfaces in the panel of the liquid") from None
+        raise Problem(
+            f"{folder}: is not there; name the folder with the surfaces in the panel of the liquid"
+        ) from None
     if not frames or (settings.beyond == "EMPTY" and not frames[0] <= wanted <= frames[-1]):
         return None
     held = [frame for frame in frames if frame <= wanted] or frames[:1]
@@ -683,7 +812,8 @@ def show(liquid, scene, anew=False):
     settings = liquid.fluidtex
     file = _file_at(settings, scene)
     rate = scene.render.fps / scene.render.fps_base
-    # Cycles takes velocities as metres a second at the scene's rate; the liquid moves by frames, whatever their rate is.
+    # Cycles takes velocities as metres a second at the scene's rate; the liquid moves by frames, whatever
+    # their rate is.
     factor = rate / settings.frame_rate if settings.frame_rate > 0 else 1.0
     loaded = "nothing"
     if file:
@@ -700,8 +830,8 @@ def show(liquid, scene, anew=False):
 
 @persistent
 def on_frame(scene, _depsgraph=None):
-    # For motion blur Cycles visits moments between frames, several a picture: the mesh stays what it is then, and its
-    # velocities say where it goes.
+    # For motion blur Cycles visits moments between frames, several a picture: the mesh stays what it is then,
+    # and its velocities say where it goes.
     if scene.frame_subframe != 0.0:
         return
     for liquid in scene.objects:
@@ -717,8 +847,8 @@ def on_frame(scene, _depsgraph=None):
 
 
 def import_run(path, start=1, scene=None, name=None, **settings):
-    """One object that shows a run's frames, linked into the scene. path: as Run. start: the scene's frame that shows the run's frame
-    1. settings: those of FluidtexLiquid. Throws Problem."""
+    """One object that shows a run's frames, linked into the scene. path: as Run. start: the scene's frame
+    that shows the run's frame 1. settings: those of FluidtexLiquid. Throws Problem."""
     run = Run(path)
     scene = scene or bpy.context.scene
     name = name or run.scene.get("name") or os.path.basename(run.folder)
@@ -732,7 +862,8 @@ def import_run(path, start=1, scene=None, name=None, **settings):
     own.start, own.frame_rate = start, run.frame_rate
     # The files of onto/ do not say what fades; their colours do.
     own.by_points = os.path.basename(run.surfaces) == "onto"
-    _take_maps(own, run)
+    if run.has_places() and not own.by_points:
+        _take_relief(own, run)
     for key, value in settings.items():
         setattr(own, key, value)
     try:
@@ -745,11 +876,11 @@ def import_run(path, start=1, scene=None, name=None, **settings):
     return liquid
 
 
-def _take_maps(settings, run):
+def _take_relief(settings, run):
     """The relief that the run's own pictures have: render.bump, of one of its maps."""
     bump = (run.scene.get("render") or {}).get("bump") or {}
     for own in (run.scene.get("texture") or {}).get("map") or []:
-        if own["name"] != bump.get("map"):
+        if own["name"] != bump.get("map") or not os.path.exists(own["file"]):
             continue
         if own.get("holds") == "normals":
             settings.normal_map, settings.normal_strength = own["file"], bump.get("height", 1.0)
@@ -759,22 +890,29 @@ def _take_maps(settings, run):
             settings.bump_distance = bump.get("height", 1.0) * (spacings[0] if spacings else 0.01)
 
 
-# ---- texture on a liquid that is baked here -------------------------------------------------------------------------
+# ---- texture on a liquid that is baked here ----------------------------------------------------------------
+
 
 def program():
     """The fluidtex program: of the add-on's preferences, else of the variable FLUIDTEX, else of PATH."""
     addon = bpy.context.preferences.addons.get(__name__)
-    named = (addon.preferences.program if addon and addon.preferences else "") or os.environ.get("FLUIDTEX", "")
+    chosen = addon.preferences.program if addon and addon.preferences else ""
+    named = chosen or os.environ.get("FLUIDTEX", "")
     found = bpy.path.abspath(named) if named else shutil.which("fluidtex")
     if not found or not os.access(found, os.X_OK) or os.path.isdir(found):
         where = f"{found} is no program that can be started" if found else "the program fluidtex is not found"
-        raise Problem(f"{where}; give its place in Preferences > Add-ons > fluidtex, for example build/release/fluidtex of its folder")
+        raise Problem(
+            f"{where}; give its place in Preferences > Add-ons > fluidtex, "
+            "for example build/release/fluidtex of its folder"
+        )
     return os.path.abspath(found)
 
 
 def _numbers(folder, pattern):
     try:
-        return {int(found[1]) for found in (re.fullmatch(pattern, name) for name in os.listdir(folder)) if found}
+        return {
+            int(found[1]) for found in (re.fullmatch(pattern, name) for name in os.listdir(folder)) if found
+        }
     except OSError:
         return set()
 
@@ -788,23 +926,43 @@ def first_number(cache):
 
 
 def cache_of(domain):
-    """Cache folder of a liquid's domain: Blender's own, or that of the add-on FLIP Fluids; None of any other object."""
+    """Cache folder of a liquid's domain: Blender's own, or that of the add-on FLIP Fluids; None of any other
+    object."""
     for modifier in domain.modifiers if domain else ():
-        if modifier.type == "FLUID" and modifier.fluid_type == "DOMAIN" and modifier.domain_settings.domain_type == "LIQUID":
+        if (
+            modifier.type == "FLUID"
+            and modifier.fluid_type == "DOMAIN"
+            and modifier.domain_settings.domain_type == "LIQUID"
+        ):
             return os.path.normpath(bpy.path.abspath(modifier.domain_settings.cache_directory))
     flip = getattr(domain, "flip_fluid", None)
     if flip is not None and getattr(flip, "object_type", "") == "TYPE_DOMAIN":
         cache = flip.domain.cache
-        folder = cache.get_cache_abspath() if hasattr(cache, "get_cache_abspath") else bpy.path.abspath(cache.cache_directory)
+        folder = (
+            cache.get_cache_abspath()
+            if hasattr(cache, "get_cache_abspath")
+            else bpy.path.abspath(cache.cache_directory)
+        )
         return os.path.normpath(folder)
     return None
 
 
 class Job:
-    """`fluidtex texture` at work. frame, last: how far it is; 0 before the first. Ends by itself, or by stop()."""
+    """`fluidtex texture` at work. frame, last: how far it is; 0 before the first. Ends by itself, or by
+    stop()."""
 
-    def __init__(self, cache, exemplar, out, quality="default", settings=(), frame_rate=None, frames="", resume=False,
-                 pictures=False):
+    def __init__(
+        self,
+        cache,
+        exemplar,
+        out,
+        quality="default",
+        settings=(),
+        frame_rate=None,
+        frames="",
+        resume=False,
+        pictures=False,
+    ):
         for path, what in ((cache, "cache"), (exemplar, "picture")):
             if not os.path.exists(path):
                 raise Problem(f"{path}: there is no such {what}")
@@ -818,8 +976,14 @@ class Job:
         command += ["--resume"] * resume + ["--no-render"] * (not pictures)
         self.out, self.frame, self.last = out, 0, 0
         self.lines = deque(maxlen=100)
-        self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                         text=True, errors="replace")
+        self._process = subprocess.Popen(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+        )
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
         atexit.register(self.stop)
@@ -835,7 +999,8 @@ class Job:
         return self._process.poll() is None
 
     def stop(self):
-        """As Ctrl-C does: the frame in progress is given up, and what is there can be continued with resume."""
+        """As Ctrl-C does: the frame in progress is given up, and what is there can be continued with
+        resume."""
         if self.running():
             self._process.send_signal(signal.SIGINT)
 
@@ -876,52 +1041,96 @@ def texture(cache, exemplar, out, report=print, **settings):
     job.check()
 
 
-# ---- settings, operators, panels ------------------------------------------------------------------------------------
+# ---- settings, operators, panels ---------------------------------------------------------------------------
 
-_BEYOND = [("HOLD", "Hold", "Before the first and after the last frame these stay"),
-           ("EMPTY", "Empty", "Before the first and after the last frame there is no liquid")]
-_SHADERS = [("PRINCIPLED", "Principled", "Principled BSDF"),
-            ("COAT", "As the run's pictures", "A matt base below a clear film, as fluidtex itself draws it"),
-            ("EMISSION", "Emission", "The colours alone, without light")]
-_QUALITIES = [("preview", "Preview", "10,000 points"), ("default", "Default", "40,000 points"), ("final", "Final", "200,000 points")]
+_BEYOND = [
+    ("HOLD", "Hold", "Before the first and after the last frame these stay"),
+    ("EMPTY", "Empty", "Before the first and after the last frame there is no liquid"),
+]
+_SHADERS = [
+    ("PRINCIPLED", "Principled", "Principled BSDF"),
+    ("COAT", "As the run's pictures", "A matt base below a clear film, as fluidtex itself draws it"),
+    ("EMISSION", "Emission", "The colours alone, without light"),
+]
+_QUALITIES = [
+    ("preview", "Preview", "10,000 points"),
+    ("default", "Default", "40,000 points"),
+    ("final", "Final", "200,000 points"),
+]
 
 
 def _map(what):
-    return StringProperty(name=what, subtype="FILE_PATH", description="A picture over the exemplar, of any size")
+    return StringProperty(
+        name=what, subtype="FILE_PATH", description="A picture over the exemplar, of any size"
+    )
 
 
 class FluidtexLiquid(bpy.types.PropertyGroup):
     """Of the object that shows a run."""
-    surfaces: StringProperty(name="Surfaces", subtype="DIR_PATH", description="Folder of the run's surfaces, NNNN.ply")
-    start: IntProperty(name="First frame", default=1, description="Frame of the scene that shows the run's frame 1")
-    frame_rate: FloatProperty(name="Frame rate", min=0.0, description="Of the run; velocities go by it. 0: that of the scene")
+
+    surfaces: StringProperty(
+        name="Surfaces", subtype="DIR_PATH", description="Folder of the run's surfaces, NNNN.ply"
+    )
+    start: IntProperty(
+        name="First frame", default=1, description="Frame of the scene that shows the run's frame 1"
+    )
+    frame_rate: FloatProperty(
+        name="Frame rate", min=0.0, description="Of the run; velocities go by it. 0: that of the scene"
+    )
     beyond: EnumProperty(name="Beyond", items=_BEYOND)
-    custom_normals: BoolProperty(name="The run's normals", description="As custom normals; slow. Else those of the smooth mesh")
-    exemplar: StringProperty(name="Exemplar", subtype="FILE_PATH", description="Where the run's exemplar is no longer at its place")
+    custom_normals: BoolProperty(
+        name="The run's normals", description="As custom normals; slow. Else those of the smooth mesh"
+    )
+    exemplar: StringProperty(
+        name="Exemplar", subtype="FILE_PATH", description="Where the run's exemplar is no longer at its place"
+    )
     shader: EnumProperty(name="Shader", items=_SHADERS)
-    by_points: BoolProperty(name="Colours of the points", description="Shown instead of looking the exemplar up at every place; without maps")
+    by_points: BoolProperty(
+        name="Colours of the points",
+        description="Shown instead of looking the exemplar up at every place; without maps",
+    )
     color_map: _map("Colour")
     roughness_map: _map("Roughness")
     normal_map: _map("Normals")
     normal_strength: FloatProperty(name="Strength", default=1.0, soft_min=0.0, soft_max=4.0)
     bump_map: _map("Bump")
-    bump_distance: FloatProperty(name="Height", default=0.01, subtype="DISTANCE", precision=4, description="Of white above black")
+    bump_distance: FloatProperty(
+        name="Height", default=0.01, subtype="DISTANCE", precision=4, description="Of white above black"
+    )
     displacement_map: _map("Displacement")
-    displacement_scale: FloatProperty(name="Height", default=0.01, subtype="DISTANCE", precision=4,
-                                      description="Of white above black; middle grey stays in place")
+    displacement_scale: FloatProperty(
+        name="Height",
+        default=0.01,
+        subtype="DISTANCE",
+        precision=4,
+        description="Of white above black; middle grey stays in place",
+    )
     alpha_map: _map("Alpha")
     problem: StringProperty(options={"SKIP_SAVE"})
 
 
 class FluidtexTexture(bpy.types.PropertyGroup):
     """Of a liquid's domain: how it is to be textured."""
-    exemplar: StringProperty(name="Picture", subtype="FILE_PATH", description="The example that the texture is made from")
-    out: StringProperty(name="Results", subtype="DIR_PATH", description="Folder for the results; empty: beside the .blend file")
+
+    exemplar: StringProperty(
+        name="Picture", subtype="FILE_PATH", description="The example that the texture is made from"
+    )
+    out: StringProperty(
+        name="Results",
+        subtype="DIR_PATH",
+        description="Folder for the results; empty: beside the .blend file",
+    )
     quality: EnumProperty(name="Quality", items=_QUALITIES, default="preview")
-    toroidal: BoolProperty(name="Edges meet", description="The picture's left edge continues at its right, its top at its bottom")
+    toroidal: BoolProperty(
+        name="Edges meet", description="The picture's left edge continues at its right, its top at its bottom"
+    )
     frames: StringProperty(name="Frames", description="First and last, as 1:24; empty: all")
-    settings: StringProperty(name="More", description="Keys of a scene file, as texture.spacing=0.01 texture.coherence=0.75")
-    resume: BoolProperty(name="Go on", description="From where an earlier run of the same settings was stopped")
+    settings: StringProperty(
+        name="More", description="Keys of a scene file, as texture.spacing=0.01 texture.coherence=0.75"
+    )
+    resume: BoolProperty(
+        name="Go on", description="From where an earlier run of the same settings was stopped"
+    )
     status: StringProperty(options={"SKIP_SAVE"})
 
 
@@ -929,7 +1138,10 @@ def _job_of(domain):
     """What `fluidtex texture` is told about a domain."""
     cache, own, scene = cache_of(domain), domain.fluidtex_texture, bpy.context.scene
     if cache is None:
-        raise Problem(f"{domain.name}: is no domain of a liquid; choose the object whose physics are Fluid, Domain, Liquid")
+        raise Problem(
+            f"{domain.name}: is no domain of a liquid; "
+            "choose the object whose physics are Fluid, Domain, Liquid"
+        )
     if not os.path.isdir(cache):
         raise Problem(f"{cache}: there is no such cache; bake data and mesh first")
     if not own.exemplar:
@@ -940,16 +1152,29 @@ def _job_of(domain):
             raise Problem("a folder for the results is missing; choose one, or save the .blend file first")
         out = f"//fluidtex_{bpy.path.clean_name(domain.name)}"
     settings = ["texture.toroidal=true"] * own.toroidal + shlex.split(own.settings)
-    return Job(cache, bpy.path.abspath(own.exemplar), os.path.normpath(bpy.path.abspath(out)), own.quality, settings,
-               scene.render.fps / scene.render.fps_base, own.frames, own.resume)
+    return Job(
+        cache,
+        bpy.path.abspath(own.exemplar),
+        os.path.normpath(bpy.path.abspath(out)),
+        own.quality,
+        settings,
+        scene.render.fps / scene.render.fps_base,
+        own.frames,
+        own.resume,
+    )
 
 
 def _take_result(domain, out):
-    """Shows the run in place of the domain's own mesh; a liquid that shows it already is brought up to date."""
+    """Shows the run in place of the domain's own mesh; a liquid that shows it already is brought up to
+    date."""
     surfaces = Run(out).surfaces
     start = first_number(cache_of(domain))
     for liquid in bpy.context.scene.objects:
-        if liquid.type == "MESH" and liquid.fluidtex.surfaces and bpy.path.abspath(liquid.fluidtex.surfaces) == surfaces:
+        if (
+            liquid.type == "MESH"
+            and liquid.fluidtex.surfaces
+            and bpy.path.abspath(liquid.fluidtex.surfaces) == surfaces
+        ):
             make_material(liquid)
             show(liquid, bpy.context.scene, anew=True)
             break
@@ -962,12 +1187,15 @@ def _take_result(domain, out):
 
 class FLUIDTEX_OT_import_run(bpy.types.Operator):
     """Show a run of fluidtex on the timeline: choose its folder, run.json or one of its surfaces"""
+
     bl_idname = "fluidtex.import_run"
     bl_label = "Import fluidtex run"
     bl_options = {"REGISTER", "UNDO"}
     filepath: StringProperty(subtype="FILE_PATH")
     filter_glob: StringProperty(default="*.ply;run.json", options={"HIDDEN"})
-    start: IntProperty(name="First frame", default=1, description="Frame of the scene that shows the run's frame 1")
+    start: IntProperty(
+        name="First frame", default=1, description="Frame of the scene that shows the run's frame 1"
+    )
     beyond: EnumProperty(name="Beyond", items=_BEYOND)
     shader: EnumProperty(name="Shader", items=_SHADERS)
     custom_normals: BoolProperty(name="The run's normals", description="As custom normals; slow")
@@ -978,8 +1206,14 @@ class FLUIDTEX_OT_import_run(bpy.types.Operator):
 
     def execute(self, context):
         try:
-            liquid = import_run(self.filepath, self.start, context.scene, beyond=self.beyond, shader=self.shader,
-                                custom_normals=self.custom_normals)
+            liquid = import_run(
+                self.filepath,
+                self.start,
+                context.scene,
+                beyond=self.beyond,
+                shader=self.shader,
+                custom_normals=self.custom_normals,
+            )
         except Problem as problem:
             self.report({"ERROR"}, str(problem))
             return {"CANCELLED"}
@@ -995,13 +1229,18 @@ class FLUIDTEX_OT_import_run(bpy.types.Operator):
 
 class FLUIDTEX_OT_material(bpy.types.Operator):
     """Make the liquid's material anew from the maps and the shader chosen here"""
+
     bl_idname = "fluidtex.material"
     bl_label = "Make material"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context):
-        return context.object is not None and context.object.type == "MESH" and bool(context.object.fluidtex.surfaces)
+        return (
+            context.object is not None
+            and context.object.type == "MESH"
+            and bool(context.object.fluidtex.surfaces)
+        )
 
     def execute(self, context):
         try:
@@ -1019,12 +1258,17 @@ _jobs = {}  # name of the domain: Job
 
 class FLUIDTEX_OT_texture(bpy.types.Operator):
     """Texture this baked liquid with a picture, and show the result in its place"""
+
     bl_idname = "fluidtex.texture"
     bl_label = "Texture this liquid"
 
     @classmethod
     def poll(cls, context):
-        return context.object is not None and context.object.name not in _jobs and cache_of(context.object) is not None
+        return (
+            context.object is not None
+            and context.object.name not in _jobs
+            and cache_of(context.object) is not None
+        )
 
     def invoke(self, context, _event):
         try:
@@ -1078,6 +1322,7 @@ class FLUIDTEX_OT_texture(bpy.types.Operator):
 
 class FLUIDTEX_OT_stop(bpy.types.Operator):
     """Stop texturing; Go on continues from the last frame"""
+
     bl_idname = "fluidtex.stop"
     bl_label = "Stop"
 
@@ -1108,8 +1353,17 @@ class FLUIDTEX_PT_liquid(bpy.types.Panel):
         for name in ("surfaces", "start", "frame_rate", "beyond", "custom_normals"):
             layout.prop(own, name)
         layout.separator()
-        for names in (("exemplar",), ("shader",), ("by_points",), ("color_map",), ("roughness_map",), ("normal_map", "normal_strength"),
-                      ("bump_map", "bump_distance"), ("displacement_map", "displacement_scale"), ("alpha_map",)):
+        for names in (
+            ("exemplar",),
+            ("shader",),
+            ("by_points",),
+            ("color_map",),
+            ("roughness_map",),
+            ("normal_map", "normal_strength"),
+            ("bump_map", "bump_distance"),
+            ("displacement_map", "displacement_scale"),
+            ("alpha_map",),
+        ):
             layout.prop(own, names[0])
             if len(names) > 1 and getattr(own, names[0]):
                 layout.prop(own, names[1])
@@ -1142,14 +1396,27 @@ class FLUIDTEX_PT_texture(bpy.types.Panel):
 
 class FluidtexPreferences(bpy.types.AddonPreferences):
     bl_idname = __name__
-    program: StringProperty(name="Program", subtype="FILE_PATH", description="fluidtex; empty: that of the variable FLUIDTEX or of PATH")
+    program: StringProperty(
+        name="Program",
+        subtype="FILE_PATH",
+        description="fluidtex; empty: that of the variable FLUIDTEX or of PATH",
+    )
 
     def draw(self, _context):
         self.layout.prop(self, "program")
 
 
-_CLASSES = (FluidtexLiquid, FluidtexTexture, FLUIDTEX_OT_import_run, FLUIDTEX_OT_material, FLUIDTEX_OT_texture, FLUIDTEX_OT_stop,
-            FLUIDTEX_PT_liquid, FLUIDTEX_PT_texture, FluidtexPreferences)
+_CLASSES = (
+    FluidtexLiquid,
+    FluidtexTexture,
+    FLUIDTEX_OT_import_run,
+    FLUIDTEX_OT_material,
+    FLUIDTEX_OT_texture,
+    FLUIDTEX_OT_stop,
+    FLUIDTEX_PT_liquid,
+    FLUIDTEX_PT_texture,
+    FluidtexPreferences,
+)
 
 
 def _menu(self, _context):

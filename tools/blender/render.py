@@ -1,6 +1,6 @@
-# Renders the frames of a run by Cycles, from the scene's own camera, in its own light, as OUT/cycles/NNNN.png;
-# tools/render_cycles calls it:
-#   blender -b --factory-startup -P render.py -- OUT [--frames A:B] [--size W H] [--samples N] [--shutter S] ...
+# Renders the frames of a run by Cycles, from the scene's own camera, in its own light, as
+# OUT/cycles/NNNN.png; tools/render_cycles calls it:
+#   blender -b --factory-startup -P render.py -- OUT [--frames A:B] [--size W H] ...
 import argparse
 import os
 import sys
@@ -17,22 +17,53 @@ _KNEE = 0.8  # values above are bent to below 1, as in the run's own pictures (r
 
 
 def arguments(words):
-    options = argparse.ArgumentParser(prog="render_cycles", description="Renders the frames of a run by Cycles.")
+    options = argparse.ArgumentParser(
+        prog="render_cycles", description="Renders the frames of a run by Cycles."
+    )
     options.add_argument("out", help="folder of the run; pictures are written to its folder cycles")
-    options.add_argument("--frames", default="", metavar="A:B", help="first and last (default: all that have a surface)")
-    options.add_argument("--size", type=int, nargs=2, metavar=("W", "H"), help="of the picture (default: the scene's)")
+    options.add_argument(
+        "--frames", default="", metavar="A:B", help="first and last (default: all that have a surface)"
+    )
+    options.add_argument(
+        "--size", type=int, nargs=2, metavar=("W", "H"), help="of the picture (default: the scene's)"
+    )
     options.add_argument("--samples", type=int, help="a pixel (default: the scene's)")
-    options.add_argument("--shutter", type=float, default=0.0, metavar="FRAMES", help="how long it is open (default: 0, no motion blur)")
-    options.add_argument("--shader", choices=["coat", "principled"], default="coat", help="coat: as the run's own pictures")
-    options.add_argument("--color", metavar="PICTURE", help="a finer picture of the same exemplar (default: the scene's between_file, else the exemplar)")
+    options.add_argument(
+        "--shutter",
+        type=float,
+        default=0.0,
+        metavar="FRAMES",
+        help="how long it is open (default: 0, no motion blur)",
+    )
+    options.add_argument(
+        "--shader", choices=["coat", "principled"], default="coat", help="coat: as the run's own pictures"
+    )
+    options.add_argument(
+        "--color",
+        metavar="PICTURE",
+        help="a finer picture of the same exemplar (default: the scene's between_file, else the exemplar)",
+    )
     for name in ("roughness", "normal", "bump", "displacement", "alpha"):
         options.add_argument(f"--{name}", metavar="PICTURE", help="map over the exemplar")
-    options.add_argument("--height", type=float, metavar="M", help="of white above black, with --bump and --displacement (default: 0.01)")
+    options.add_argument(
+        "--height",
+        type=float,
+        metavar="M",
+        help="of white above black, with --bump and --displacement (default: 0.01)",
+    )
     options.add_argument("--missing", action="store_true", help="only frames that have no picture yet")
-    options.add_argument("--plain", action="store_true", help="values above 0.8 are cut off at 1 instead of bent")
+    options.add_argument(
+        "--plain", action="store_true", help="values above 0.8 are cut off at 1 instead of bent"
+    )
     options.add_argument("--blend", metavar="FILE", help="saves the scene for Blender and renders nothing")
     options = options.parse_args(words)
-    if options.samples is not None and options.samples < 1 or options.shutter < 0 or options.size and min(options.size) < 1:
+    if (
+        options.samples is not None
+        and options.samples < 1
+        or options.shutter < 0
+        or options.size
+        and min(options.size) < 1
+    ):
         raise fluidtex.Problem("--samples, --size and --shutter: give numbers above 0")
     return options
 
@@ -43,10 +74,14 @@ def wanted_frames(text, there):
     try:
         first, last = (int(number) for number in (text.split(":") if ":" in text else (text, text)))
     except ValueError:
-        raise fluidtex.Problem(f"--frames {text}: is no range of frames; write FIRST:LAST, such as 1:24") from None
+        raise fluidtex.Problem(
+            f"--frames {text}: is no range of frames; write FIRST:LAST, such as 1:24"
+        ) from None
     frames = [frame for frame in there if first <= frame <= last]
     if not frames:
-        raise fluidtex.Problem(f"--frames {text}: the run has no surfaces there, but from {there[0]} to {there[-1]}")
+        raise fluidtex.Problem(
+            f"--frames {text}: the run has no surfaces there, but from {there[0]} to {there[-1]}"
+        )
     return frames
 
 
@@ -56,8 +91,11 @@ def set_up(run, options):
     scene = bpy.context.scene
     stage.build(run)
     texture, render = run.scene["texture"], run.scene["render"]
-    maps = {f"{name}_map": os.path.abspath(getattr(options, name)) for name in ("color", "roughness", "normal", "bump", "displacement", "alpha")
-            if getattr(options, name)}
+    maps = {
+        f"{name}_map": os.path.abspath(getattr(options, name))
+        for name in ("color", "roughness", "normal", "bump", "displacement", "alpha")
+        if getattr(options, name)
+    }
     if texture.get("between") == "file" and texture.get("between_file"):
         maps.setdefault("color_map", texture["between_file"])
     if options.height is not None:
@@ -75,7 +113,10 @@ def set_up(run, options):
     scene.cycles.transparent_max_bounces = 32
     if options.size:
         scene.render.resolution_x, scene.render.resolution_y = options.size
-    scene.render.use_motion_blur, scene.render.motion_blur_shutter = options.shutter > 0, options.shutter or 0.5
+    scene.render.use_motion_blur, scene.render.motion_blur_shutter = (
+        options.shutter > 0,
+        options.shutter or 0.5,
+    )
     scene.cycles.motion_blur_position = "CENTER"
     scene.view_settings.view_transform = "Standard"
     return liquid
@@ -85,7 +126,9 @@ def developed(radiance, exposure, plain):
     """sRGB bytes of linear light."""
     value = np.maximum(np.nan_to_num(radiance * exposure), 0.0)
     if not plain:
-        value = np.where(value > _KNEE, _KNEE + (1 - _KNEE) * (1 - np.exp(-(value - _KNEE) / (1 - _KNEE))), value)
+        value = np.where(
+            value > _KNEE, _KNEE + (1 - _KNEE) * (1 - np.exp(-(value - _KNEE) / (1 - _KNEE))), value
+        )
     value = np.minimum(value, 1.0)
     return np.where(value <= 0.0031308, 12.92 * value, 1.055 * value ** (1 / 2.4) - 0.055)
 
@@ -152,7 +195,7 @@ def main(words):
 
 if __name__ == "__main__":
     try:
-        main(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
+        main(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else [])
     except fluidtex.Problem as problem:
         print(f"error: {problem}", file=sys.stderr)
         sys.exit(1)

@@ -1,4 +1,5 @@
-# The solids of a run's scene as Blender objects: shape, colour, motion, when they are there. Keys: scenes/README.md.
+# The solids of a run's scene as Blender objects: shape, colour, motion, when they are there. Keys:
+# scenes/README.md.
 import math
 import os
 
@@ -9,19 +10,28 @@ from mathutils import Euler, Matrix, Quaternion, Vector
 
 
 def _box(mesh, low, high):
-    bmesh.ops.create_cube(mesh, size=1.0, matrix=Matrix.Translation((low + high) / 2) @ Matrix.Diagonal((*(high - low), 1.0)))
+    bmesh.ops.create_cube(
+        mesh, size=1.0, matrix=Matrix.Translation((low + high) / 2) @ Matrix.Diagonal((*(high - low), 1.0))
+    )
 
 
 def _cylinder(mesh, start, end, radius):
     axis = end - start
     place = Matrix.Translation((start + end) / 2) @ axis.to_track_quat("Z", "Y").to_matrix().to_4x4()
-    bmesh.ops.create_cone(mesh, cap_ends=True, segments=128, radius1=radius, radius2=radius, depth=axis.length, matrix=place)
+    bmesh.ops.create_cone(
+        mesh, cap_ends=True, segments=128, radius1=radius, radius2=radius, depth=axis.length, matrix=place
+    )
 
 
 def _cut(mesh, point, normal):
     """Takes away what lies beyond a plane, and closes the cut."""
-    cut = bmesh.ops.bisect_plane(mesh, geom=mesh.verts[:] + mesh.edges[:] + mesh.faces[:], plane_co=point, plane_no=normal,
-                                 clear_outer=True)["geom_cut"]
+    cut = bmesh.ops.bisect_plane(
+        mesh,
+        geom=mesh.verts[:] + mesh.edges[:] + mesh.faces[:],
+        plane_co=point,
+        plane_no=normal,
+        clear_outer=True,
+    )["geom_cut"]
     edges = [part for part in cut if isinstance(part, bmesh.types.BMEdge)]
     if edges:
         bmesh.ops.holes_fill(mesh, edges=edges, sides=0)
@@ -39,7 +49,12 @@ def _read(mesh, file, place):
         getattr(bpy.ops.import_mesh, ending)(filepath=file)
     upright = Matrix.Rotation(math.pi / 2, 4, "X") if place.get("up") == "y" else Matrix.Identity(4)
     turned = Euler([math.radians(degrees) for degrees in place.get("rotate", (0, 0, 0))]).to_matrix().to_4x4()
-    matrix = Matrix.Translation(place.get("translate", (0, 0, 0))) @ turned @ Matrix.Scale(place.get("scale", 1.0), 4) @ upright
+    matrix = (
+        Matrix.Translation(place.get("translate", (0, 0, 0)))
+        @ turned
+        @ Matrix.Scale(place.get("scale", 1.0), 4)
+        @ upright
+    )
     for thing in set(bpy.data.objects) - before:
         part = bmesh.new()
         part.from_mesh(thing.data)
@@ -59,7 +74,9 @@ def _ground(mesh, field, low, high):
     heights = field["low"] + (field["high"] - field["low"]) * pixels.reshape(height, width, 4)[..., 0]
     pixel, corner = field["pixel"], field["translate"]
     x, y = [corner[axis] + (np.arange(count) + 0.5) * pixel for axis, count in ((0, width), (1, height))]
-    rim = lambda places, axis: np.concatenate([[min(places[0], low[axis])], places, [max(places[-1], high[axis])]])
+    rim = lambda places, axis: np.concatenate(
+        [[min(places[0], low[axis])], places, [max(places[-1], high[axis])]]
+    )
     x, y = rim(x, 0), rim(y, 1)
     heights = np.pad(heights + corner[2], 1, mode="edge")
     base = min(low[2], heights.min()) - pixel
@@ -111,13 +128,28 @@ def _without(first, others):
 def shape_mesh(shape, low, high):
     """A shape as a mesh. low, high: the box of the domain, which shapes without an end are drawn in."""
     mesh = bmesh.new()
-    kind = next(key for key in ("box", "sphere", "cylinder", "half_space", "mesh", "mesh_sequence", "height_field", "union", "difference")
-                if shape.get(key))
+    kind = next(
+        key
+        for key in (
+            "box",
+            "sphere",
+            "cylinder",
+            "half_space",
+            "mesh",
+            "mesh_sequence",
+            "height_field",
+            "union",
+            "difference",
+        )
+        if shape.get(key)
+    )
     own = shape[kind]
     if kind == "box":
         _box(mesh, Vector(own["min"]), Vector(own["max"]))
     elif kind == "sphere":
-        bmesh.ops.create_icosphere(mesh, subdivisions=6, radius=own["radius"], matrix=Matrix.Translation(own["center"]))
+        bmesh.ops.create_icosphere(
+            mesh, subdivisions=6, radius=own["radius"], matrix=Matrix.Translation(own["center"])
+        )
     elif kind == "cylinder":
         _cylinder(mesh, Vector(own["from"]), Vector(own["to"]), own["radius"])
     elif kind == "half_space":
@@ -213,7 +245,8 @@ def _appear(thing, solid, frame_rate, frames):
 
 
 def add_solids(scene, material):
-    """Objects of all visible solids of a run's scene, linked to the current scene. material(name, color): makes one."""
+    """Objects of all visible solids of a run's scene, linked to the current scene. material(name, color):
+    makes one."""
     low, high = Vector((0, 0, 0)), Vector(scene["domain"]["size"])
     made = []
     for solid in scene.get("solid") or []:

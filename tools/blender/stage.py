@@ -1,5 +1,5 @@
-# Camera, light and surroundings of a run's scene in Blender, as the run's own pictures have them (render/camera.h,
-# render/sky.h, render/surroundings.h).
+# Camera, light and surroundings of a run's scene in Blender, as the run's own pictures have them
+# (render/camera.h, render/sky.h, render/surroundings.h).
 import math
 
 import bpy
@@ -9,8 +9,8 @@ from mathutils import Matrix, Vector
 import fluidtex
 from solids import add_solids
 
-_ROD, _GROUND_GAP = 0.0045, 0.0005          # in diagonals of the domain: render/surroundings.cpp
-_FADE_FROM, _FADE_TO = 1.5, 7.0             # likewise; render/surroundings.h
+_ROD, _GROUND_GAP = 0.0045, 0.0005  # in diagonals of the domain: render/surroundings.cpp
+_FADE_FROM, _FADE_TO = 1.5, 7.0  # likewise; render/surroundings.h
 
 
 def _link(name, data):
@@ -69,14 +69,17 @@ def add_light(scene):
     nodes = fluidtex.Nodes(world.node_tree)
     up = nodes.parts(nodes.new("ShaderNodeTexCoord").outputs["Generated"])[2]
     below = nodes.math("SUBTRACT", 1.0, nodes.math("MINIMUM", nodes.math("MAXIMUM", up, 0.0), 1.0))
-    sky = nodes.mixed(nodes.math("POWER", below, 3.0), tuple(light["sky_color"]), tuple(light["horizon_color"]))
+    sky = nodes.mixed(
+        nodes.math("POWER", below, 3.0), tuple(light["sky_color"]), tuple(light["horizon_color"])
+    )
     background = nodes.new("ShaderNodeBackground")
     nodes.put(sky, background.inputs["Color"])
     nodes.put(background.outputs[0], nodes.new("ShaderNodeOutputWorld").inputs["Surface"])
 
 
 def _origin(run):
-    """Lowest corner of the domain. That of a liquid out of files is not noted: it is the box around its surfaces."""
+    """Lowest corner of the domain. That of a liquid out of files is not noted: it is the box around its
+    surfaces."""
     motion = run.scene.get("motion") or {}
     if motion.get("flow") != "files":
         return Vector((0, 0, 0))
@@ -93,13 +96,24 @@ def add_ground(scene, origin):
     diagonal, middle = size.length, origin + size / 2
     reach, z = _FADE_TO * diagonal, origin.z - _GROUND_GAP * diagonal
     mesh = bpy.data.meshes.new("ground")
-    mesh.from_pydata([(middle.x + i * reach, middle.y + j * reach, z) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))], [], [(0, 1, 2, 3)])
+    mesh.from_pydata(
+        [(middle.x + i * reach, middle.y + j * reach, z) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))],
+        [],
+        [(0, 1, 2, 3)],
+    )
     material = _matt("ground", scene["render"]["ground_color"])
     nodes = fluidtex.Nodes(material.node_tree, clear=False)
-    distance = nodes.vector("LENGTH", nodes.vector("SUBTRACT", nodes.new("ShaderNodeNewGeometry").outputs["Position"], tuple(middle)),
-                            output="Value")
+    distance = nodes.vector(
+        "LENGTH",
+        nodes.vector("SUBTRACT", nodes.new("ShaderNodeNewGeometry").outputs["Position"], tuple(middle)),
+        output="Value",
+    )
     fade = nodes.new("ShaderNodeMapRange", interpolation_type="SMOOTHSTEP")
-    for name, value in (("Value", distance), ("From Min", _FADE_FROM * diagonal), ("From Max", _FADE_TO * diagonal)):
+    for name, value in (
+        ("Value", distance),
+        ("From Min", _FADE_FROM * diagonal),
+        ("From Max", _FADE_TO * diagonal),
+    ):
         nodes.put(value, fade.inputs[name])
     mix = nodes.new("ShaderNodeMixShader")
     output = next(node for node in nodes.tree.nodes if node.type == "OUTPUT_MATERIAL")
@@ -123,8 +137,14 @@ def add_tank(scene, origin):
     corners, faces = [], []
     for low, high in boxes:
         first = len(corners)
-        corners += [origin + Vector(((low, high)[k & 1][0], (low, high)[k >> 1 & 1][1], (low, high)[k >> 2][2])) for k in range(8)]
-        faces += [tuple(first + k for k in face) for face in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))]
+        corners += [
+            origin + Vector(((low, high)[k & 1][0], (low, high)[k >> 1 & 1][1], (low, high)[k >> 2][2]))
+            for k in range(8)
+        ]
+        faces += [
+            tuple(first + k for k in face)
+            for face in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+        ]
     mesh = bpy.data.meshes.new("tank")
     mesh.from_pydata(corners, [], faces)
     mesh.materials.append(_matt("tank", scene["render"]["tank_color"]))
@@ -132,7 +152,8 @@ def add_tank(scene, origin):
 
 
 def build(run):
-    """Everything but the liquid, in the current scene, which should be empty; frames, rate and size of the picture too."""
+    """Everything but the liquid, in the current scene, which should be empty; frames, rate and size of the
+    picture too."""
     scene, current = run.scene, bpy.context.scene
     current.frame_start, current.frame_end = 1, scene["frames"]
     rate = scene["frame_rate"]
