@@ -8,26 +8,38 @@
 #include "tools/formats/vtp.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <functional>
 #include <optional>
+#include <system_error>
 
 namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
 
-std::string textOf(Format format, const ExportMesh& mesh, const Appearance& appearance) {
+void write(Format format, const ExportMesh& mesh, const Appearance& appearance, std::ostream& out) {
   switch (format) {
     case Format::ply:
       break;
     case Format::glb:
-      return glbOf(mesh, appearance);
+      return writeGlb(mesh, appearance, out);
     case Format::obj:
-      return objOf(mesh);
+      return writeObj(mesh, out);
     case Format::usda:
-      return usdaOf(mesh, appearance);
+      return writeUsda(mesh, appearance, out);
     case Format::vtp:
-      return vtpOf(mesh);
+      return writeVtp(mesh, out);
   }
-  return {};
+}
+
+void writeAtomicallyTo(const fs::path& file, const std::function<void(std::ostream&)>& writeTo) {
+  writeAtomically(file, [&](const fs::path& temporary) {
+    std::ofstream out(temporary, std::ios::binary);
+    writeTo(out);
+    out.close();
+    if (!out) throw std::system_error(errno, std::generic_category(), temporary.string() + ": cannot write");
+  });
 }
 
 // A frame's file as it lies in the folder.
@@ -64,7 +76,7 @@ void writeExports(const texture::TexturedSurface& surface, int frame, double tim
     const fs::path file = out / frameFile(format, frame);
     if (format == Format::obj && !fs::exists(file.parent_path() / kObjMaterials))
       writeTextAtomically(file.parent_path() / kObjMaterials, mtlOf(appearance));
-    writeTextAtomically(file, textOf(format, *mesh, appearance));
+    writeAtomicallyTo(file, [&](std::ostream& to) { write(format, *mesh, appearance, to); });
   }
 }
 
@@ -81,9 +93,12 @@ void updateSequences(const Exports& exports, const fs::path& out) {
     const int fullest = std::max_element(files.begin(), files.end(), [](const Listed& a, const Listed& b) {
                           return a.bytes < b.bytes;
                         })->frame;
-    const std::string text = format == Format::usda ? usdStageOf(frames, fullest, appearance.frameRate)
-                                                    : pvdOf(frames, appearance.frameRate);
-    writeTextAtomically(out / (appearance.name + names.sequence), text);
+    writeAtomicallyTo(out / (appearance.name + names.sequence), [&](std::ostream& to) {
+      if (format == Format::usda)
+        writeUsdStage(frames, fullest, appearance.frameRate, to);
+      else
+        to << pvdOf(frames, appearance.frameRate);
+    });
   }
 }
 

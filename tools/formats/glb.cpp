@@ -6,7 +6,10 @@
 #include <bit>
 #include <cctype>
 #include <cmath>
-#include <cstring>
+#include <limits>
+#include <ostream>
+#include <stdexcept>
+#include <string_view>
 
 namespace fluidtex::tools {
 namespace {
@@ -17,24 +20,25 @@ static_assert(std::endian::native == std::endian::little, "glTF bytes are writte
 
 enum ComponentType { kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126 };
 enum Target { kVertices = 34962, kIndices = 34963 };
-constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
-constexpr std::size_t kChunkHead = 8, kFileHead = 12;
+constexpr std::size_t kVersion = 2, kChunkHead = 8, kFileHead = 12;
 
 const char* typeOf(int components) {
   static const char* const kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
   return kTypes[components - 1];
 }
 
-// Fills the buffer, and lists what is in it.
+// What the buffer is made of. Refers to the arrays.
 struct Buffer {
-  std::string bytes;
+  std::vector<std::string_view> arrays;
+  std::size_t bytes = 0;
   Json views = Json::array(), accessors = Json::array();
 
   // Returns the accessor's number. All types here have a multiple of four bytes, so everything is aligned.
   int add(const void* values, std::size_t size, std::size_t count, const char* type, ComponentType component,
           Target target) {
-    views.push_back({{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", size}, {"target", target}});
-    bytes.append(static_cast<const char*>(values), size);
+    views.push_back({{"buffer", 0}, {"byteOffset", bytes}, {"byteLength", size}, {"target", target}});
+    arrays.emplace_back(static_cast<const char*>(values), size);
+    bytes += size;
     accessors.push_back(
         {{"bufferView", views.size() - 1}, {"componentType", component}, {"count", count}, {"type", type}});
     return int(accessors.size()) - 1;
@@ -59,16 +63,13 @@ void setRange(Json& accessor, const std::vector<texture::Vec3f>& values) {
 }
 
 // Sixteen bits: eight of linear light are too few in the dark.
-int addColor(Buffer& buffer, const std::vector<texture::Vec4f>& color) {
+std::vector<std::uint16_t> encoded(const std::vector<texture::Vec4f>& color) {
   std::vector<std::uint16_t> values;
   values.reserve(4 * color.size());
   for (const texture::Vec4f& c : color)
     for (int k = 0; k < 4; ++k)
       values.push_back(static_cast<std::uint16_t>(std::lround(65535.0f * std::clamp(c[k], 0.0f, 1.0f))));
-  const int accessor = buffer.add(values.data(), values.size() * sizeof(std::uint16_t), color.size(), "VEC4",
-                                  kUnsignedShort, kVertices);
-  buffer.accessors[std::size_t(accessor)]["normalized"] = true;
-  return accessor;
+  return values;
 }
 
 std::string customName(const std::string& name, const Json& taken) {
@@ -78,12 +79,16 @@ std::string customName(const std::string& name, const Json& taken) {
   return taken.contains(capitals) ? "_" + name : capitals;
 }
 
-Json attributesOf(const ExportMesh& mesh, bool pictured, Buffer& buffer) {
+Json attributesOf(const ExportMesh& mesh, const std::vector<std::uint16_t>& colors, bool pictured,
+                  Buffer& buffer) {
   Json attributes;
   attributes["POSITION"] = buffer.addFloats(mesh.positions, 3);
   setRange(buffer.accessors.back(), mesh.positions);
   attributes["NORMAL"] = buffer.addFloats(mesh.normals, 3);
-  attributes[pictured ? "_COLOR" : "COLOR_0"] = addColor(buffer, mesh.color);
+  attributes[pictured ? "_COLOR" : "COLOR_0"] =
+      buffer.add(colors.data(), colors.size() * sizeof(std::uint16_t), mesh.color.size(), "VEC4",
+                 kUnsignedShort, kVertices);
+  buffer.accessors.back()["normalized"] = true;
   int sets = 0;
   for (const char* name : kUvSets)
     if (const Column* column = findColumn(mesh.vertex, name))
@@ -106,22 +111,14 @@ Json materialOf(const Appearance& appearance, bool pictured) {
 }
 
 // A number, little endian.
-void append(std::string& bytes, std::uint32_t value) {
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  bytes.append(raw, sizeof raw);
-}
-
-void appendChunk(std::string& bytes, std::uint32_t type, std::string content, char filler) {
-  content.resize((content.size() + 3) / 4 * 4, filler);
-  append(bytes, std::uint32_t(content.size()));
-  append(bytes, type);
-  bytes += content;
+void put(std::ostream& out, std::size_t value) {
+  const auto word = static_cast<std::uint32_t>(value);
+  out.write(reinterpret_cast<const char*>(&word), sizeof word);
 }
 
 }  // namespace
 
-std::string glbOf(const ExportMesh& whole, const Appearance& appearance) {
+void writeGlb(const ExportMesh& whole, const Appearance& appearance, std::ostream& out) {
   Json gltf = {{"asset", {{"version", "2.0"}, {"generator", "fluidtex"}}}, {"scene", 0}};
   gltf["scenes"] = Json::array(
       {{{"nodes", Json::array({0})}, {"extras", {{"frame", whole.frame}, {"time", whole.time}}}}});
@@ -129,10 +126,14 @@ std::string glbOf(const ExportMesh& whole, const Appearance& appearance) {
   const double half = std::sqrt(0.5);
   Json node = {{"name", appearance.name}, {"rotation", Json::array({-half, 0.0, 0.0, half})}};
   Buffer buffer;
+  ExportMesh split;
+  std::vector<std::uint16_t> colors;
   if (!whole.triangles.empty()) {
-    const ExportMesh mesh = splitAtCorners(whole);
+    if (!whole.corner.empty()) split = splitAtCorners(whole);
+    const ExportMesh& mesh = whole.corner.empty() ? whole : split;
+    colors = encoded(mesh.color);
     const bool pictured = !appearance.picture.empty() && !findColumn(mesh.vertex, "joint");
-    Json primitive = {{"attributes", attributesOf(mesh, pictured, buffer)}};
+    Json primitive = {{"attributes", attributesOf(mesh, colors, pictured, buffer)}};
     primitive["indices"] = buffer.add(mesh.triangles.data(), mesh.triangles.size() * sizeof(texture::Vec3I),
                                       3 * mesh.triangles.size(), "SCALAR", kUnsignedInt, kIndices);
     primitive["material"] = 0;
@@ -151,17 +152,27 @@ std::string glbOf(const ExportMesh& whole, const Appearance& appearance) {
     }
     gltf["bufferViews"] = std::move(buffer.views);
     gltf["accessors"] = std::move(buffer.accessors);
-    gltf["buffers"] = Json::array({{{"byteLength", buffer.bytes.size()}}});
+    gltf["buffers"] = Json::array({{{"byteLength", buffer.bytes}}});
   }
   gltf["nodes"] = Json::array({std::move(node)});
-  std::string chunks;
-  appendChunk(chunks, kJsonChunk, gltf.dump(), ' ');
-  if (!buffer.bytes.empty()) appendChunk(chunks, kBinaryChunk, std::move(buffer.bytes), '\0');
-  std::string file;
-  append(file, kMagic);
-  append(file, kVersion);
-  append(file, std::uint32_t(kFileHead + chunks.size()));
-  return file + chunks;
+  std::string text = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const bool hasBuffer = buffer.bytes > 0;
+  const std::size_t size = kFileHead + kChunkHead + text.size() + (hasBuffer ? kChunkHead + buffer.bytes : 0);
+  if (size > std::numeric_limits<std::uint32_t>::max())
+    throw std::runtime_error(
+        "glb: a file holds 4 GB at most; give another --format, or fewer texture.points");
+  out.write("glTF", 4);
+  put(out, kVersion);
+  put(out, size);
+  put(out, text.size());
+  out.write("JSON", 4);
+  out << text;
+  if (!hasBuffer) return;
+  put(out, buffer.bytes);
+  out.write("BIN", 4);  // and a zero
+  for (const std::string_view array : buffer.arrays)
+    out.write(array.data(), static_cast<std::streamsize>(array.size()));
 }
 
 }  // namespace fluidtex::tools

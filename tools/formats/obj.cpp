@@ -1,40 +1,37 @@
 #include "tools/formats/obj.h"
 
 #include "texture/exemplar/srgb.h"
+#include "tools/formats/text_stream.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace fluidtex::tools {
 
-std::string objOf(const ExportMesh& mesh) {
-  fmt::memory_buffer text;
-  const auto to = std::back_inserter(text);
-  fmt::format_to(to, "# fluidtex, metres, Y up, frame {}, {:g} s\nmtllib {}\no surface\n", mesh.frame,
-                 mesh.time, kObjMaterials);
+void writeObj(const ExportMesh& mesh, std::ostream& out) {
+  TextStream text(out);
+  text.put("# fluidtex, metres, Y up, frame {}, {:g} s\nmtllib {}\no surface\n", mesh.frame, mesh.time,
+           kObjMaterials);
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const texture::Vec3f& x = mesh.positions[v];
-    fmt::format_to(to, "v {} {} {}", x[0], x[2], -x[1]);
+    text.put("v {} {} {}", x[0], x[2], -x[1]);
     for (int k = 0; k < 3; ++k)
-      fmt::format_to(to, " {:.4g}", std::clamp(texture::encodeSrgb(mesh.color[v][k]), 0.0f, 1.0f));
-    text.push_back('\n');
+      text.put(" {:.4g}", std::clamp(texture::encodeSrgb(mesh.color[v][k]), 0.0f, 1.0f));
+    text.add("\n");
   }
-  for (const texture::Vec3f& n : mesh.normals)
-    fmt::format_to(to, "vn {:.5g} {:.5g} {:.5g}\n", n[0], n[2], -n[1]);
+  for (const texture::Vec3f& n : mesh.normals) text.put("vn {:.5g} {:.5g} {:.5g}\n", n[0], n[2], -n[1]);
   const Column* st = findColumn(mesh.vertex, "st");
   for (std::size_t v = 0; st != nullptr && v < mesh.positions.size(); ++v)
-    fmt::format_to(to, "vt {} {}\n", st->values[2 * v], 1.0f - st->values[2 * v + 1]);  // origin lower left
-  fmt::format_to(to, "usemtl exemplar\ns 1\n");
+    text.put("vt {} {}\n", st->values[2 * v], 1.0f - st->values[2 * v + 1]);  // origin lower left
+  text.put("usemtl exemplar\ns 1\n");
   for (const texture::Vec3I& t : mesh.triangles) {
     if (st != nullptr)
-      fmt::format_to(to, "f {0}/{0}/{0} {1}/{1}/{1} {2}/{2}/{2}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+      text.put("f {0}/{0}/{0} {1}/{1}/{1} {2}/{2}/{2}\n", t[0] + 1, t[1] + 1, t[2] + 1);
     else
-      fmt::format_to(to, "f {0}//{0} {1}//{1} {2}//{2}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+      text.put("f {0}//{0} {1}//{1} {2}//{2}\n", t[0] + 1, t[1] + 1, t[2] + 1);
   }
-  return fmt::to_string(text);
 }
 
 std::string mtlOf(const Appearance& appearance) {

@@ -4,15 +4,17 @@
 #include "tools/formats/appearance.h"
 #include "tools/formats/export_mesh.h"
 
+#include <iosfwd>
+
 namespace fluidtex::tools {
 
 // The name of the material file beside the frames', the same for all of them.
 inline constexpr const char* kObjMaterials = "surface.mtl";
 
-// The text of an .obj: positions with colours (sRGB), normals, the UV set `st` of a mesh whose joints are
-// cut. Y up, as most readers take it: (x, y, z) is written as (x, z, -y). Other columns have no place in the
-// format.
-std::string objOf(const ExportMesh& mesh);
+// Writes the text of an .obj: positions with colours (sRGB), normals, the UV set `st` of a mesh whose joints
+// are cut. Y up, as most readers take it: (x, y, z) is written as (x, z, -y). Other columns have no place in
+// the format.
+void writeObj(const ExportMesh& mesh, std::ostream& out);
 
 // The text of the material file.
 std::string mtlOf(const Appearance& appearance);

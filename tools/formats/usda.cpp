@@ -1,54 +1,46 @@
 #include "tools/formats/usda.h"
 
 #include "tools/formats/format.h"
+#include "tools/formats/text_stream.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string_view>
 
 namespace fluidtex::tools {
 namespace {
 
-using Text = fmt::memory_buffer;
-
-template <typename... Args>
-void put(Text& text, fmt::format_string<Args...> format, Args&&... args) {
-  fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
-}
-
 // "[(0, 1), (2, 3)]": rows of `components` numbers each.
 template <typename T>
-void putRows(Text& text, const T* values, std::size_t rows, int components) {
-  text.push_back('[');
+void putRows(TextStream& text, const T* values, std::size_t rows, int components) {
+  text.add("[");
   for (std::size_t row = 0; row < rows; ++row) {
-    if (row > 0) text.append(std::string_view(", "));
-    if (components > 1) text.push_back('(');
+    if (row > 0) text.add(", ");
+    if (components > 1) text.add("(");
     for (int c = 0; c < components; ++c, ++values) {
-      if (c > 0) text.append(std::string_view(", "));
-      put(text, "{}", *values);
+      if (c > 0) text.add(", ");
+      text.put("{}", *values);
     }
-    if (components > 1) text.push_back(')');
+    if (components > 1) text.add(")");
   }
-  text.push_back(']');
+  text.add("]");
 }
 
 // Attributes of the mesh, each with one sample at the frame's time code. Value clips take time samples only.
 struct Attributes {
-  Text& text;
+  TextStream& text;
   int frame;
 
   template <typename T>
   void add(std::string_view type, std::string_view name, std::string_view interpolation, const T* values,
            std::size_t rows, int components) {
     if (!interpolation.empty())
-      put(text, "        {} {} (\n            interpolation = \"{}\"\n        )\n", type, name,
-          interpolation);
-    put(text, "        {} {}.timeSamples = {{\n            {}: ", type, name, frame);
+      text.put("        {} {} (\n            interpolation = \"{}\"\n        )\n", type, name, interpolation);
+    text.put("        {} {}.timeSamples = {{\n            {}: ", type, name, frame);
     putRows(text, values, rows, components);
-    put(text, ",\n        }}\n");
+    text.put(",\n        }}\n");
   }
   void addVectors(std::string_view type, std::string_view name, std::string_view interpolation,
                   const std::vector<texture::Vec3f>& values) {
@@ -96,14 +88,14 @@ void putColors(Attributes& attributes, const std::vector<texture::Vec4f>& color)
     attributes.add("float[]", "primvars:displayOpacity", "vertex", opacity.data(), opacity.size(), 1);
 }
 
-void putMesh(Text& text, const ExportMesh& mesh, bool pictured) {
+void putMesh(TextStream& text, const ExportMesh& mesh, bool pictured) {
   if (pictured)
-    put(text,
+    text.put(
         "    def Mesh \"surface\" (\n        prepend apiSchemas = [\"MaterialBindingAPI\"]\n    )\n    {{\n"
         "        rel material:binding = </liquid/material>\n");
   else
-    put(text, "    def Mesh \"surface\"\n    {{\n");
-  put(text, "        uniform token subdivisionScheme = \"none\"\n");
+    text.put("    def Mesh \"surface\"\n    {{\n");
+  text.put("        uniform token subdivisionScheme = \"none\"\n");
   Attributes attributes{text, mesh.frame};
   putExtent(attributes, mesh.positions);
   const auto* corners = reinterpret_cast<const std::uint32_t*>(mesh.triangles.data());
@@ -132,12 +124,12 @@ void putMesh(Text& text, const ExportMesh& mesh, bool pictured) {
       attributes.addPrimvar(column, "faceVarying");
     }
   }
-  put(text, "    }}\n");
+  text.put("    }}\n");
 }
 
-void putMaterial(Text& text, const Appearance& appearance) {
+void putMaterial(TextStream& text, const Appearance& appearance) {
   const char* wrap = appearance.toroidal ? "repeat" : "clamp";
-  put(text,
+  text.put(
       "\n    def Material \"material\"\n    {{\n"
       "        token outputs:surface.connect = </liquid/material/preview.outputs:surface>\n\n"
       "        def Shader \"preview\"\n        {{\n"
@@ -147,8 +139,8 @@ void putMaterial(Text& text, const Appearance& appearance) {
       "            float inputs:clearcoatRoughness = {:.4g}\n",
       appearance.gloss, std::sqrt(appearance.roughness));
   if (appearance.seeThrough)
-    put(text, "            float inputs:opacity.connect = </liquid/material/picture.outputs:a>\n");
-  put(text,
+    text.put("            float inputs:opacity.connect = </liquid/material/picture.outputs:a>\n");
+  text.put(
       "            token outputs:surface\n        }}\n\n"
       "        def Shader \"picture\"\n        {{\n"
       "            uniform token info:id = \"UsdUVTexture\"\n"
@@ -162,8 +154,8 @@ void putMaterial(Text& text, const Appearance& appearance) {
       appearance.picture, wrap, wrap);
 }
 
-void putHead(Text& text, int first, int last, double frameRate) {
-  put(text,
+void putHead(TextStream& text, int first, int last, double frameRate) {
+  text.put(
       "#usda 1.0\n(\n    defaultPrim = \"liquid\"\n    endTimeCode = {}\n    framesPerSecond = {:g}\n"
       "    metersPerUnit = 1\n    startTimeCode = {}\n    timeCodesPerSecond = {:g}\n    upAxis = "
       "\"Z\"\n)\n\n",
@@ -172,20 +164,19 @@ void putHead(Text& text, int first, int last, double frameRate) {
 
 }  // namespace
 
-std::string usdaOf(const ExportMesh& mesh, const Appearance& appearance) {
-  Text text;
+void writeUsda(const ExportMesh& mesh, const Appearance& appearance, std::ostream& out) {
+  TextStream text(out);
   putHead(text, mesh.frame, mesh.frame, appearance.frameRate);
-  put(text, "def Xform \"liquid\"\n{{\n");
+  text.put("def Xform \"liquid\"\n{{\n");
   const bool blends = findColumn(mesh.corner, "joint") != nullptr;
   const bool pictured = !appearance.picture.empty() && !blends;
   putMesh(text, mesh, pictured);
   if (pictured) putMaterial(text, appearance);
-  put(text, "}}\n");
-  return fmt::to_string(text);
+  text.put("}}\n");
 }
 
-std::string usdStageOf(const std::vector<int>& frames, int fullest, double frameRate) {
-  Text text;
+void writeUsdStage(const std::vector<int>& frames, int fullest, double frameRate, std::ostream& out) {
+  TextStream text(out);
   putHead(text, frames.front(), frames.back(), frameRate);
   const std::string model = frameFile(Format::usda, fullest);
   std::string active, paths, times;
@@ -195,14 +186,13 @@ std::string usdStageOf(const std::vector<int>& frames, int fullest, double frame
     paths += fmt::format("{}@./{}@", comma, frameFile(Format::usda, frames[n]));
     times += fmt::format("{}({}, {})", comma, frames[n], frames[n]);
   }
-  put(text,
+  text.put(
       "def Xform \"liquid\" (\n    prepend references = @./{}@</liquid>\n    clips = {{\n"
       "        dictionary default = {{\n            double2[] active = [{}]\n"
       "            asset[] assetPaths = [{}]\n            asset manifestAssetPath = @./{}@\n"
       "            string primPath = \"/liquid\"\n            double2[] times = [{}]\n        }}\n    }}\n)\n"
       "{{\n}}\n",
       model, active, paths, model, times);
-  return fmt::to_string(text);
 }
 
 }  // namespace fluidtex::tools

@@ -8,30 +8,37 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <numeric>
+#include <deque>
+#include <ostream>
+#include <string_view>
 
 namespace fluidtex::tools {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "VTP bytes are written as they lie in memory");
 
-// The raw data behind the text: each array with its size in front.
+// The raw data behind the text: each array with its size in front. Refers to the arrays.
 struct Appended {
-  std::string bytes;
+  std::vector<std::string_view> arrays;
+  std::uint64_t bytes = 0;
 
   // Appends an array and returns the element that tells of it.
   template <typename T>
   std::string add(const char* type, const std::string& name, int components, const std::vector<T>& values) {
     const std::string element = fmt::format(
         "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
-        type, name, components, bytes.size());
-    const std::uint64_t size = values.size() * sizeof(T);
-    char head[sizeof size];
-    std::memcpy(head, &size, sizeof size);
-    bytes.append(head, sizeof head);
-    bytes.append(reinterpret_cast<const char*>(values.data()), size);
+        type, name, components, bytes);
+    arrays.emplace_back(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    bytes += sizeof(std::uint64_t) + arrays.back().size();
     return element;
+  }
+
+  void write(std::ostream& out) const {
+    for (const std::string_view array : arrays) {
+      const std::uint64_t size = array.size();
+      out.write(reinterpret_cast<const char*>(&size), sizeof size);
+      out.write(array.data(), static_cast<std::streamsize>(size));
+    }
   }
 };
 
@@ -48,7 +55,7 @@ std::vector<std::uint8_t> encodedBytes(const std::vector<texture::Vec4f>& color)
 
 }  // namespace
 
-std::string vtpOf(const ExportMesh& mesh) {
+void writeVtp(const ExportMesh& mesh, std::ostream& out) {
   Appended data;
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
@@ -67,15 +74,22 @@ std::string vtpOf(const ExportMesh& mesh) {
   const bool pictured = findColumn(mesh.vertex, "st") != nullptr;
   text += fmt::format("<PointData Scalars=\"color\" Normals=\"normal\" Vectors=\"velocity\"{}>\n",
                       pictured ? " TCoords=\"st\"" : "");
-  text += data.add("Float32", "normal", 3, mesh.normals) +
-          data.add("UInt8", "color", 4, encodedBytes(mesh.color));
-  for (Column column : mesh.vertex) {
-    if (isUvSet(column.name))
-      for (std::size_t i = 1; i < column.values.size(); i += 2) column.values[i] = 1.0f - column.values[i];
-    text += data.add("Float32", column.name, column.components, column.values);
+  const std::vector<std::uint8_t> colors = encodedBytes(mesh.color);
+  text += data.add("Float32", "normal", 3, mesh.normals) + data.add("UInt8", "color", 4, colors);
+  std::deque<std::vector<float>> turned;
+  for (const Column& column : mesh.vertex) {
+    const std::vector<float>* values = &column.values;
+    if (isUvSet(column.name)) {
+      std::vector<float>& st = turned.emplace_back(*values);
+      for (std::size_t i = 1; i < st.size(); i += 2) st[i] = 1.0f - st[i];
+      values = &st;
+    }
+    text += data.add("Float32", column.name, column.components, *values);
   }
   text += "</PointData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
-  return text + data.bytes + "\n</AppendedData>\n</VTKFile>\n";
+  out << text;
+  data.write(out);
+  out << "\n</AppendedData>\n</VTKFile>\n";
 }
 
 std::string pvdOf(const std::vector<int>& frames, double frameRate) {

@@ -13,6 +13,10 @@ using Json = nlohmann::json;
 
 namespace {
 
+std::string glbOf(const tools::ExportMesh& mesh, const tools::Appearance& appearance) {
+  return written([&](std::ostream& out) { tools::writeGlb(mesh, appearance, out); });
+}
+
 std::uint32_t wordAt(const std::string& bytes, std::size_t offset) {
   std::uint32_t word = 0;
   REQUIRE(offset + sizeof word <= bytes.size());
@@ -84,7 +88,7 @@ const tools::Appearance kPictured{"dam & break", 24.0, "exemplar.png", true, fal
 }  // namespace
 
 TEST_CASE("glb: lengths, accessors and ranges are those of the mesh", "[tools]") {
-  const Glb glb(tools::glbOf(sampleMesh(), kPictured));
+  const Glb glb(glbOf(sampleMesh(), kPictured));
   CHECK(glb.json["buffers"][0]["byteLength"] == glb.binary.size());
   const Json& position = glb.json["accessors"][int(glb.attributes()["POSITION"])];
   CHECK(position["min"] == Json::array({0.0, 0.0, 2.0}));
@@ -105,7 +109,7 @@ TEST_CASE("glb: lengths, accessors and ranges are those of the mesh", "[tools]")
 }
 
 TEST_CASE("glb: the node turns Z to Y", "[tools]") {
-  const Glb glb(tools::glbOf(sampleMesh(), kPictured));
+  const Glb glb(glbOf(sampleMesh(), kPictured));
   const Json q = glb.json["nodes"][0]["rotation"];
   const double x = q[0], y = q[1], z = q[2], w = q[3];
   CHECK(x * x + y * y + z * z + w * w == Approx(1.0));
@@ -116,7 +120,7 @@ TEST_CASE("glb: the node turns Z to Y", "[tools]") {
 }
 
 TEST_CASE("glb: colours multiply no picture: they are COLOR_0 only where the material has none", "[tools]") {
-  const Glb pictured(tools::glbOf(sampleMesh(), kPictured));
+  const Glb pictured(glbOf(sampleMesh(), kPictured));
   CHECK_FALSE(pictured.attributes().contains("COLOR_0"));
   CHECK(pictured.attribute("_COLOR")[0] == 1.0);
   CHECK(pictured.attribute("_COLOR")[12] == Approx(0.5).margin(1e-5));  // linear
@@ -128,20 +132,20 @@ TEST_CASE("glb: colours multiply no picture: they are COLOR_0 only where the mat
 
   tools::Appearance plain = kPictured;
   plain.picture.clear();
-  const Glb colored(tools::glbOf(sampleMesh(), plain));
+  const Glb colored(glbOf(sampleMesh(), plain));
   CHECK(colored.attributes().contains("COLOR_0"));
   CHECK_FALSE(colored.json.contains("images"));
 
   tools::ExportMesh blended = samplePieces();
   blended.corner.push_back({"joint", 3, std::vector<float>(18, 0.0f)});
-  const Glb joints(tools::glbOf(blended, kPictured));
+  const Glb joints(glbOf(blended, kPictured));
   CHECK(joints.attributes().contains("COLOR_0"));
   CHECK(joints.attributes().contains("_JOINT"));
   CHECK(joints.attribute("TEXCOORD_0").size() == 10);  // a vertex was split
 }
 
 TEST_CASE("glb: a frame without surface is a file without a mesh", "[tools]") {
-  const Glb glb(tools::glbOf({}, kPictured));
+  const Glb glb(glbOf({}, kPictured));
   CHECK_FALSE(glb.json.contains("meshes"));
   CHECK_FALSE(glb.json.contains("buffers"));
   CHECK(glb.binary.empty());
@@ -150,7 +154,7 @@ TEST_CASE("glb: a frame without surface is a file without a mesh", "[tools]") {
 TEST_CASE("glb: columns whose names differ in capitals alone stay apart", "[tools]") {
   tools::ExportMesh mesh = sampleMesh();
   mesh.vertex.push_back({"Age", 1, {9, 9, 9, 9}});
-  const Glb glb(tools::glbOf(mesh, kPictured));
+  const Glb glb(glbOf(mesh, kPictured));
   CHECK(glb.attribute("_AGE")[0] == 0.5);
   CHECK(glb.attribute("_Age")[0] == 9.0);
 }

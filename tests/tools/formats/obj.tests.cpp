@@ -10,6 +10,10 @@ using namespace fluidtex;
 
 namespace {
 
+std::string objOf(const tools::ExportMesh& mesh) {
+  return written([&](std::ostream& out) { tools::writeObj(mesh, out); });
+}
+
 std::vector<std::string> linesThatBegin(const std::string& text, const std::string& with) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
@@ -21,7 +25,7 @@ std::vector<std::string> linesThatBegin(const std::string& text, const std::stri
 }  // namespace
 
 TEST_CASE("obj: Y is up, the origin of coordinates below, colours are sRGB", "[tools]") {
-  const std::string text = tools::objOf(sampleMesh());
+  const std::string text = objOf(sampleMesh());
   const std::vector<std::string> v = linesThatBegin(text, "v ");
   REQUIRE(v.size() == 4);
   CHECK(v[0] == "v 0 2 -0 1 0 0");
@@ -36,7 +40,7 @@ TEST_CASE("obj: Y is up, the origin of coordinates below, colours are sRGB", "[t
 TEST_CASE("obj: without UV sets faces have none", "[tools]") {
   tools::ExportMesh mesh = sampleMesh();
   mesh.vertex.clear();
-  const std::string text = tools::objOf(mesh);
+  const std::string text = objOf(mesh);
   CHECK(linesThatBegin(text, "vt ").empty());
   CHECK(linesThatBegin(text, "f ")[1] == "f 1//1 3//3 4//4");
 }

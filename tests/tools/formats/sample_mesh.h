@@ -3,6 +3,8 @@
 
 #include "tools/formats/export_mesh.h"
 
+#include <sstream>
+
 inline fluidtex::tools::ExportMesh sampleMesh() {
   fluidtex::tools::ExportMesh mesh;
   mesh.frame = 7;
@@ -24,4 +26,12 @@ inline fluidtex::tools::ExportMesh samplePieces() {
   mesh.vertex.resize(2);
   mesh.corner = {{"st", 2, {0, 0, 1, 0, 1, 1, 0, 0, 0.5f, 0.5f, 0, 1}}};
   return mesh;
+}
+
+// The file that a writer makes.
+template <typename Write>
+std::string written(const Write& write) {
+  std::ostringstream out;
+  write(out);
+  return out.str();
 }

@@ -8,6 +8,10 @@ using namespace fluidtex;
 
 namespace {
 
+std::string usdaOf(const tools::ExportMesh& mesh, const tools::Appearance& appearance) {
+  return written([&](std::ostream& out) { tools::writeUsda(mesh, appearance, out); });
+}
+
 bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
@@ -18,7 +22,7 @@ TEST_CASE("usda: values stand at the frame's time code, coordinates at corners b
   tools::Appearance appearance;
   appearance.picture = "exemplar.png";
   appearance.toroidal = true;
-  const std::string text = tools::usdaOf(sampleMesh(), appearance);
+  const std::string text = usdaOf(sampleMesh(), appearance);
   CHECK(text.starts_with("#usda 1.0\n"));
   CHECK(holds(text, "upAxis = \"Z\""));
   CHECK(holds(text, "metersPerUnit = 1\n"));
@@ -45,11 +49,11 @@ TEST_CASE("usda: values stand at the frame's time code, coordinates at corners b
 
 TEST_CASE("usda: without a picture, or with joints that blend, there is no material", "[tools]") {
   tools::Appearance appearance;
-  CHECK_FALSE(holds(tools::usdaOf(sampleMesh(), appearance), "Material"));
+  CHECK_FALSE(holds(usdaOf(sampleMesh(), appearance), "Material"));
   appearance.picture = "exemplar.png";
   tools::ExportMesh blended = samplePieces();
   blended.corner.push_back({"joint", 3, std::vector<float>(18, 0.0f)});
-  const std::string text = tools::usdaOf(blended, appearance);
+  const std::string text = usdaOf(blended, appearance);
   CHECK_FALSE(holds(text, "Material"));
   CHECK(holds(text, "float3[] primvars:joint (\n            interpolation = \"faceVarying\""));
   // Rows that are equal are there once.
@@ -59,7 +63,7 @@ TEST_CASE("usda: without a picture, or with joints that blend, there is no mater
 }
 
 TEST_CASE("usda: the stage takes each frame from its file, and what there is from the fullest", "[tools]") {
-  const std::string text = tools::usdStageOf({3, 4, 6}, 4, 25.0);
+  const std::string text = written([](std::ostream& out) { tools::writeUsdStage({3, 4, 6}, 4, 25.0, out); });
   CHECK(holds(text, "startTimeCode = 3\n"));
   CHECK(holds(text, "endTimeCode = 6\n"));
   CHECK(holds(text, "timeCodesPerSecond = 25\n"));

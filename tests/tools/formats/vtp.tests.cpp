@@ -11,6 +11,10 @@ using namespace fluidtex;
 
 namespace {
 
+std::string vtpOf(const tools::ExportMesh& mesh) {
+  return written([&](std::ostream& out) { tools::writeVtp(mesh, out); });
+}
+
 // The raw bytes of an array by its name, by the offset and the size that the file gives.
 std::string arrayOf(const std::string& file, const std::string& name) {
   std::smatch found;
@@ -35,7 +39,7 @@ std::vector<T> valuesOf(const std::string& file, const std::string& name) {
 }  // namespace
 
 TEST_CASE("vtp: every array lies where the file says", "[tools]") {
-  const std::string file = tools::vtpOf(sampleMesh());
+  const std::string file = vtpOf(sampleMesh());
   CHECK(file.find("NumberOfPoints=\"4\"") != std::string::npos);
   CHECK(file.find("NumberOfPolys=\"2\"") != std::string::npos);
   CHECK(file.find(">0.25</DataArray>") != std::string::npos);  // the time
@@ -53,7 +57,7 @@ TEST_CASE("vtp: every array lies where the file says", "[tools]") {
 }
 
 TEST_CASE("vtp: a frame without surface is a file without points", "[tools]") {
-  const std::string file = tools::vtpOf({});
+  const std::string file = vtpOf({});
   CHECK(file.find("NumberOfPoints=\"0\"") != std::string::npos);
   CHECK(arrayOf(file, "Points").empty());
 }
