@@ -8,6 +8,7 @@
 #include "tools/base/console.h"
 #include "tools/base/errors.h"
 #include "tools/commands.h"
+#include "tools/formats/format.h"
 #include "tools/frames/image_notes.h"
 #include "tools/output/ply.h"
 #include "tools/output/read_ply.h"
@@ -107,6 +108,13 @@ void applyMaps(const ApplyWishes& wishes) {
   }
   for (const auto& [name, map] : maps)
     print("{} {} in {} surfaces\n", name, name == kColor ? "replaced" : "written", run.frames.size());
+  std::string stale;
+  for (const FormatFiles& format : kFormatFiles)
+    if (std::string_view(format.name) != "ply" && fs::exists(wishes.out / format.folder))
+      stale += (stale.empty() ? "" : ",") + std::string(format.name);
+  if (!stale.empty())
+    say("note: in other formats the surfaces are as they were; fluidtex export {} --format {} makes them anew\n",
+        wishes.out.string(), stale);
 }
 
 void addApply(CLI::App& app, int& exitCode) {

@@ -12,6 +12,7 @@
 #include "tools/common_options.h"
 #include "tools/frames/check_relief.h"
 #include "tools/frames/color_between.h"
+#include "tools/frames/disk_plan.h"
 #include "tools/frames/exemplar_fit.h"
 #include "tools/frames/image_notes.h"
 #include "tools/frames/memory_plan.h"
@@ -42,6 +43,17 @@ void printPlannedPoints(const scenes::Scene& scene, const std::optional<double>&
   } else {
     print("points    {} on the first surface; the spacing then stays\n", scene.texture.points);
   }
+}
+
+// As a run with these options would take it.
+void tellDisk(const scenes::Scene& scene, const CheckOptions& options, int frames, double cells,
+              double points) {
+  if (points <= 0.0) return;
+  const DiskPlan plan = plannedDisk(scene, frames, points, cells, true, parseFormats(options.formats));
+  print("disk      {}\n", textOf(plan));
+  const std::filesystem::path out =
+      options.out.empty() ? std::filesystem::path("out") / scene.name : options.out;
+  if (const std::string note = diskNote(plan, out); !note.empty()) say("warning: {}\n", note);
 }
 
 int threadsOf(const CommonOptions& options) {
@@ -132,6 +144,7 @@ void printPlan(const scenes::Scene& scene, const CheckOptions& options) {
   // How much sources bring cannot be told beforehand.
   if (!scene.sim.sources.empty()) print(", and {:.0f} kB a cell of what flows in", kBytesPerLiquidCell / 1e3);
   print("\n");
+  tellDisk(scene, options, last - first + 1, double(liquid.cells), points.value_or(0.0));
   if (points)
     printTime(scene, options, plannedTime(scene, liquid, *points, pixels, threadsOf(options)), last);
   for (const std::string& note : imageNotes(colorPictures(scene.texture.exemplar)))
@@ -151,6 +164,7 @@ void addCheck(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("check", "Validate a scene or a cache, and print what is in it");
   auto options = std::make_shared<CheckOptions>();
   addSceneOptions(*command, *options);
+  addFormatOptions(*command, *options);
   command
       ->add_option("--pairs", options->cache.pairs,
                    "Of a cache: how many pairs of frames are compared (default: 5)")

@@ -14,6 +14,8 @@ struct CommonOptions {
   std::filesystem::path scene, out, exemplar;
   std::string frames, quality = "default";
   std::vector<std::string> set;
+  std::vector<std::string> formats;  // beside PLY
+  std::string joints = "cut";
   int threads = 0;  // 0: one per core
   bool resume = false, noRender = false, noReport = false, follow = false, quiet = false, verbose = false;
 };
@@ -25,7 +27,9 @@ void addApply(CLI::App& app, int& exitCode);
 void addCompare(CLI::App& app, int& exitCode);
 void addCheck(CLI::App& app, int& exitCode);
 void addRender(CLI::App& app, int& exitCode);
+void addExport(CLI::App& app, int& exitCode);
 void addMeasure(CLI::App& app, int& exitCode);
+void addVideo(CLI::App& app, int& exitCode);
 void addReport(CLI::App& app, int& exitCode);
 void addView(CLI::App& app, int& exitCode);
 void addValidate(CLI::App& app, int& exitCode);

@@ -172,6 +172,27 @@ void addSceneOptions(CLI::App& command, CommonOptions& options) {
       ->type_name("IMAGE");
 }
 
+void addFormatOptions(CLI::App& command, CommonOptions& options) {
+  command
+      .add_option("--format", options.formats,
+                  "Write surfaces as glb, obj, usda or vtp too, with commas between several; ply is always "
+                  "written")
+      ->type_name("NAME")
+      ->delimiter(',')
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      .add_option("--joints", options.joints,
+                  "In glb and usda, where pieces of texture meet: cut (one set of coordinates, hard joints; "
+                  "default) or blend (three, for a material that mixes them)")
+      ->check(CLI::IsMember({"cut", "blend"}))
+      ->type_name("HOW");
+}
+
+JointsAs jointsAs(const CommonOptions& options) {
+  return options.joints == "blend" ? JointsAs::blend : JointsAs::cut;
+}
+
 bool isCache(const std::filesystem::path& scene) {
   if (scene == "-") return false;
   std::error_code unknown;

@@ -4,6 +4,7 @@
 #include "scenes/scene.h"
 #include "scenes/source.h"
 #include "tools/commands.h"
+#include "tools/formats/export_mesh.h"
 
 #include <functional>
 #include <string>
@@ -13,6 +14,10 @@ namespace fluidtex::tools {
 void addSceneOptions(CLI::App& command, CommonOptions& options);
 // Those that a simulation alone has a use for: no --out, no --exemplar.
 void addSimulationOptions(CLI::App& command, CommonOptions& options);
+
+// --format and --joints.
+void addFormatOptions(CLI::App& command, CommonOptions& options);
+JointsAs jointsAs(const CommonOptions& options);
 
 // The scene file, or for "-" what comes on stdin, which is read once. Throws UsageError where nothing comes.
 scenes::Source sourceOf(const CommonOptions& options);

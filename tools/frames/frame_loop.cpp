@@ -12,6 +12,7 @@
 #include "tools/frames/check_relief.h"
 #include "tools/frames/color_between.h"
 #include "tools/frames/exemplar_fit.h"
+#include "tools/frames/export_frame.h"
 #include "tools/frames/image_notes.h"
 #include "tools/frames/onto_mesh.h"
 #include "tools/frames/picture_notes.h"
@@ -19,6 +20,7 @@
 #include "tools/frames/time_plan.h"
 #include "tools/frames/visible_solids.h"
 #include "tools/output/ply.h"
+#include "tools/output/read_ply.h"
 #include "tools/run_folder/cache_folder.h"
 #include "tools/run_folder/earlier_frames.h"
 #include "tools/run_folder/earlier_run.h"
@@ -96,15 +98,17 @@ class FrameLoop {
     m_report.seed = scene.seed;
     m_report.threads = options.threads;
     m_report.inputs = m_inputs;
+    m_exports = {options.formats, options.joints, appearanceOf(m_report.scene, exemplarColor())};
   }
 
   void run() {
     if (!m_options.resume || !continueFromState()) {
-    m_exports = {options.formats, options.joints, appearanceOf(m_report.scene, exemplarColor())};
       nowAt(kOnMotion);
       m_motion = pipeline::makeMotion(m_scene);
       clearEarlierRun(m_options.out, m_scene.name);
     }
+    writePictures(m_options.out, exemplarColor(), m_scene.texture.exemplar.betweenFile);
+    exportEarlierFrames();
     tellWarnings();
     for (const std::string& note : imageNotes(colorPictures(m_scene.texture.exemplar))) warn(note);
     if (m_scene.texture.spacing <= 0.0 && m_surface.empty()) tellFit(m_scene.texture.points);
@@ -236,38 +240,66 @@ class FrameLoop {
   // them.
   void writeResults(int frame, double time, StageSeconds& seconds) {
     const std::string name = render::frameName(frame);
-    if (m_options.render) {
-      nowAt(kOnPicture, frame);
-      render::Picture picture;
-      {
-        Stopwatch watch(seconds.render);
-        const double progress = m_scene.frames > 1 ? double(frame - 1) / (m_scene.frames - 1) : 0.0;
-        picture =
-            render::render(m_surface, m_solids.at(time), m_scene.render,
-                           {m_scene.sim.size, progress, frame, colorBetween(m_detail, m_surface, joints),
-                            m_detail && m_detail->seeThrough, m_scene.domainOrigin},
-                           reporter("render"));
-      }
+    const fs::path surfaceFile = m_options.out / "surface" / (name + ".ply");
+    nowAt(kOnFrameFiles, frame);
+    {
       Stopwatch watch(seconds.write);
-      writeAtomically(m_options.out / "frames" / (name + ".png"),
-                      [&](const fs::path& file) { writePng(picture, file, pictureNotes(m_scene, frame)); });
+      const texture::Joints joints = jointsOf(m_scene.texture, m_surface);
+      writeAtomically(surfaceFile, [&](const fs::path& file) { writePly(m_surface, joints, file); });
     }
+    if (m_options.render) writePicture(frame, time, surfaceFile, seconds);
     nowAt(kOnFrameFiles, frame);
     Stopwatch watch(seconds.write);
-    writeAtomically(m_options.out / "surface" / (name + ".ply"),
-                    [&](const fs::path& file) { writePly(m_surface, joints, file); });
     const bool putsOnto = scenes::putsOnto(m_scene);
     if (putsOnto) {
       const texture::TexturedSurface other = onto(frame);
       writeAtomically(m_options.out / "onto" / (name + ".ply"),
                       [&](const fs::path& file) { writePly(other, jointsOf(m_scene.texture, other), file); });
-    const texture::Joints joints = jointsOf(m_scene.texture, m_surface);
     }
     std::vector<JournalLine> lines;
     for (const std::string& file : resultsOf(frame, m_options.render, putsOnto))
       lines.push_back(lineOfFile(file, fingerprintOf(m_options.out / file)));
     addToJournal(m_options.out, lines);
+    if (m_exports.formats.size() > 1) exportFrame(m_options.out, frame, m_exports, exemplarColor());
   }
+
+  // Draws the surface as its file has it, with colours of 8 bits, so that fluidtex render gives the same
+  // picture.
+  void writePicture(int frame, double time, const fs::path& surfaceFile, StageSeconds& seconds) {
+    nowAt(kOnPicture, frame);
+    render::Picture picture;
+    {
+      Stopwatch watch(seconds.render);
+      texture::TexturedSurface surface =
+          readPly(surfaceFile, m_surface.exemplarWidth, m_surface.exemplarHeight);
+      surface.spacing = m_surface.spacing;
+      const texture::Joints joints = jointsOf(m_scene.texture, surface);
+      const double progress = m_scene.frames > 1 ? double(frame - 1) / (m_scene.frames - 1) : 0.0;
+      picture = render::render(surface, m_solids.at(time), m_scene.render,
+                               {m_scene.sim.size, progress, frame, colorBetween(m_detail, surface, joints),
+                                m_detail && m_detail->seeThrough, m_scene.domainOrigin},
+                               reporter("render"));
+    }
+    Stopwatch watch(seconds.write);
+    writeAtomically(m_options.out / "frames" / (render::frameName(frame) + ".png"),
+                    [&](const fs::path& file) { writePng(picture, file, pictureNotes(m_scene, frame)); });
+  }
+
+  // Of frames that are done, in formats that the earlier run was not asked for, or that are lost.
+  void exportEarlierFrames() {
+    const int done = std::min(pipeline::stateOf(*m_motion).frame, m_last);
+    if (m_exports.formats.size() == 1 || done == 0) return;
+    const Journal journal = readJournal(m_options.out);
+    for (int frame = m_options.firstFrame; frame <= done; ++frame) {
+      Exports missing = m_exports;
+      std::erase_if(missing.formats,
+                    [&](Format format) { return isWhole(journal, m_options.out, frameFile(format, frame)); });
+      if (!missing.formats.empty()) exportFrame(m_options.out, frame, missing, exemplarColor());
+      if (m_stop) throw Interrupted();
+    }
+  }
+
+  const texture::Image& exemplarColor() const { return m_texturing.synthesizer.exemplar.color; }
 
   // The other mesh of the frame that m_surface is of.
   texture::TexturedSurface onto(int frame) const {
@@ -348,10 +380,11 @@ class FrameLoop {
   std::optional<pipeline::Motion> m_motion;
   std::size_t m_warningsTold = 0;
   bool m_fitTold = false;
-  int m_frame = 0;  // that is being made
+  int m_frame = 0;                     // that is being made
   texture::TexturedSurface m_surface;  // of the last frame; its spacing is kept even while it is empty
   VisibleSolids m_solids;
   Report m_report;
+  Exports m_exports;
   ReportFile m_reportFile;
   Progress* m_progress = nullptr;
 };

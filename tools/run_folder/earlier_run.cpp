@@ -2,6 +2,9 @@
 
 #include "render/frame_name.h"
 #include "tools/base/atomic_file.h"
+#include "tools/formats/exemplar_picture.h"
+#include "tools/formats/format.h"
+#include "tools/formats/obj.h"
 #include "tools/run_folder/state.h"
 
 namespace fluidtex::tools {
@@ -19,7 +22,8 @@ void removeFrames(const fs::path& folder, const char* extension) {
 }  // namespace
 
 void removeLeftovers(const fs::path& out) {
-  for (const char* folder : {"", "frames", "surface", "onto", "state"}) removeTemporaries(out / folder);
+  for (const char* folder : {"", "frames", "onto", "state"}) removeTemporaries(out / folder);
+  for (const FormatFiles& format : kFormatFiles) removeTemporaries(out / format.folder);
 }
 
 void clearEarlierRun(const fs::path& out, const std::string& sceneName) {
@@ -29,9 +33,14 @@ void clearEarlierRun(const fs::path& out, const std::string& sceneName) {
   fs::remove(out / "run.json");
   fs::remove(out / "report.html");
   fs::remove(out / (sceneName + ".mp4"));
+  for (const char* picture : {kExemplarFile, kBetweenFile}) fs::remove(out / picture);
+  fs::remove(out / filesOf(Format::obj).folder / kObjMaterials);
   removeFrames(out / "frames", ".png");
-  removeFrames(out / "surface", ".ply");
   removeFrames(out / "onto", ".ply");
+  for (const FormatFiles& format : kFormatFiles) {
+    removeFrames(out / format.folder, format.extension);
+    if (format.sequence != nullptr) fs::remove(out / (sceneName + format.sequence));
+  }
   if (fs::exists(out / "log.txt")) fs::resize_file(out / "log.txt", 0);
 }
 
@@ -39,7 +48,7 @@ std::vector<std::string> resultsOf(int frame, bool rendered, bool onto) {
   const std::string name = render::frameName(frame);
   std::vector<std::string> results;
   if (rendered) results.push_back("frames/" + name + ".png");
-  results.push_back("surface/" + name + ".ply");
+  results.push_back(frameFile(Format::ply, frame));
   if (onto) results.push_back("onto/" + name + ".ply");
   return results;
 }

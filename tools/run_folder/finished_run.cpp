@@ -4,6 +4,7 @@
 #include "texture/exemplar/read_image.h"
 #include "tools/base/errors.h"
 #include "tools/base/work.h"
+#include "tools/formats/exemplar_picture.h"
 #include "tools/run_folder/journal.h"
 
 #include <fmt/core.h>
@@ -105,12 +106,15 @@ FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
   FinishedRun run{out, readReport(out), exemplar, {}, false, false, {}};
   const Json& texture = run.report["scene"]["texture"];
   if (exemplar.empty()) run.exemplar = fs::path(texture.value("exemplar", ""));
+  // A folder that was moved to another machine has its own.
+  if (exemplar.empty() && !fs::exists(run.exemplar) && fs::exists(out / kExemplarFile))
+    run.exemplar = out / kExemplarFile;
   if (!fs::exists(run.exemplar))
     throw UsageError(fmt::format("{}: the exemplar of the run is not there; give --exemplar IMAGE",
                                  run.exemplar.string()));
   run.toroidal = texture.value("toroidal", false);
-  run.color = texture::readImage(run.exemplar);
   run.looksUp = texture.value("method", "") == "coordinates" && texture.value("later_frames", "") != "advect";
+  run.color = texture::readImage(run.exemplar);
   nowAt(kOnRun);
   run.frames = framesIn(out / "surface", ".ply");
   if (run.frames.empty())

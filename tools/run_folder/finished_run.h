@@ -16,8 +16,8 @@ struct FinishedRun {
   std::filesystem::path exemplar;  // the image's name
   texture::Image color;            // and its pixels, linear RGBA
   bool toroidal = false;
-  std::vector<int> frames;  // with a surface on disk, ascending; never empty
   bool looksUp = false;     // colours were looked up at exemplar coordinates
+  std::vector<int> frames;  // with a surface on disk, ascending; never empty
   std::filesystem::path surfaceOf(int frame) const;
 };
 
@@ -41,8 +41,8 @@ double spacingOf(const std::filesystem::path& out, const texture::TexturedSurfac
 // Returns the folder if it exists; commands that work on a run create none. Throws UsageError otherwise.
 const std::filesystem::path& existing(const std::filesystem::path& out);
 
-// exemplar: replaces the run's own, if that has moved; else empty. Throws UsageError if the folder holds no
-// run, or its exemplar is missing.
+// exemplar: replaces the run's own; else empty. Where that is no longer at its place, the copy in the folder is
+// taken. Throws UsageError if the folder holds no run, or its exemplar is missing.
 FinishedRun openRun(const std::filesystem::path& out, const std::filesystem::path& exemplar);
 
 }  // namespace fluidtex::tools

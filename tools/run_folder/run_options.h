@@ -1,7 +1,10 @@
 // What the command line says about a run.
 #pragma once
 
+#include "tools/formats/exports.h"
+
 #include <filesystem>
+#include <vector>
 
 namespace fluidtex::tools {
 
@@ -13,6 +16,8 @@ struct RunOptions {
   bool render = true;
   bool quiet = false;
   int threads = 1;
+  std::vector<Format> formats{Format::ply};
+  JointsAs joints = JointsAs::cut;
 };
 
 }  // namespace fluidtex::tools

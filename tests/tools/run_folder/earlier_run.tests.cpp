@@ -21,15 +21,34 @@ TEST_CASE("earlier run: all that a run writes goes, whatever its frames, and not
   const fs::path out = scratch.path / "out";
   clearEarlierRun(out, "dam");
   CHECK(fs::is_directory(out));
-  for (const char* name :
-       {"frames/0030.png", "frames/0072.png", "frames/.tmp-0073.png", "surface/0072.ply", "surface/12345.ply",
-        "state/0072/solver.vdb", "state/.tmp-0073/solver.vdb", "run.json", "dam.mp4", ".tmp-dam.mp4"})
+  for (const char* name : {"frames/0030.png",
+                           "frames/0072.png",
+                           "frames/.tmp-0073.png",
+                           "surface/0072.ply",
+                           "surface/12345.ply",
+                           "state/0072/solver.vdb",
+                           "state/.tmp-0073/solver.vdb",
+                           "run.json",
+                           "report.html",
+                           "dam.mp4",
+                           ".tmp-dam.mp4",
+                           "glb/0072.glb",
+                           "obj/0072.obj",
+                           "obj/surface.mtl",
+                           "usd/0072.usda",
+                           "vtp/.tmp-0073.vtp",
+                           "dam.usda",
+                           "dam.pvd",
+                           "exemplar.png",
+                           "between.png"})
     put(out / name);
-  const std::vector<std::string> own = {"frames/0001.jpg", "frames/1.png", "other.mp4", "state/notes/0001"};
+  const std::vector<std::string> own = {"frames/0001.jpg", "frames/1.png", "glb/mine.glb",
+                                        "other.mp4",       "other.usda",   "state/notes/0001"};
   for (const std::string& name : own) put(out / name);
   clearEarlierRun(out, "dam");
   CHECK(filesIn(out) == own);
   CHECK_FALSE(fs::exists(out / "surface"));
+  CHECK_FALSE(fs::exists(out / "vtp"));
 }
 
 TEST_CASE("earlier run: the log is emptied, so that a logger that has it open goes on", "[tools]") {
