@@ -422,6 +422,9 @@ class Material(InBlender):
         fluidtex.make_material(liquid)
         self.assertEqual(liquid.fluidtex.problem, "")
         self.assertIn("fluidtex colours of other.png repeated", bpy.data.node_groups)
+        shutil.copy(os.path.join(folder, "other.png"), os.path.join(folder, "exemplar.png"))
+        self.assertEqual(fluidtex.Run(folder).exemplar, os.path.join(folder, "exemplar.png"))
+        self.assertEqual(fluidtex.import_run(folder).fluidtex.problem, "")
         liquid.fluidtex.color_map = os.path.join(folder, "run.json")
         with self.assertRaisesRegex(fluidtex.Problem, "is no picture"):
             fluidtex.make_material(liquid)

@@ -164,7 +164,13 @@ class Run:
             ) from None
         texture = self.scene.get("texture") or {}
         self.frame_rate = float(self.scene.get("frame_rate") or 0)
-        self.exemplar = texture.get("exemplar") or ""
+        # The run's own copies go with its folder, and are sRGB whatever the originals were.
+        own = {name: os.path.join(folder, f"{name}.png") for name in ("exemplar", "between")}
+        own = {name: file for name, file in own.items() if os.path.exists(file)}
+        self.exemplar = own.get("exemplar") or texture.get("exemplar") or ""
+        # The finer picture of the exemplar that its own pictures show.
+        finer = texture.get("between") == "file"
+        self.between = (own.get("between") or texture.get("between_file") or "") if finer else ""
         self.toroidal = bool(texture.get("toroidal"))
         # Else colours were carried, and no place in the exemplar has them.
         self.looked_up = texture.get("method") == "coordinates" and texture.get("later_frames") != "advect"

@@ -90,14 +90,14 @@ def set_up(run, options):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     stage.build(run)
-    texture, render = run.scene["texture"], run.scene["render"]
+    render = run.scene["render"]
     maps = {
         f"{name}_map": os.path.abspath(getattr(options, name))
         for name in ("color", "roughness", "normal", "bump", "displacement", "alpha")
         if getattr(options, name)
     }
-    if texture.get("between") == "file" and texture.get("between_file"):
-        maps.setdefault("color_map", texture["between_file"])
+    if run.between:
+        maps.setdefault("color_map", run.between)
     if options.height is not None:
         maps["bump_distance"] = maps["displacement_scale"] = options.height
     liquid = fluidtex.import_run(run.folder, shader=options.shader.upper(), **maps)
