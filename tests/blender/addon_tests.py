@@ -74,6 +74,16 @@ def baked_difference(liquid):
     return small_run.encoded(baked) - small_run.encoded(own)
 
 
+def bilinear(grid, x, y):
+    """Of a grid at a place, clamped outside; middles at whole numbers."""
+    i, j = int(np.floor(x)), int(np.floor(y))
+    at = lambda a, b: grid[np.clip(b, 0, grid.shape[0] - 1), np.clip(a, 0, grid.shape[1] - 1)]
+    u, v = x - i, y - j
+    return (1 - v) * ((1 - u) * at(i, j) + u * at(i + 1, j)) + v * (
+        (1 - u) * at(i, j + 1) + u * at(i + 1, j + 1)
+    )
+
+
 class InBlender(unittest.TestCase):
     def setUp(self):
         bpy.ops.wm.read_factory_settings(use_empty=True)
@@ -444,6 +454,37 @@ class Material(InBlender):
         off = np.abs(small_run.encoded(picture[:, :3]) - small_run.encoded(wanted[:, :3]))
         self.assertLess(off.mean(), 0.02)
         self.assertEqual(bpy.data.images["fluidtex means of fine.png"].size[0], small_run.TEXELS // 8)
+
+    def test_means_of_a_picture_of_any_size_lie_where_they_should(self):
+        width, height, pixels = 20, 12, 40
+        grey = np.random.default_rng(3).random((height, width)).astype(np.float32)
+        image = bpy.data.images.new("grey", width, height, is_data=True, float_buffer=True)
+        image.pixels.foreach_set(np.stack([grey] * 3 + [np.ones_like(grey)], 2)[::-1].ravel())
+        lightness = small_run.encoded(grey)
+        for _ in range(3):  # 20 x 12, 10 x 6, 5 x 3, 3 x 2: where one is left over it counts twice
+            rows, columns = lightness.shape
+            even = np.pad(lightness, ((0, rows % 2), (0, columns % 2)), mode="edge")
+            lightness = even.reshape(len(even) // 2, 2, -1, 2).mean((1, 3))
+        means, extent = fluidtex._mean_lightness(image, 20, False)
+        self.assertEqual(tuple(means.size), (3, 2))
+        bpy.ops.mesh.primitive_plane_add(size=1.0, location=(0.5, 0.5, 0.0))
+        material = bpy.data.materials.new("means")
+        material.use_nodes = True
+        nodes = fluidtex.Nodes(material.node_tree)
+        emission = nodes.new("ShaderNodeEmission")
+        nodes.put(
+            fluidtex._look_up(nodes, means, "UVMap", False, extent).outputs["Color"], emission.inputs["Color"]
+        )
+        nodes.put(emission.outputs[0], nodes.new("ShaderNodeOutputMaterial").inputs["Surface"])
+        bpy.context.object.data.materials.append(material)
+        camera_above((0, 0), (1, 1))
+        picture = render(pixels, pixels)[::-1, :, 0]
+        at = (np.arange(pixels) + 0.5) / pixels
+        x, y = [
+            ((at * size - 0.5) - 3.5) / 8 for size in (20, 12)
+        ]  # texels have their middles at whole numbers
+        wanted = [[bilinear(lightness, u, v) for u in x] for v in y]
+        np.testing.assert_allclose(picture, wanted, atol=2e-3)
 
     def test_normals_of_a_map_turn_with_each_piece(self):
         folder, (square, *_) = self.run_folder()
