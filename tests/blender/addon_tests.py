@@ -333,6 +333,24 @@ class Timeline(InBlender):
         finally:
             fluidtex.read_ply = read_ply
 
+    def test_an_animation_shows_each_frame_with_motion_blur_too(self):
+        folder, squares = self.run_folder(velocity=(0.0, 0.0, 0.0))
+        fluidtex.import_run(folder, shader="EMISSION")
+        camera_above((0, 0), (0.2, 0.2))
+        scene = bpy.context.scene
+        render(40, 40)  # for its settings
+        scene.render.use_motion_blur = True
+        scene.render.filepath = os.path.join(self.folder, "film ####")
+        scene.frame_set(3)
+        bpy.ops.render.render(animation=True)
+        for frame, square in enumerate(squares, 1):
+            image = bpy.data.images.load(os.path.join(self.folder, f"film {frame:04d}.exr"))
+            pixels = np.empty(40 * 40 * 4, np.float32)
+            image.pixels.foreach_get(pixels)
+            covered = pixels.reshape(-1, 4)[:, 3].mean()
+            side = (np.sqrt(len(square.fade)) - 1) * STEP
+            self.assertAlmostEqual(covered, side**2 / 0.04, delta=0.03)
+
     def test_a_missing_folder_is_told_and_the_mesh_stays(self):
         folder, squares = self.run_folder()
         liquid = fluidtex.import_run(folder)
