@@ -7,6 +7,7 @@
 #include <OpenImageIO/imageio.h>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace fs = std::filesystem;
@@ -133,6 +134,34 @@ TEST_CASE("fluidtex check: relief is refused of a coloured map, not of a grey on
   CHECK(check().exitCode == 0);
   writeImage(file, 64, 1);
   CHECK(check().exitCode == 0);
+}
+
+TEST_CASE("fluidtex render: the exemplar is looked up in files as in the run, across joints too",
+          "[tools][slow]") {
+  const Scratch scratch;
+  const fs::path out = scratch.path / "out", again = scratch.path / "again";
+  const auto well = [](const std::vector<std::string>& args) {
+    const Finished done = runProgram(args);
+    INFO(done.err);
+    REQUIRE(done.exitCode == 0);
+  };
+  const std::string looksUp = "texture.between=exemplar";
+  well({"run", kSmallScene, "--out", out.string(), "--frames", "1:4", "--set", looksUp});
+  well({"render", kSmallScene, "--from", out.string(), "--out", again.string(), "--frames", "4:4", "--set",
+        looksUp});
+  const auto pixels = [](const fs::path& folder) {
+    const auto in = OIIO::ImageInput::open((folder / "frames" / "0004.png").string());
+    REQUIRE(in);
+    std::vector<std::uint8_t> values(std::size_t(in->spec().width) * std::size_t(in->spec().height) * 3);
+    REQUIRE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, values.data()));
+    return values;
+  };
+  const std::vector<std::uint8_t> wanted = pixels(out), found = pixels(again);
+  REQUIRE(wanted.size() == found.size());
+  int largest = 0;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    largest = std::max(largest, std::abs(int(wanted[i]) - int(found[i])));
+  CHECK(largest <= 1);  // coordinates and gradients went through shares of the exemplar's size
 }
 
 TEST_CASE("fluidtex render: shows what the run has shown, and other colours once they are applied",
