@@ -28,7 +28,7 @@ TEST_CASE("fluidtex run: writes every file of a run, and run.json with every fra
   CHECK_THAT(run.err, Catch::Contains("frame 5/5"));
   CHECK(filesIn(out) == std::vector<std::string>{
                             "frames/0001.png", "frames/0002.png", "frames/0003.png", "frames/0004.png",
-                            "frames/0005.png", "log.txt", "run.json", "small.mp4", "state/0005/manifest.txt",
+                            "frames/0005.png", "log.txt", "report.html", "run.json", "small.mp4", "state/0005/manifest.txt",
                             "state/0005/run.json", "state/0005/solver.vdb", "state/0005/surface.bin",
                             "state/journal.txt", "surface/0001.ply", "surface/0002.ply", "surface/0003.ply",
                             "surface/0004.ply", "surface/0005.ply"});
@@ -78,6 +78,7 @@ TEST_CASE("fluidtex run: a run over an earlier one leaves its own files and the 
   REQUIRE(runProgram({"run", kSmallScene, "--frames", "1:1", "--out", out.string()}).exitCode == 0);
   std::vector<std::string> expected = {"frames/0001.png",
                                        "log.txt",
+                                       "report.html",
                                        "run.json",
                                        "small.mp4",
                                        "state/0001/manifest.txt",

@@ -86,7 +86,7 @@ void addRoutes(httplib::Server& server, const fs::path& out) {
     response.set_content(packMesh(readPly(file, 1, 1), kWholeMesh), "application/octet-stream");
   });
   server.Get("/video", [out](const httplib::Request&, httplib::Response& response) {
-    sendFile(videoIn(out), "video/mp4", response);
+    sendFile(shownRun({out, out}).video, "video/mp4", response);
   });
 }
 

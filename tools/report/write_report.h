@@ -23,9 +23,6 @@ struct ShownRun {
   std::filesystem::path video;  // empty: none
 };
 
-// The newest *.mp4 in the folder; empty if there is none.
-std::filesystem::path videoIn(const std::filesystem::path& folder);
-
 // Throws UsageError if folders.run holds no run.json, or one that is damaged.
 ShownRun shownRun(const ReportFolders& folders);
 

@@ -7,6 +7,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
 #include <numeric>
 
 using namespace fluidtex;
@@ -85,6 +86,12 @@ TEST_CASE("report: a video within its bound goes into the page, a larger one sta
   CHECK(figuresIn(scratch.path / "report.html")["video"] ==
         Json{{"name", "na <me>.mp4"}, {"embedded", true}});
   CHECK_THAT(readBytes(scratch.path / "report.html"), Contains("id=\"video\">dmlkZW8=</script>"));
+  // That of the scene, if there is one, is the run's.
+  std::ofstream(scratch.path / "small.mp4") << "own";
+  fs::last_write_time(scratch.path / "small.mp4", fs::last_write_time(video) - std::chrono::hours(1));
+  writeReport({scratch.path, scratch.path});
+  CHECK(figuresIn(scratch.path / "report.html")["video"]["name"] == "small.mp4");
+  fs::remove(scratch.path / "small.mp4");
   fs::resize_file(video, kVideoBytes + 1);
   writeReport({scratch.path, scratch.path});
   CHECK(figuresIn(scratch.path / "report.html")["video"] ==

@@ -42,7 +42,7 @@ function styled(plot, columns, onPick, onSize) {
       { ...axis, size: 28, incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000], gap: 2 },
       {
         ...axis,
-        size: 62,
+        size: (_, texts) => 18 + 7 * Math.max(4, ...(texts ?? []).map((text) => text.length)),
         gap: 4,
         values: (_, ticks) => ticks.map((tick) => (tick === 0 ? '0' : rounded(tick))),
       },
