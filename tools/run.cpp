@@ -6,7 +6,6 @@
 #include "tools/base/stop_signal.h"
 #include "tools/base/work.h"
 #include "tools/common_options.h"
-#include "tools/frames/disk_plan.h"
 #include "tools/frames/frame_loop.h"
 #include "tools/frames/memory_plan.h"
 #include "tools/report/write_report.h"
@@ -46,21 +45,6 @@ std::string neededBy(const scenes::Scene& scene) {
   }
 }
 
-// What the run is going to take on the disk, where it is known how many points there will be.
-void tellDisk(const scenes::Scene& scene, const RunOptions& run) {
-  const pipeline::LiquidPlan liquid = pipeline::planLiquid(scene.sim);
-  const double points = plannedPoints(scene, liquid).value_or(0.0);
-  if (points <= 0.0) return;
-  const DiskPlan plan = plannedDisk(scene, run.lastFrame - run.firstFrame + 1, points, double(liquid.cells),
-                                    run.render, run.formats);
-  spdlog::info("disk: {}", textOf(plan));
-  const std::string note = diskNote(plan, run.out);
-  if (!note.empty()) spdlog::warn("{}", note);
-  if (run.quiet) return;
-  say("disk: {}\n", textOf(plan));
-  if (!note.empty()) say("warning: {}\n", note);
-}
-
 }  // namespace
 
 void runInto(const std::filesystem::path& out, const scenes::Scene& scene, const CommonOptions& options) {
@@ -79,7 +63,6 @@ void runInto(const std::filesystem::path& out, const scenes::Scene& scene, const
   logTo(run.out / "log.txt", options.verbose);
   nowAt(kOnExemplar);
   try {
-    tellDisk(scene, run);
     atItsLine(options, scene, [&] { runScene(scene, run, stopOnSignals()); });
   } catch (const std::bad_alloc&) {
     throw std::runtime_error(outOfMemory() + neededBy(scene));

@@ -11,9 +11,11 @@
 #include "tools/base/work.h"
 #include "tools/frames/check_relief.h"
 #include "tools/frames/color_between.h"
+#include "tools/frames/disk_plan.h"
 #include "tools/frames/exemplar_fit.h"
 #include "tools/frames/export_frame.h"
 #include "tools/frames/image_notes.h"
+#include "tools/frames/memory_plan.h"
 #include "tools/frames/onto_mesh.h"
 #include "tools/frames/picture_notes.h"
 #include "tools/frames/progress.h"
@@ -111,6 +113,7 @@ class FrameLoop {
     exportEarlierFrames();
     tellWarnings();
     for (const std::string& note : imageNotes(colorPictures(m_scene.texture.exemplar))) warn(note);
+    tellDisk();
     if (m_scene.texture.spacing <= 0.0 && m_surface.empty()) tellFit(m_scene.texture.points);
     tellNote(waysNote(m_scene.texture.orientation));
     const int first = pipeline::stateOf(*m_motion).frame + 1;
@@ -137,6 +140,18 @@ class FrameLoop {
   void tellWarnings() {
     const std::vector<std::string> all = pipeline::warningsOf(*m_motion);
     for (; m_warningsTold < all.size(); ++m_warningsTold) warn(all[m_warningsTold]);
+  }
+
+  // What the run is going to take on the disk, where it is known how many points there will be.
+  void tellDisk() const {
+    const pipeline::LiquidPlan liquid = pipeline::planLiquid(m_scene.sim);
+    const double points = plannedPoints(m_scene, liquid).value_or(0.0);
+    if (points <= 0.0) return;
+    const DiskPlan plan = plannedDisk(m_scene, m_last - m_options.firstFrame + 1, points,
+                                      double(liquid.cells), m_options.render, m_options.formats);
+    spdlog::info("disk: {}", textOf(plan));
+    if (!m_options.quiet) say("disk: {}\n", textOf(plan));
+    if (const std::string note = diskNote(plan, m_options.out); !note.empty()) warn(note);
   }
 
   // Once it is known how many points there are.
