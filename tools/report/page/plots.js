@@ -73,7 +73,7 @@ function styled(plot, columns, onPick, onSize) {
 function rangeOf(low, high, stacked) {
   if (low == null) return [0, 1];
   if (stacked) return [0, high * 1.05 || 1];
-  const room = 0.08 * (high - low) || 0.05 * Math.abs(high) || 1;
+  const room = Math.max(0.08 * (high - low), 0.02 * Math.abs(high)) || 1;
   return [low >= 0 ? Math.max(0, low - room) : low - room, high + room];
 }
 
