@@ -46,6 +46,7 @@ TEST_CASE("fluidtex check: a picture that its library crashes on is refused in o
   std::ofstream(scratch.path / "runs.sgi", std::ios::binary) << bytes << '\xff';
   const Finished done = checkWith(scratch.path / "runs.sgi");
   CHECK(done.exitCode == 1);
-  CHECK_THAT(done.err, Catch::StartsWith("error: ") && Catch::Contains("runs.sgi cannot be read: "));
+  CHECK_THAT(done.err,
+             Catch::Contains(": error: texture.exemplar: ") && Catch::Contains("runs.sgi cannot be read: "));
   CHECK(std::count(done.err.begin(), done.err.end(), '\n') == 1);
 }
