@@ -29,10 +29,10 @@ std::function<void()> within(rlim_t megabytes) {
 TEST_CASE("memory: where it runs out one sentence says at what, and what to lower", "[tools]") {
   if (!kLimited) return;
   const Scratch scratch;
-  const Words run{"run",  kSmallScene,   "--frames",
-                  "1:2",  "--no-render", "--threads",
-                  "2",    "--out",       (scratch.path / "out").string(),
-                  "--set"};
+  const Words run{"run",     kSmallScene,   "--frames",
+                  "1:2",     "--no-render", "--threads",
+                  "2",       "--out",       (scratch.path / "out").string(),
+                  "--quiet", "--set"};
   for (const auto& [setting, words] :
        std::vector<std::pair<std::string, std::string>>{{"domain.resolution=400", "lower domain.resolution"},
                                                         {"texture.points=3000000", "lower texture.points"}}) {
