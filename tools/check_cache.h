@@ -4,6 +4,8 @@
 #include "scenes/scene.h"
 #include "tools/commands.h"
 
+#include <openvdb/openvdb.h>
+
 #include <optional>
 #include <vector>
 
@@ -18,11 +20,17 @@ struct CheckCacheWishes {
 struct ComparedFrames {
   int from = 0, to = 0;
   double fastest = 0.0;  // m/s, at `from`
-  double area = 0.0;     // of the surface at `from`, m2
+  double speed = 0.0;    // mean on the surface there, m/s
+  // Of the surface at `from`:
+  double area = 0.0;                   // m2
+  std::optional<double> offset;        // mean distance of a mesh from the level set that is made of it, cells
+  openvdb::Vec3d low{0.0}, high{0.0};  // its bounds, m
+  std::vector<openvdb::Vec3f> first;   // its first vertices, three at most
   // Nothing where the surface moves too little to tell.
   std::optional<double> moved;      // mean distance of its points that moved, cells
   std::optional<double> left;       // the same after they went with the velocities
   std::optional<double> explained;  // share of the motion that the velocities explain
+  std::optional<double> bulk;       // the same of the bulk alone, away from what is thin
   // Displacement over velocity: the factor on the velocities with which least is left. Nothing where no
   // factor leaves less than nine tenths.
   std::optional<double> ratio;

@@ -20,7 +20,9 @@ options = argparse.ArgumentParser(prog="blender_cache")
 options.add_argument("folder")
 options.add_argument("--cells", type=int, default=32, help="along the longest side")
 options.add_argument("--frames", type=int, default=24)
-options.add_argument("--scene", choices=["dam", "splash", "pour"], default="dam")
+options.add_argument("--scene", choices=["dam", "splash", "pour", "fall"], default="dam")
+options.add_argument("--rate", type=int, default=24, help="frames a second")
+options.add_argument("--time-scale", type=float, default=1.0, help="of the domain")
 options.add_argument("--resumable", action="store_true", help="all grids, full floats; else Blender's default")
 options.add_argument("--placed", action="store_true", help="the domain and all in it scaled, turned and moved")
 options = options.parse_args(sys.argv[sys.argv.index("--") + 1:])
@@ -55,6 +57,13 @@ def pour():
     return made
 
 
+def fall():
+    """A block of liquid in free fall, all of the frames."""
+    made = mantaflow.domain((-0.5, -0.5, 0.0), (0.5, 0.5, 2.0), options.cells, options.frames, folder)
+    mantaflow.liquid(mantaflow.box("liquid", (-0.25, -0.25, 1.3), (0.25, 0.25, 1.8)))
+    return made
+
+
 def shown(domain):
     """The liquid's mesh as Blender shows it in this frame, in the world."""
     evaluated = domain.evaluated_get(bpy.context.evaluated_depsgraph_get())
@@ -71,9 +80,10 @@ def shown(domain):
     return result
 
 
-scene = mantaflow.empty(options.frames)
-domain, settings = {"dam": dam, "splash": splash, "pour": pour}[options.scene]()
+scene = mantaflow.empty(options.frames, options.rate)
+domain, settings = {"dam": dam, "splash": splash, "pour": pour, "fall": fall}[options.scene]()
 settings.use_mesh = True
+settings.time_scale = options.time_scale
 if options.resumable:
     settings.cache_resumable = True
     settings.openvdb_data_depth = "32"
@@ -97,6 +107,8 @@ with open(os.path.join(folder, "blender.json"), "w") as file:
         "blender": bpy.app.version_string,
         "scene": options.scene,
         "frames_per_second": scene.render.fps,
+        "time_scale": options.time_scale,
+        "cell": 2.0 * max(column.length for column in domain.matrix_world.to_3x3().col) / settings.resolution_max,
         "matrix": [list(row) for row in domain.matrix_world],
         "shown": frames,
     }
