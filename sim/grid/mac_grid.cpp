@@ -94,7 +94,11 @@ Velocity makeVelocity(double h, const FloatTree& like) {
 
 Velocity copyOf(const Velocity& velocity) {
   Velocity copy;
-  for (int a = 0; a < 3; ++a) copy.component[a] = velocity.component[a]->deepCopy();
+  for (int a = 0; a < 3; ++a) {
+    copy.component[a] = velocity.component[a]->deepCopy();
+    // OpenVDB makes the copy's transform anew, which can change its last bits.
+    copy.component[a]->setTransform(velocity.component[a]->transformPtr());
+  }
   return copy;
 }
 

@@ -16,6 +16,17 @@ TEST_CASE("mac_grid: samples sit at cell centres and lower face centres") {
   CHECK(near(faceTransform(h, 2)->indexToWorld(ijk), Vec3d(3.5, -0.5, 7.0) * h));
 }
 
+TEST_CASE("mac_grid: a copy has the same transforms to the last bit") {
+  const double h = 1.0 / 24;
+  Velocity velocity = makeVelocity(h);
+  for (int copies = 0; copies < 3; ++copies) velocity = copyOf(velocity);
+  for (int axis = 0; axis < 3; ++axis) {
+    CHECK(velocity.component[axis]->voxelSize() == makeVelocity(h).component[axis]->voxelSize());
+    CHECK(velocity.component[axis]->worldToIndex(Vec3d(0.3, 0.2, 0.1)) ==
+          faceTransform(h, axis)->worldToIndex(Vec3d(0.3, 0.2, 0.1)));
+  }
+}
+
 TEST_CASE("mac_grid: cells cover the domain and no more") {
   CHECK(cellCount(Vec3d(1.0, 0.5, 0.51), 1.0 / 64) == Coord(64, 32, 33));
   CHECK(cellCount(Vec3d(0.3, 0.1, 0.01), 0.1) == Coord(3, 1, 1));
