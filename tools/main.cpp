@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
   addRender(app, exitCode);
   addExport(app, exitCode);
   addMeasure(app, exitCode);
+  addVideo(app, exitCode);
   addReport(app, exitCode);
   addView(app, exitCode);
   addValidate(app, exitCode);

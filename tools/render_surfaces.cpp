@@ -34,7 +34,20 @@ texture::Options optionsOf(const FinishedRun& run, texture::Options options) {
   return options;
 }
 
-void renderSurfaces(const CommonOptions& options, const fs::path& from) {
+struct RenderOptions {
+  CommonOptions common;
+  fs::path from;
+  bool missing = false;  // only pictures that are not there yet
+  bool part = false;     // beside other processes, which draw other frames into the same folder
+};
+
+fs::path pictureOf(const fs::path& out, int frame) {
+  return out / "frames" / (render::frameName(frame) + ".png");
+}
+
+void renderSurfaces(const RenderOptions& wanted) {
+  const CommonOptions& options = wanted.common;
+  const fs::path& from = wanted.from;
   if (!fs::is_directory(from))
     throw UsageError(
         fmt::format("--from {}: there is no such folder; give that of a run of fluidtex run", from.string()));
@@ -48,7 +61,7 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
       throw UsageError(fmt::format("{}: is not there; give --frames of which there are surfaces",
                                    surfaceOf(frame).string()));
   const fs::path out = options.out.empty() ? fs::path("out") / scene.name : options.out;
-  const OutFolder folder(out);
+  const OutFolder folder(out, wanted.part ? Holding::together : Holding::alone);
   const tbb::global_control threads(
       tbb::global_control::max_allowed_parallelism,
       std::size_t(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()));
@@ -62,6 +75,7 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
     if (run.looksUp) detail = detailOf(optionsOf(run, scene.texture));
   }
   for (int frame = first; frame <= last; ++frame) {
+    if (wanted.missing && fs::exists(pictureOf(out, frame))) continue;
     texture::TexturedSurface surface = readPly(surfaceOf(frame), width, height);
     if (scene.render.bump.any() && !surface.empty()) {
       if (!hasMap(surface, scene.render.bump))
@@ -71,11 +85,6 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
                         surfaceOf(frame).string(), scene.render.bump.map, from.string()));
       surface.spacing = spacingOf(from, surface, frame);
     }
-    const double progress = scene.frames > 1 ? double(frame - 1) / (scene.frames - 1) : 0.0;
-    nowAt(kOnPicture, frame);
-    const render::Picture picture =
-        render::render(surface, solids.at((frame - 1) / scene.sim.frameRate), scene.render,
-                       {scene.sim.size, progress, frame, colorBetween(detail, surface, joints),
     texture::Joints joints;
     if (detail && !surface.empty()) {
       if (lacksGradients(surface)) {
@@ -84,11 +93,17 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
       }
       joints = texture::findJoints(surface, detail->toroidal);
     }
+    const double progress = scene.frames > 1 ? double(frame - 1) / (scene.frames - 1) : 0.0;
+    nowAt(kOnPicture, frame);
+    const render::Picture picture =
+        render::render(surface, solids.at((frame - 1) / scene.sim.frameRate), scene.render,
+                       {scene.sim.size, progress, frame, colorBetween(detail, surface, joints),
                         detail && detail->seeThrough, scene.domainOrigin});
-    writeAtomically(out / "frames" / (render::frameName(frame) + ".png"),
+    writeAtomically(pictureOf(out, frame),
                     [&](const fs::path& file) { writePng(picture, file, pictureNotes(scene, frame)); });
     if (!options.quiet) say("frame {}\n", frame);
   }
+  if (wanted.part) return;
   const fs::path video = out / (scene.name + ".mp4");
   writeAtomically(video, [&](const fs::path& file) {
     render::writeVideo(out / "frames", first, last, scene.sim.frameRate, file);
@@ -104,18 +119,20 @@ void renderSurfaces(const CommonOptions& options, const fs::path& from) {
 
 void addRender(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("render", "Render the surfaces of a finished run anew");
-  auto options = std::make_shared<CommonOptions>();
-  auto from = std::make_shared<fs::path>();
-  addSceneOptions(*command, *options);
-  command->add_option("--from", *from, "Folder of the run whose surfaces are rendered")
+  auto options = std::make_shared<RenderOptions>();
+  addSceneOptions(*command, options->common);
+  command->add_option("--from", options->from, "Folder of the run whose surfaces are rendered")
       ->required()
       ->type_name("DIR");
-  command->add_flag("--no-report", options->noReport, "Write no report.html");
+  command->add_flag("--missing", options->missing, "Draw only pictures that are not there yet");
+  command->add_flag(
+      "--part", options->part,
+      "Draw beside other processes that draw other --frames into the same folder; pictures only");
+  command->add_flag("--no-report", options->common.noReport, "Write no report.html");
   command->footer(
       "Example:\n  fluidtex render scenes/dam_break.toml --from out/dam_break --out out/closer --set "
       "camera.fov=15");
-  command->callback(
-      [options, from, &exitCode] { exitCode = guarded([&] { renderSurfaces(*options, *from); }); });
+  command->callback([options, &exitCode] { exitCode = guarded([&] { renderSurfaces(*options); }); });
 }
 
 }  // namespace fluidtex::tools

@@ -1,5 +1,5 @@
 // The lock is flock() on a file in the folder, which the system lets go of however the process ends. The file
-// itself says who holds it, and goes when that one is done; after a kill it stays, and means nothing.
+// itself says who holds it, and goes when the last one is done; after a kill it stays, and means nothing.
 #include "tools/run_folder/out_folder.h"
 
 #include "tools/base/errors.h"
@@ -31,7 +31,7 @@ void make(const fs::path& folder) {
 }
 
 void refuseLinks(const fs::path& folder) {
-  for (const char* name : {"frames", "surface", "onto", "state", "log.txt"}) {
+  for (const char* name : {"frames", "surface", "glb", "obj", "usd", "vtp", "onto", "state", "log.txt"}) {
     const fs::path inside = folder / name;
     std::error_code error;
     if (fs::is_symlink(fs::symlink_status(inside, error)))
@@ -60,7 +60,7 @@ bool bears(const fs::path& name, int descriptor) {
 
 }  // namespace
 
-OutFolder::OutFolder(const fs::path& folder) : m_lock(folder / kLock) {
+OutFolder::OutFolder(const fs::path& folder, Holding holding) : m_lock(folder / kLock) {
   make(folder);
   refuseLinks(folder);
   for (;;) {
@@ -68,7 +68,8 @@ OutFolder::OutFolder(const fs::path& folder) : m_lock(folder / kLock) {
     if (m_descriptor < 0)
       throw UsageError(fmt::format("{}: cannot be written into: {}", folder.string(), std::strerror(errno)));
     // A file system that knows no locks has to do without.
-    if (flock(m_descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    if (flock(m_descriptor, (holding == Holding::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0 &&
+        errno == EWOULDBLOCK) {
       const std::string other = holder(m_descriptor);
       close(m_descriptor);
       throw UsageError(
@@ -86,7 +87,8 @@ OutFolder::OutFolder(const fs::path& folder) : m_lock(folder / kLock) {
 }
 
 OutFolder::~OutFolder() {
-  unlink(m_lock.c_str());
+  // While others hold it, the file is theirs.
+  if (flock(m_descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) unlink(m_lock.c_str());
   close(m_descriptor);
 }
 

@@ -24,6 +24,20 @@ TEST_CASE("out folder: one holds it, and lets go of it with all that was there f
   const OutFolder again(out);
 }
 
+TEST_CASE("out folder: several hold it together, beside none that holds it alone", "[tools]") {
+  const Scratch scratch;
+  const fs::path& out = scratch.path;
+  {
+    const OutFolder first(out, Holding::together);
+    { const OutFolder second(out, Holding::together); }
+    CHECK_THROWS_AS(OutFolder(out), UsageError);  // the first still holds it
+    const OutFolder third(out, Holding::together);
+  }
+  CHECK(fs::is_empty(out));
+  const OutFolder alone(out);
+  CHECK_THROWS_AS(OutFolder(out, Holding::together), UsageError);
+}
+
 TEST_CASE("out folder: what a killed process left is in nobody's way", "[tools]") {
   const Scratch scratch;
   std::ofstream(scratch.path / ".fluidtex-lock") << "1\n";
