@@ -11,18 +11,29 @@ if(CCACHE_PROGRAM)
     ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
 
+# What programs that link the installed library take over is what the code of headers, of which the linker keeps one copy,
+# must have in common.
 add_library(fluidtex_flags INTERFACE)
-target_include_directories(fluidtex_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_features(fluidtex_flags INTERFACE cxx_std_20)
+target_include_directories(fluidtex_flags INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/fluidtex>)
 target_compile_options(fluidtex_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # g++ 12 warns falsely of "text" + std::string
+  "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow>"
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>>  # g++ 12 warns falsely of "text" + std::string
   -fno-math-errno -ffp-contract=off
-  $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>  # for ccache
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>>  # for ccache
   $<IF:$<BOOL:${FLUIDTEX_NATIVE}>,-march=native,-march=x86-64-v3>)
+
+if(FLUIDTEX_PYTHON)
+  # A module is a shared library, and takes in only such code. No other library is to put its functions in the place of
+  # ours, so they may be inlined as in a program.
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(fluidtex_flags INTERFACE $<BUILD_INTERFACE:-fno-semantic-interposition>)
+endif()
 
 find_program(MOLD_PROGRAM mold)
 if(MOLD_PROGRAM)
-  target_link_options(fluidtex_flags INTERFACE -fuse-ld=mold)
+  target_link_options(fluidtex_flags INTERFACE $<BUILD_INTERFACE:-fuse-ld=mold>)
 endif()
 
 if(FLUIDTEX_SANITIZE)

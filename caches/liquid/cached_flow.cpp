@@ -3,6 +3,7 @@
 #include "caches/layouts/follow.h"
 #include "caches/liquid/fitted_velocity.h"
 #include "caches/liquid/read_frame.h"
+#include "caches/liquid/substeps.h"
 #include "caches/liquid/velocity_grids.h"
 
 #include <fmt/core.h>
@@ -14,7 +15,6 @@
 namespace fluidtex::caches {
 namespace {
 
-constexpr int kMostSubsteps = 4;
 // Frames of which the velocities must explain too little before a run ends.
 constexpr std::size_t kJudged = 3;
 
@@ -94,14 +94,12 @@ void CachedFlow::judge(const LiquidFrame& now, const FrameMotion& motion, int nu
 
 void CachedFlow::addSubsteps(const LiquidFrame& now, sim::Frame& frame) {
   const double seconds = 1.0 / m_cache.frameRate;
-  const auto add = [&](double dt, const sim::FaceGrids& grids) {
-    frame.substeps.push_back({dt, grids.component[0], grids.component[1], grids.component[2]});
-  };
   const sim::FaceGrids begin = m_last->velocity ? m_last->velocity : sim::makeVelocity(m_cache.voxel);
   const sim::FaceGrids end = now.velocity ? now.velocity : sim::makeVelocity(m_cache.voxel);
   FrameMotion motion;
   if (m_cache.layout.velocityKind == VelocityKind::none && m_cache.options.fit) {
-    add(seconds, fittedVelocity(*m_last->phi, *now.phi, seconds));
+    const sim::FaceGrids fitted = fittedVelocity(*m_last->phi, *now.phi, seconds);
+    frame.substeps = substepsOf(fitted, fitted, 0.0, seconds);
     frame.stats.dtMin = seconds;
     return;
   }
@@ -112,18 +110,7 @@ void CachedFlow::addSubsteps(const LiquidFrame& now, sim::Frame& frame) {
   } else {
     motion.meanWeight = m_last->velocity ? 0.0 : 1.0;
   }
-  if (motion.meanWeight == 0.0 || motion.meanWeight == 1.0) {
-    add(seconds, motion.meanWeight == 0.0 ? begin : end);
-  } else if (!sameTransforms(begin, end)) {
-    add((1.0 - motion.meanWeight) * seconds, begin);
-    add(motion.meanWeight * seconds, end);
-  } else {
-    const double speed = std::max(sim::maxAbs(begin), sim::maxAbs(end));
-    const double cells = speed * seconds / begin[0].voxelSize()[0];
-    const int substeps = int(std::clamp(std::ceil(0.5 * cells), 1.0, double(kMostSubsteps)));
-    for (int n = 0; n < substeps; ++n)
-      add(seconds / substeps, blended(begin, end, weightAt(motion.meanWeight, (n + 0.5) / substeps)));
-  }
+  frame.substeps = substepsOf(begin, end, motion.meanWeight, seconds);
   frame.stats.dtMin = frame.substeps.front().dt;
   for (const sim::Substep& substep : frame.substeps)
     frame.stats.dtMin = std::min(frame.stats.dtMin, substep.dt);

@@ -3,6 +3,7 @@
 #include "caches/formats/flip_fluids.h"
 #include "caches/formats/read_fields.h"
 #include "caches/formats/read_geometry.h"
+#include "caches/liquid/cells_crossed.h"
 #include "caches/liquid/further_fields.h"
 #include "caches/liquid/level_set.h"
 #include "caches/liquid/mantaflow_frame.h"
@@ -31,11 +32,8 @@ using openvdb::Mat4d;
 using openvdb::Vec3d;
 using openvdb::Vec3f;
 
-// Cells around the surface in which attributes at its points become velocities: at least, and at most.
+// Cells around the surface in which velocities are looked for at least, and used at most.
 constexpr int kLeastReach = 6, kMostReach = 24;
-// Cells that a surface can cross: at 170 bytes each this is 5 GB. Farther from the origin, in cells, single
-// precision does not tell places within a cell apart.
-constexpr double kMostCells = 3e7, kFarthest = 4e6;
 // Level of densities where nothing is said: this share of the largest.
 constexpr float kIsoShare = 0.5f;
 
@@ -97,41 +95,15 @@ Raw readRaw(const Cache& cache, int number) {
   return raw;
 }
 
-// A stray vertex, or cells in another unit than the files, must not take all memory.
 void checkSize(const Cache& cache, int number, const SurfaceTriangles& surface) {
   const double h = cache.voxel;
-  double cells = 0.0, farthest = 0.0;
-  for (const openvdb::Vec3I& t : surface.triangles) {
-    const Vec3d a(surface.points[t[0]]), b(surface.points[t[1]]), c(surface.points[t[2]]);
-    const double longest = std::max({(b - a).length(), (c - b).length(), (a - c).length()});
-    cells += std::max(0.5 * (b - a).cross(c - a).length() / (h * h), longest / h);
-    for (const Vec3d& x : {a, b, c})
-      farthest = std::max({farthest, std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
-  }
-  if (cells <= kMostCells && farthest <= kFarthest * h) return;
+  const CellsCrossed crossed = cellsCrossed(surface, h);
+  if (crossed.fits(h)) return;
   throw LayoutError(
       fmt::format("{}: its surface crosses {:.3g} cells of {:.3g} m, up to {:.3g} m from the origin, which "
                   "is too many or "
                   "too far; look for stray points in it, or give larger cells with files.voxel",
-                  cache.layout.surface.at(number).string(), cells, h, farthest));
-}
-
-// Largest length of vectors at points but for the fastest hundredth, which are stray drops.
-double mostSpeed(const std::vector<float>& vectors) {
-  std::vector<float> squares;
-  for (std::size_t n = 0; n + 2 < vectors.size(); n += 3)
-    squares.push_back(vectors[n] * vectors[n] + vectors[n + 1] * vectors[n + 1] +
-                      vectors[n + 2] * vectors[n + 2]);
-  if (squares.empty()) return 0.0;
-  const auto at = squares.begin() + std::ptrdiff_t(0.99 * double(squares.size() - 1));
-  std::nth_element(squares.begin(), at, squares.end());
-  return std::sqrt(double(*at));
-}
-
-// Cells that a frame's motion may lead away from the surface.
-int reachInCells(const Cache& cache, double speed) {
-  return int(std::clamp(std::ceil(speed / cache.frameRate / cache.voxel) + 3.0, double(kLeastReach),
-                        double(kMostReach)));
+                  cache.layout.surface.at(number).string(), crossed.cells, h, crossed.farthest));
 }
 
 std::vector<float> inWorld(std::vector<float> vectors, const Mat3d& velocityFromFile) {
@@ -144,7 +116,8 @@ std::vector<float> inWorld(std::vector<float> vectors, const Mat3d& velocityFrom
 
 void atPoints(const Cache& cache, ClosestTriangles& closest, const std::vector<float>& vectors,
               LiquidFrame& frame) {
-  frame.velocity = velocityOffSurface(closest, vectors, reachInCells(cache, mostSpeed(vectors)));
+  frame.velocity =
+      velocityOffSurface(closest, vectors, reachInCells(vectors, 1.0 / cache.frameRate, cache.voxel));
 }
 
 void velocityOfAttribute(const Cache& cache, int number, const Raw& raw, ClosestTriangles& closest,

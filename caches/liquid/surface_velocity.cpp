@@ -16,6 +16,7 @@ using openvdb::Vec3d;
 using openvdb::Vec3f;
 using openvdb::Vec3I;
 
+constexpr int kLeastReach = 6, kMostReach = 24;
 // How far off the surface velocities are linear, cells.
 constexpr double kReach = 2.0;
 
@@ -80,7 +81,24 @@ std::vector<Mat3d> slopesOf(const SurfaceTriangles& surface, const std::vector<f
   });
 }
 
+// Largest length of vectors but for the fastest hundredth.
+double mostSpeed(const std::vector<float>& vectors) {
+  std::vector<float> squares;
+  for (std::size_t n = 0; n + 2 < vectors.size(); n += 3)
+    squares.push_back(vectors[n] * vectors[n] + vectors[n + 1] * vectors[n + 1] +
+                      vectors[n + 2] * vectors[n + 2]);
+  if (squares.empty()) return 0.0;
+  const auto at = squares.begin() + std::ptrdiff_t(0.99 * double(squares.size() - 1));
+  std::nth_element(squares.begin(), at, squares.end());
+  return std::sqrt(double(*at));
+}
+
 }  // namespace
+
+int reachInCells(const std::vector<float>& velocity, double seconds, double h) {
+  return int(std::clamp(std::ceil(mostSpeed(velocity) * seconds / h) + 3.0, double(kLeastReach),
+                        double(kMostReach)));
+}
 
 sim::FaceGrids velocityOffSurface(ClosestTriangles& closest, const std::vector<float>& velocity, int band) {
   const std::vector<Mat3d> slopes = slopesOf(closest.surface(), velocity);

@@ -8,6 +8,11 @@
 
 namespace fluidtex::caches {
 
+// Cells of side h around a surface that a frame's motion may lead through, 6 to 24: what `band` below has to
+// be. velocity: of its points, #P x 3; the fastest hundredth, which are stray drops, do not count. seconds:
+// of the frame.
+int reachInCells(const std::vector<float>& velocity, double seconds, double h);
+
 // Velocity in the cells within `band` cells of the surface, m/s, at their centres. velocity: of the points,
 // #P x 3, finite. Along the surface linear within triangles; off it by its derivative along the normal n, up
 // to two cells, and constant from there on. The part of it along the surface follows from the derivatives
