@@ -172,14 +172,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
     const Texel texel = texelAt(previous, previous.coordinate, previous.gradient, landing, map, normal);
     carried.coordinate[v] = texel.coordinate;
     carried.gradient[v] = texel.gradient;
-    const texture::Fading& fading = previous.fading;
-    if (const std::uint32_t corner = landing.nearestVertex(); fading.weight[corner] > 0.0f) {
-      const Texel former = texelAt(previous, fading.coordinate, fading.gradient, landing, map, normal);
-      carried.fading.coordinate[v] = former.coordinate;
-      carried.fading.gradient[v] = former.gradient;
-      carried.fading.weight[v] = fading.weight[corner];
-      carried.fading.speed[v] = fading.speed[corner];
-    }
+    pickUpFading(previous, landing, map, normal, v, carried.fading);
     carried.color[v] = colorAt(previous, landing);
     carried.age[v] = valueAt(previous.age, landing);
     if (!carried.foam.empty()) carried.foam[v] = valueAt(previous.foam, landing);

@@ -88,6 +88,7 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
         texelAt(surface, surface.coordinate, surface.gradient, landing, Mat3d::identity(), normal);
     result.coordinate[v] = texel.coordinate;
     result.gradient[v] = texel.gradient;
+    pickUpFading(surface, landing, Mat3d::identity(), normal, v, result.fading);
     result.color[v] = colorAt(surface, landing);
     result.orientation[v] =
         texture::tangentUnit(directionAt(surface, slopes, landing, symmetry), normal, result.orientation[v]);

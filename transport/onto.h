@@ -8,7 +8,7 @@ namespace fluidtex::transport {
 // Each vertex of the mesh takes the values at the closest point of `surface`, preferring triangles within a
 // few spacings that face as it does:
 //  - colour, velocity, age and further maps: barycentric;
-//  - exemplar coordinate: from the nearest corner and its gradient;
+//  - exemplar coordinate, and that which fades: from the nearest corner and its gradient;
 //  - orientation: cubic, with directions equal under rotations by 360 / symmetry degrees as one, projected to
 //    the vertex's tangent plane;
 //  - vector maps: from corners that agree with the nearest one, turned with the normal, of length 1 or 0;

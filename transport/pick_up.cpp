@@ -53,4 +53,16 @@ Texel texelAt(const TexturedSurface& surface, const std::vector<Vec2f>& coordina
   return {coordinate[corner] + Vec2f(old.s.dot(offset), old.t.dot(offset)), {carried(old.s), carried(old.t)}};
 }
 
+void pickUpFading(const TexturedSurface& surface, const Landing& landing, const Mat3d& map,
+                  const Vec3f& normal, std::uint32_t v, texture::Fading& fading) {
+  const texture::Fading& from = surface.fading;
+  const std::uint32_t corner = landing.nearestVertex();
+  if (from.weight.empty() || from.weight[corner] <= 0.0f) return;
+  const Texel former = texelAt(surface, from.coordinate, from.gradient, landing, map, normal);
+  fading.coordinate[v] = former.coordinate;
+  fading.gradient[v] = former.gradient;
+  fading.weight[v] = from.weight[corner];
+  fading.speed[v] = from.speed[corner];
+}
+
 }  // namespace fluidtex::transport

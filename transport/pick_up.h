@@ -48,4 +48,9 @@ Texel texelAt(const TexturedSurface& surface, const std::vector<Vec2f>& coordina
               const std::vector<TexelGradient>& gradient, const Landing& landing, const Mat3d& map,
               const Vec3f& normal);
 
+// What fades at the nearest corner, at vertex v: coordinate and gradient as texelAt(), weight and speed.
+// Nothing where that corner does not fade. Requires: as many entries as vertices.
+void pickUpFading(const TexturedSurface& surface, const Landing& landing, const Mat3d& map,
+                  const Vec3f& normal, std::uint32_t v, texture::Fading& fading);
+
 }  // namespace fluidtex::transport

@@ -53,6 +53,29 @@ TEST_CASE("onto a mesh: every vertex gets every map of the closest place", "[tra
   }
 }
 
+TEST_CASE("onto a mesh: what fades goes along", "[transport]") {
+  TexturedSurface surface = finished(sphereMesh(30));
+  surface.fading = texture::noFading(surface.positions.size());
+  const Vec2f elsewhere(7.0f, -3.0f);
+  for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+    surface.fading.coordinate[v] = surface.coordinate[v] + elsewhere;
+    surface.fading.gradient[v] = surface.gradient[v];
+    surface.fading.weight[v] = surface.positions[v].z() > 0.0f ? 0.75f : 0.0f;
+    surface.fading.speed[v] = 2.0f;
+  }
+  const SurfaceMesh mesh = sphereMesh(7, 1.01);
+  const TexturedSurface result = transport::onto(surface, mesh.positions, mesh.triangles);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const float height = mesh.positions[v].z();
+    if (height < -0.1f) CHECK(result.fading.weight[v] == 0.0f);
+    if (height < 0.1f) continue;
+    CHECK(result.fading.weight[v] == 0.75f);
+    CHECK(result.fading.speed[v] == 2.0f);
+    CHECK((result.fading.coordinate[v] - result.coordinate[v] - elsewhere).length() < 1e-3f);
+    CHECK((result.fading.gradient[v].s - result.gradient[v].s).length() < 1e-3f);
+  }
+}
+
 TEST_CASE("onto a mesh: open meshes and far ones get values too, far ones no trust", "[transport]") {
   const TexturedSurface surface = finished(sphereMesh(10));
   const std::vector<Vec3f> triangle{{2, 0, 0}, {2, 1, 0}, {2, 0, 1}};
