@@ -150,7 +150,7 @@ class Import(InBlender):
 
     def test_names_that_are_taken_are_told_apart(self):
         folder, (square, *_) = self.run_folder()
-        own = {name: square.fade for name in ("exemplar", "position", "corner")}
+        own = {name: square.fade for name in ("exemplar", "position", "corner", "normal", "id", "velocity")}
         square.write(os.path.join(folder, "surface", "0001.ply"), own)
         mesh = fluidtex.import_run(folder).data
         for name in own:

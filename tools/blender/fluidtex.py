@@ -216,6 +216,8 @@ _KINDS = {
     3: ("FLOAT_VECTOR", "vector"),
     4: ("FLOAT_COLOR", "color"),
 }
+# Attributes that Blender has for something else, and makes no other of.
+_OF_BLENDER = ("position", "normal", "id", "material_index", "shade_smooth", "crease", "sharp_face", "sharp_edge")
 UV_MAPS = ("exemplar", "exemplar1", "exemplar2")  # of the place that is shown, of each corner's piece
 FORMER_UV_MAPS = ("former", "former1", "former2")  # of the place that fades
 CORNER = "corner"  # (1,0,0), (0,1,0), (0,0,1): inside, the barycentric coordinates
@@ -232,16 +234,22 @@ def attribute_groups(properties):
         if all(name in left for name in names):
             groups[attribute] = names
             left = [name for name in left if name not in names]
+
+    def add(attribute, names):
+        while attribute in groups:
+            attribute += "_"
+        groups[attribute] = names
+
     for name in list(left):
         for ending in (("_x", "_y", "_z"), ("_red", "_green", "_blue")):
             stem = name[: -len(ending[0])]
             names = tuple(stem + part for part in ending)
             if stem and name == names[0] and all(part in left for part in names):
-                groups[stem] = names
+                add(stem, names)
                 left = [other for other in left if other not in names]
-    groups.update({name: (name,) for name in left})
-    # Names that Blender or the UV maps have for something else.
-    taken = ("position", "Col", CORNER, *UV_MAPS, *FORMER_UV_MAPS)
+    for name in left:
+        add(name, (name,))
+    taken = (*_OF_BLENDER, "Col", CORNER, *UV_MAPS, *FORMER_UV_MAPS)
     return {name + "_" if name in taken else name: names for name, names in groups.items()}
 
 

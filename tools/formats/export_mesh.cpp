@@ -65,6 +65,13 @@ Column column(std::string name, const std::vector<std::uint8_t>& values) {
   return {std::move(name), 1, {values.begin(), values.end()}};
 }
 
+// The name of a map's column: NAME_ where the formats call something else by its name.
+std::string nameOfMap(std::string name, const std::vector<Column>& columns) {
+  static const std::set<std::string> kOwn = {"normal", "color", "displayColor", "displayOpacity", "joint"};
+  while (kOwn.contains(name) || isUvSet(name) || findColumn(columns, name) != nullptr) name += "_";
+  return name;
+}
+
 // Three maps become one column where they are the parts of a vector, of which files hold each by itself.
 void addMaps(const texture::TexturedSurface& surface, std::vector<Column>& columns) {
   const auto& maps = surface.maps;
@@ -83,10 +90,11 @@ void addMaps(const texture::TexturedSurface& surface, std::vector<Column>& colum
         for (const auto* part : parts) whole.values.push_back((*part)[v]);
       done.insert({name + ends[1], name + ends[2]});
     }
+    whole.name = nameOfMap(std::move(whole.name), columns);
     if (!values.empty()) columns.push_back(std::move(whole));
   }
   for (const auto& [name, values] : surface.vectors)
-    if (!values.empty()) columns.push_back(column(name, values));
+    if (!values.empty()) columns.push_back(column(nameOfMap(name, columns), values));
 }
 
 // All but positions, normals, colours and UV sets.

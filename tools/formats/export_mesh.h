@@ -24,11 +24,11 @@ struct Column {
 };
 
 // Metres, Z up. Maps that hold a vector, NAME_x NAME_y NAME_z or NAME_red NAME_green NAME_blue, are one
-// column NAME. UV sets have their origin top left, t downwards; beyond 0..1 the exemplar is repeated if it is
-// toroidal, else clamped. They are st, and fade_st of the place that was shown before, and are columns of
-// vertices where joints are cut. Where they blend they are columns of corners, st1 st2 fade_st1 fade_st2 too:
-// st belongs to the piece of the triangle's first corner, st1 of the second, st2 of the third, and `joint`
-// are the three weights.
+// column NAME; NAME_ where that is the name of something else. UV sets have their origin top left, t
+// downwards; beyond 0..1 the exemplar is repeated if it is toroidal, else clamped. They are st, and fade_st
+// of the place that was shown before, and are columns of vertices where joints are cut. Where they blend they
+// are columns of corners, st1 st2 fade_st1 fade_st2 too: st belongs to the piece of the triangle's first
+// corner, st1 of the second, st2 of the third, and `joint` are the three weights.
 struct ExportMesh {
   int frame = 1;
   double time = 0.0;                      // s

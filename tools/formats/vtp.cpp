@@ -69,13 +69,15 @@ void writeVtp(const ExportMesh& mesh, std::ostream& out) {
   text += "<Points>\n" + data.add("Float32", "Points", 3, mesh.positions) + "</Points>\n";
   std::vector<std::int32_t> ends(mesh.triangles.size());
   for (std::size_t t = 0; t < ends.size(); ++t) ends[t] = std::int32_t(3 * (t + 1));
-  text += "<Polys>\n" + data.add("UInt32", "connectivity", 1, mesh.triangles) +
-          data.add("Int32", "offsets", 1, ends) + "</Polys>\n";
+  // One by one: each adds its bytes.
+  text += "<Polys>\n" + data.add("UInt32", "connectivity", 1, mesh.triangles);
+  text += data.add("Int32", "offsets", 1, ends) + "</Polys>\n";
   const bool pictured = findColumn(mesh.vertex, "st") != nullptr;
   text += fmt::format("<PointData Scalars=\"color\" Normals=\"normal\" Vectors=\"velocity\"{}>\n",
                       pictured ? " TCoords=\"st\"" : "");
   const std::vector<std::uint8_t> colors = encodedBytes(mesh.color);
-  text += data.add("Float32", "normal", 3, mesh.normals) + data.add("UInt8", "color", 4, colors);
+  text += data.add("Float32", "normal", 3, mesh.normals);
+  text += data.add("UInt8", "color", 4, colors);
   std::deque<std::vector<float>> turned;
   for (const Column& column : mesh.vertex) {
     const std::vector<float>* values = &column.values;

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <set>
 
 using namespace fluidtex;
 using tools::ExportMesh;
@@ -131,6 +132,20 @@ TEST_CASE("export mesh: every value of a surface is a column; parts of vectors a
         std::vector<float>{1, 5, 9, 2, 6, 10, 3, 7, 11, 4, 8, 12});
   CHECK(tools::findColumn(mesh.vertex, "paint")->values ==
         std::vector<float>{1, 5, 9, 2, 6, 0, 3, 7, 1, 4, 8, 2});
+}
+
+TEST_CASE("export mesh: a map with the name of something else gets another", "[tools]") {
+  texture::TexturedSurface surface = sampleSurface();
+  surface.maps = {{"color_red", {1, 2, 3, 4}}, {"color_green", {5, 6, 7, 8}}, {"color_blue", {9, 0, 1, 2}},
+                  {"normal", {1, 2, 3, 4}},    {"st", {1, 2, 3, 4}},          {"st_", {5, 6, 7, 8}},
+                  {"velocity", {1, 2, 3, 4}}};
+  const ExportMesh mesh = tools::exportMesh(surface, true, false, JointsAs::cut, 1, 0.0);
+  std::set<std::string> names;
+  for (const tools::Column& column : mesh.vertex) CHECK(names.insert(column.name).second);
+  for (const char* name : {"color", "normal"}) CHECK(names.count(name) == 0);
+  for (const char* name : {"color_", "normal_", "st_", "st__", "velocity_"}) CHECK(names.count(name) == 1);
+  CHECK(tools::findColumn(mesh.vertex, "st")->components == 2);
+  CHECK(tools::findColumn(mesh.vertex, "velocity")->components == 3);
 }
 
 TEST_CASE("export mesh: a frame without surface is an empty mesh", "[tools]") {
