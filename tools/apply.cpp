@@ -113,8 +113,9 @@ void applyMaps(const ApplyWishes& wishes) {
     if (std::string_view(format.name) != "ply" && fs::exists(wishes.out / format.folder))
       stale += (stale.empty() ? "" : ",") + std::string(format.name);
   if (!stale.empty())
-    say("note: in other formats the surfaces are as they were; fluidtex export {} --format {} makes them anew\n",
-        wishes.out.string(), stale);
+    say("note: in other formats the surfaces are as they were; fluidtex export {} --format {} makes them "
+        "anew\n",
+        asTyped(wishes.out.string()), stale);
 }
 
 void addApply(CLI::App& app, int& exitCode) {

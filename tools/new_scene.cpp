@@ -144,8 +144,8 @@ void newScene(const NewScene& wishes) {
     refuseIfThere(picture);
     writeAtomically(picture, [](const fs::path& temporary) { writePng(scales(), temporary); });
   }
-  std::string text = filled(kTemplate, "@EXEMPLAR@", nlohmann::json(exemplar).dump());
-  writeTextAtomically(file, filled(text, "@TOROIDAL@", own ? "false" : "true"));
+  const std::string text = filled(kTemplate, "@TOROIDAL@", own ? "false" : "true");
+  writeTextAtomically(file, filled(text, "@EXEMPLAR@", nlohmann::json(exemplar).dump()));
   print("{}: written{}; next:\n  fluidtex check {}\n  fluidtex run {} --quality preview\n", file.string(),
         own ? "" : ", with " + picture.string(), asTyped(file.string()), asTyped(file.string()));
 }

@@ -31,10 +31,9 @@ double rateOf(const fs::path& run) {
 }
 
 void makeVideo(VideoOptions options) {
-  // "out/cycles/" has an empty last name.
-  const fs::path pictures =
-      fs::absolute(options.pictures.has_filename() ? options.pictures : options.pictures.parent_path())
-          .lexically_normal();
+  fs::path pictures = fs::absolute(options.pictures).lexically_normal();
+  // "out/cycles/" and "out/cycles/." have an empty last name.
+  if (!pictures.has_filename()) pictures = pictures.parent_path();
   const std::vector<int> frames = framesIn(pictures, ".png");
   if (frames.empty())
     throw UsageError(fmt::format("{}: holds no pictures 0001.png, 0002.png, ...", pictures.string()));

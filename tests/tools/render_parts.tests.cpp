@@ -59,9 +59,11 @@ TEST_CASE("fluidtex video: the run's own video of the run's pictures", "[tools]"
   const Scratch scratch;
   const fs::path out = scratch.path / "o & ü";
   well(runProgram({"run", kSmallScene, "--frames", "1:3", "--quiet", "--out", out.string()}));
-  const Finished done = runProgram({"video", (out / "frames" / "").string()});
-  well(done);
-  CHECK(done.out == (out / "frames.mp4").string() + "\n");
+  for (const char* end : {"", "."}) {
+    const Finished done = runProgram({"video", (out / "frames" / end).string()});
+    well(done);
+    CHECK(done.out == (out / "frames.mp4").string() + "\n");
+  }
   CHECK(readBytes(out / "frames.mp4") == readBytes(out / "small.mp4"));
   const fs::path slow = scratch.path / "slow.mp4";
   well(runProgram({"video", (out / "frames").string(), "--rate", "5", "--out", slow.string()}));
