@@ -7,6 +7,7 @@
 #include "texture/exemplar/exemplar.h"
 #include "tools/base/console.h"
 #include "tools/base/errors.h"
+#include "tools/base/two_digits.h"
 #include "tools/base/work.h"
 #include "tools/check_cache.h"
 #include "tools/common_options.h"
@@ -36,10 +37,10 @@ void printPlannedPoints(const scenes::Scene& scene, const std::optional<double>&
   if (!points) {
     print("points    one every {:.4g} m, as many as what flows in needs\n", spacing);
   } else if (spacing > 0.0) {
-    print("points    one every {:.4g} m, about {:.2g}\n", spacing, *points);
+    print("points    one every {:.4g} m, about {}\n", spacing, twoDigits(*points));
   } else if (foreseen > 0.0) {
-    print("points    {} on the {:.2g} m2 that the liquid may come to, one every {:.4g} m or more\n",
-          scene.texture.points, foreseen, pipeline::foreseenSpacing(scene));
+    print("points    {} on the {} m2 that the liquid may come to, one every {:.4g} m or more\n",
+          scene.texture.points, twoDigits(foreseen), pipeline::foreseenSpacing(scene));
   } else {
     print("points    {} on the first surface; the spacing then stays\n", scene.texture.points);
   }
@@ -140,7 +141,7 @@ void printPlan(const scenes::Scene& scene, const CheckOptions& options) {
           detail->color.height);
   print("pictures  {} x {}, {} paths a pixel\n", scene.render.width, scene.render.height,
         scene.render.samples);
-  print("memory    about {:.2g} GB", plannedMemory(scene, liquid, points) / 1e9);
+  print("memory    about {} GB", twoDigits(plannedMemory(scene, liquid, points) / 1e9));
   // How much sources bring cannot be told beforehand.
   if (!scene.sim.sources.empty()) print(", and {:.0f} kB a cell of what flows in", kBytesPerLiquidCell / 1e3);
   print("\n");

@@ -11,6 +11,7 @@
 #include "sim/grid/mac_grid.h"
 #include "tools/base/atomic_file.h"
 #include "tools/base/console.h"
+#include "tools/base/two_digits.h"
 #include "tools/common_options.h"
 
 #include <fmt/core.h>
@@ -249,10 +250,10 @@ double printPoints(const scenes::Scene& scene, const std::vector<ComparedFrames>
   const auto pointsOn = [&](const ComparedFrames& pair) { return pair.area / (spacing * spacing); };
   const auto less = [](const ComparedFrames& a, const ComparedFrames& b) { return a.area < b.area; };
   const ComparedFrames& largest = *std::max_element(compared.begin(), compared.end(), less);
-  print("points    one every {:.2g} m: about {:.2g} in frame {}", spacing, pointsOn(compared.front()),
+  print("points    one every {:.2g} m: about {} in frame {}", spacing, twoDigits(pointsOn(compared.front())),
         compared.front().from);
   if (largest.area > kLarger * compared.front().area)
-    print(", and the most, {:.2g}, in frame {} of those above", pointsOn(largest), largest.from);
+    print(", and the most, {}, in frame {} of those above", twoDigits(pointsOn(largest)), largest.from);
   print("\n");
   return pointsOn(largest);
 }

@@ -202,7 +202,7 @@ TEST_CASE("caches: check tells displacement over velocity, and how many points t
     REQUIRE(check.exitCode == 0);
     CHECK(check.err.empty());
     CHECK(check.out.find("; displacement over velocity ") != std::string::npos);
-    CHECK(check.out.find("points    one every 0.01 m: about 5e+03 in frame 1\n") != std::string::npos);
+    CHECK(check.out.find("points    one every 0.01 m: about 5000 in frame 1\n") != std::string::npos);
     const Json found = Json::parse(readBytes(figures));
     REQUIRE(found["pairs"].size() == 2);
     CHECK(found["pairs"][1]["from"] == 4);

@@ -1,5 +1,7 @@
 #include "tools/frames/disk_plan.h"
 
+#include "tools/base/two_digits.h"
+
 #include <fmt/core.h>
 
 #include <system_error>
@@ -30,7 +32,7 @@ constexpr double kBytesPerPixel = 1.6, kBytesPerVideoPixel = 0.1;
 constexpr double kBytesOfSolver = 15e6, kStateBytesPerCell = 200.0, kStateBytesPerPoint = 181.0;
 
 std::string sizeText(double bytes) {
-  return bytes < 1e9 ? fmt::format("{:.2g} MB", bytes / 1e6) : fmt::format("{:.2g} GB", bytes / 1e9);
+  return bytes < 1e9 ? twoDigits(bytes / 1e6) + " MB" : twoDigits(bytes / 1e9) + " GB";
 }
 
 double bytesIn(const fs::path& folder) {

@@ -1,6 +1,7 @@
 #include "tools/frames/disk_plan.h"
 
 #include "tests/scratch.h"
+#include "tools/base/two_digits.h"
 
 #include <catch2/catch.hpp>
 
@@ -23,6 +24,20 @@ TEST_CASE("disk plan: surfaces grow with frames, points and formats, the state d
   CHECK(many.surfaces > ten.surfaces);
   CHECK(plan(1, 2e5, {Format::ply}).surfaces == Approx(2.0 * one.surfaces));
   CHECK(tools::plannedDisk(scene, 10, 1e5, 0.0, false, {Format::ply}).pictures == 0.0);
+}
+
+TEST_CASE("disk plan: sizes are written as people write them", "[tools]") {
+  CHECK(tools::twoDigits(0.0) == "0");
+  CHECK(tools::twoDigits(0.254) == "0.25");
+  CHECK(tools::twoDigits(9.96) == "10");
+  CHECK(tools::twoDigits(10.4) == "10");
+  CHECK(tools::twoDigits(481.0) == "480");
+  CHECK(tools::twoDigits(996.0) == "1000");
+  CHECK(tools::twoDigits(128000.0) == "130000");
+  tools::DiskPlan plan;
+  plan.surfaces = 5.96e8;
+  plan.state = 4e6;
+  CHECK(tools::textOf(plan) == "about 600 MB: surfaces 600 MB, state/ 4 MB");
 }
 
 TEST_CASE("disk plan: a warning says when what is free will not do; an earlier run's files count as free",
