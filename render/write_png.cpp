@@ -29,11 +29,14 @@ struct PngFile {
 
 void append(png_structp png, png_bytep data, std::size_t size) {
   auto& bytes = static_cast<PngFile*>(png_get_io_ptr(png))->bytes;
+  bool fits = true;
   try {
     bytes.insert(bytes.end(), data, data + size);
   } catch (const std::exception&) {
-    png_error(png, "out of memory");
+    fits = false;
   }
+  // Not in the handler, which must not be left by longjmp().
+  if (!fits) png_error(png, "out of memory");
 }
 
 [[noreturn]] void refuse(png_structp png, png_const_charp why) {

@@ -153,7 +153,9 @@ def write_png(pixels, file):
     height, width, _ = pixels.shape
     image = bpy.data.images.new("picture", width, height)
     image.pixels.foreach_set(np.ascontiguousarray(pixels, np.float32).ravel())
-    unfinished = os.path.join(os.path.dirname(file), f".tmp-{os.getpid()}.png")
+    # The frame is in it, since other machines may have the same numbers of processes.
+    folder, name = os.path.split(file)
+    unfinished = os.path.join(folder, f".tmp-{os.getpid()}-{name}")
     image.filepath_raw, image.file_format = unfinished, "PNG"
     try:
         image.save()
