@@ -315,7 +315,7 @@ TEST_CASE("command line: a run says what fits, and where its video is", "[tools]
   INFO(run.all());
   REQUIRE(run.exitCode == 0);
   // 3000 points, 256 x 256 pixels: 55 x 55 of them fit.
-  CHECK_THAT(run.err, Contains("note: 0.05 of green_scales.png's 256 x 256 pixels fit") &&
+  CHECK_THAT(run.err, Contains("note: 4.6% of green_scales.png's 256 x 256 pixels fit") &&
                           Contains("scaled to about 55 x 55 pixels") && Contains("texture.points=66000"));
   CHECK_THAT(run.err, Contains("done: " + out + "/small.mp4\n"));
   CHECK_THAT(run.err, !Contains("\r") && !Contains("\033"));

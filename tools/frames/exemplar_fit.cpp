@@ -1,5 +1,7 @@
 #include "tools/frames/exemplar_fit.h"
 
+#include "tools/base/two_digits.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -29,11 +31,11 @@ std::string fitNote(const texture::Options& options, int width, int height, doub
                                ? fmt::format("texture.spacing={:.2g}", options.spacing * std::sqrt(part))
                                : fmt::format("texture.points={:.0f}", rounded(pixels));
   return fmt::format(
-      "{:.1g} of {}'s {} x {} pixels fit on the surface, as each of its {:.0f} points shows one, so that "
+      "{}% of {}'s {} x {} pixels fit on the surface, as each of its {:.0f} points shows one, so that "
       "features "
       "may come out as blobs; scaled to about {:.0f} x {:.0f} pixels, or with --set {}, all of it would fit",
-      part, options.exemplar.file.filename().string(), width, height, points, side(width), side(height),
-      more);
+      twoDigits(100.0 * part), options.exemplar.file.filename().string(), width, height, points, side(width),
+      side(height), more);
 }
 
 }  // namespace fluidtex::tools

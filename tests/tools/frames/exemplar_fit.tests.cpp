@@ -9,7 +9,7 @@ TEST_CASE("exemplar fit: what is offered would fit", "[tools]") {
   texture::Options options;
   options.exemplar.file = "photographs/bark.jpg";
   const std::string note = tools::fitNote(options, 320, 320, 8000);
-  CHECK_THAT(note, Contains("0.08 of bark.jpg's 320 x 320 pixels") && Contains("about 89 x 89 pixels") &&
+  CHECK_THAT(note, Contains("7.8% of bark.jpg's 320 x 320 pixels") && Contains("about 89 x 89 pixels") &&
                        Contains("--set texture.points=110000"));
   CHECK(tools::fitNote(options, 89, 89, 8000).empty());
   CHECK(tools::fitNote(options, 320, 320, 110000).empty());
