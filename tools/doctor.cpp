@@ -37,6 +37,7 @@ const std::vector<Helper> kOptional = {
     {{"gnuplot", "--version"}, "plots of fluidtex validate --plots", "gnuplot-nox"},
     {{"python3", "--version"}, "tools/measure_synthesis, --docs of tools/bench and others", "python3"},
     {{"blender", "--version"}, "caches to try, renders by Cycles", "blender"},
+    {{"sbatch", "--version"}, "tools/farm", "slurm-client"},
     {{"clang", "--version"}, "tools/fuzz", "clang"},
 };
 
