@@ -1,6 +1,7 @@
 # Camera, light and surroundings of a run's scene in Blender, as the run's own pictures have them
 # (render/camera.h, render/sky.h, render/surroundings.h).
 import math
+import os
 
 import bpy
 import numpy as np
@@ -78,10 +79,11 @@ def add_light(scene):
 
 
 def _origin(run):
-    """Lowest corner of the domain. That of a liquid out of files is not noted: it is the box around its
-    surfaces."""
-    motion = run.scene.get("motion") or {}
-    if motion.get("flow") != "files":
+    """Lowest corner of the domain. That of a liquid out of other programs' files is not noted: it is the box
+    around its surfaces."""
+    motion, files = run.scene.get("motion") or {}, run.scene.get("files") or {}
+    simulated = os.path.exists(os.path.join(files.get("path") or "", "cache.json"))  # by fluidtex simulate
+    if motion.get("flow") != "files" or simulated:
         return Vector((0, 0, 0))
     frames, lowest = run.frames(), []
     for frame in (frames[0], frames[len(frames) // 2], frames[-1]):
