@@ -200,6 +200,23 @@ class WithoutSlurm(unittest.TestCase):
                                      "small/finish"])
             self.assertFalse(os.path.exists(os.path.join(folder, "out")))
 
+    def test_variants_share_what_does_not_change_the_liquid(self):
+        printed = subprocess.run([FARM, SCENE, "--program", PROGRAM, "--dry-run", "--wedge", "domain.resolution=20,24", "--wedge",
+                                  "camera.at=[0.5, 0.3, 0.2],[0.5, 0.3, 0.4]", "--out", "/nowhere"], capture_output=True, text=True)
+        self.assertEqual(printed.returncode, 0, printed.stderr)
+        waiting = re.findall(r"^(\S+)/texture-1: .*afterok:(\S+)$", printed.stdout, re.MULTILINE)
+        self.assertEqual(waiting, [("small/resolution-20-at-0.5-0.3-0.2", "small/liquid"), ("small/resolution-20-at-0.5-0.3-0.4", "small/liquid"),
+                                   ("small/resolution-24-at-0.5-0.3-0.2", "small/liquid-2"),
+                                   ("small/resolution-24-at-0.5-0.3-0.4", "small/liquid-2")])
+
+    def test_only_the_solver_is_called_once_for_all(self):
+        for scene, given in (("flows/stretch.toml", []), ("../tests/tools/small.toml", ["--set", "motion.flow=rotation"])):
+            printed = subprocess.run([FARM, os.path.join(ROOT, "scenes", scene), "--program", PROGRAM, "--dry-run", *given], capture_output=True,
+                                     text=True)
+            self.assertEqual(printed.returncode, 0, printed.stderr)
+            self.assertNotIn("simulate", printed.stdout)
+            self.assertNotIn("motion.flow=files", printed.stdout)
+
 
 if __name__ == "__main__":
     if cluster.missing():

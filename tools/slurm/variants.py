@@ -19,7 +19,7 @@ class Variant:
     label: str  # for people
     name: str  # its folder in OUT, and what its jobs are called by
     arguments: list  # of fluidtex, behind the scene
-    liquid: tuple = ()  # scene and arguments of `fluidtex simulate`; none where the liquid comes out of files
+    liquid: tuple = ()  # scene and arguments of `fluidtex simulate`; none where nothing is to be solved
     frames: int = 0
 
 
@@ -93,16 +93,19 @@ def _arguments(given, settings, exemplar=True):
 
 
 def _is_simulated(scene, given):
-    """Whether the liquid does not come out of files."""
+    """Whether the solver moves the liquid: it neither comes out of files nor is known in closed form."""
     if not scene.endswith(".toml"):
         return False
-    if any(re.fullmatch(r"""\s*motion\.flow\s*=\s*["']?files["']?\s*""", setting) for setting in given.set):
-        return False
+    flow = "solver"
     try:
         with open(scene, "rb") as file:
-            return tomllib.load(file).get("motion", {}).get("flow") != "files"
+            flow = tomllib.load(file).get("motion", {}).get("flow", flow)
     except (OSError, tomllib.TOMLDecodeError):
-        return True  # fluidtex check says what is wrong with it
+        pass  # fluidtex check says what is wrong with it
+    for setting in given.set:
+        key, _, value = setting.partition("=")
+        flow = value.strip(" \"'") if key.strip() == "motion.flow" else flow
+    return flow == "solver"
 
 
 def _frames(variant, given):
