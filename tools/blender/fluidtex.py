@@ -874,9 +874,7 @@ def import_run(path, start=1, scene=None, name=None, **settings):
     own = liquid.fluidtex
     own.surfaces = bpy.path.relpath(run.surfaces) if bpy.data.filepath else run.surfaces
     own.start, own.frame_rate = start, run.frame_rate
-    # The files of onto/ do not say what fades; their colours do.
-    own.by_points = os.path.basename(run.surfaces) == "onto"
-    if run.has_places() and not own.by_points:
+    if run.has_places():
         _take_relief(own, run)
     for key, value in settings.items():
         setattr(own, key, value)
