@@ -10,6 +10,7 @@
 #include <spdlog/sinks/null_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <cctype>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -29,6 +30,16 @@ std::string unknownCommand(const CLI::App& app, const std::string& name) {
   if (const std::string near = fluidtex::scenes::nearestName(name, known); !near.empty())
     return fmt::format("{}: no such command; did you mean {}?", name, near);
   return fmt::format("{}: no such command; there are {}", name, fluidtex::scenes::listed(known));
+}
+
+// What is wrong with the arguments, and where to read what would be right.
+std::string argumentFault(const CLI::App& app, const CLI::ParseError& error) {
+  std::string what = error.what();
+  if (what.size() > 1 && !std::isupper(static_cast<unsigned char>(what[1])))
+    what[0] = char(std::tolower(static_cast<unsigned char>(what[0])));
+  std::string command = "fluidtex help";
+  if (const auto chosen = app.get_subcommands(); !chosen.empty()) command += " " + chosen.front()->get_name();
+  return fmt::format("{}; `{}` says what can be given", what, command);
 }
 
 }  // namespace
@@ -83,10 +94,11 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     std::ostringstream out, err;
-    const bool asked = app.exit(error, out, err) == 0;  // help, or the version
-    sayText(err.str());
-    const int printed = guarded([&] { printText(out.str()); });
-    return asked ? printed : kInputWrong;
+    if (app.exit(error, out, err) != 0) {
+      say("error: {}\n", argumentFault(app, error));
+      return kInputWrong;
+    }
+    return guarded([&] { printText(out.str()); });  // help, or the version
   }
   return exitCode;
 }

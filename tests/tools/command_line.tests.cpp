@@ -90,6 +90,12 @@ TEST_CASE("command line: help, version and their ways of asking", "[tools][comma
   const Finished unknown = runProgram({"help", "walk"});
   CHECK(unknown.exitCode == 1);
   CHECK_THAT(runProgram({"rum"}).err, Contains("rum: no such command; did you mean run?"));
+  CHECK(runProgram({}).err == "error: a subcommand is required; `fluidtex help` says what can be given\n");
+  CHECK(runProgram({"run"}).err == "error: scene is required; `fluidtex help run` says what can be given\n");
+  const Finished bogus = runProgram({"check", "a.toml", "--bogus"});
+  CHECK(bogus.exitCode == 1);
+  CHECK_THAT(bogus.err,
+             StartsWith("error: the following argument was not expected: --bogus; `fluidtex help check`"));
   CHECK_THAT(runProgram({kSmallScene}).err, Contains("fluidtex run " + kSmallScene));
 }
 
