@@ -42,7 +42,9 @@ PartitionName=all Nodes={names} Default=YES MaxTime=INFINITE State=UP
 
 def missing():
     """What is not installed of it, as a sentence; empty if all is there."""
-    lacking = [name for name in (*_DAEMONS, "sbatch", "scontrol", "squeue") if not shutil.which(name, path=_PATH)]
+    lacking = [
+        name for name in (*_DAEMONS, "sbatch", "scontrol", "squeue") if not shutil.which(name, path=_PATH)
+    ]
     if not lacking:
         return ""
     return f"{', '.join(lacking)}: not installed: apt-get install --no-install-recommends slurm-wlm munge"
@@ -91,8 +93,14 @@ class Cluster:
     def __exit__(self, *_):
         # Last started, first ended; slurmd takes its jobs along only if the controller says so.
         if self._running:
-            subprocess.run(["scancel", "--user", getpass.getuser(), "--signal=KILL"], env=self.environment, stderr=subprocess.DEVNULL)
-            subprocess.run(["scancel", "--user", getpass.getuser()], env=self.environment, stderr=subprocess.DEVNULL)
+            subprocess.run(
+                ["scancel", "--user", getpass.getuser(), "--signal=KILL"],
+                env=self.environment,
+                stderr=subprocess.DEVNULL,
+            )
+            subprocess.run(
+                ["scancel", "--user", getpass.getuser()], env=self.environment, stderr=subprocess.DEVNULL
+            )
         for process in reversed(self._running):
             process.send_signal(signal.SIGTERM)
             try:
@@ -103,19 +111,24 @@ class Cluster:
         self._running = []
 
     def lose(self, node, job):
-        """As if the power went: the node's daemon and all processes of the job that runs there are gone, without a word."""
-        daemon = next(process for process in self._running if process.args[:4] == ("slurmd", "-D", "-N", node))
+        """As if the power went: the node's daemon and the processes of the job there are gone, without a word."""
+        daemon = next(
+            process for process in self._running if process.args[:4] == ("slurmd", "-D", "-N", node)
+        )
         daemon.kill()
         daemon.wait()
         self._running.remove(daemon)
         steps = [number for number, words in processes() if words[0].startswith(f"slurmstepd: [{job}.")]
-        for number in [*steps, *(number for number, _ in processes() if f"SLURM_JOB_ID={job}" in _read(number, "environ"))]:
+        for number in [
+            *steps,
+            *(number for number, _ in processes() if f"SLURM_JOB_ID={job}" in _read(number, "environ")),
+        ]:
             os.kill(number, signal.SIGKILL)
         self.ask("scontrol", "update", f"NodeName={node}", "State=DOWN", "Reason=lost")
 
     def hasten(self):
-        """Starts what was put back into the queue after three seconds instead of the two minutes that Slurm allows a machine to
-        forget the job."""
+        """Starts what was put back into the queue after three seconds instead of the two minutes that Slurm
+        allows a machine to forget the job."""
         for line in self.ask("squeue", "--noheader", "--states=PENDING", "--format=%i %r").splitlines():
             job, reason = line.split(maxsplit=1)
             if reason == "BeginTime" and time.monotonic() > self._back.setdefault(job, time.monotonic()) + 3:
@@ -123,11 +136,17 @@ class Cluster:
 
     def ask(self, *command):
         """Stdout of a command of Slurm."""
-        return subprocess.run(command, env=self.environment, check=True, capture_output=True, text=True).stdout
+        return subprocess.run(
+            command, env=self.environment, check=True, capture_output=True, text=True
+        ).stdout
 
     def _daemon(self, *command):
         with open(os.path.join(self.folder, command[0] + ".out"), "ab") as log:
-            self._running.append(subprocess.Popen(command, env=self.environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log))
+            self._running.append(
+                subprocess.Popen(
+                    command, env=self.environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log
+                )
+            )
 
     def _start(self):
         inside = lambda name: os.path.join(self.folder, name)
@@ -140,12 +159,29 @@ class Cluster:
         cores = max(1, (os.cpu_count() or 1) // len(NODES))
         host = socket.gethostname()
         with open(inside("slurm.conf"), "w", encoding="utf-8") as config:
-            config.write(_CONFIG.format(
-                host=host, user=getpass.getuser(), folder=self.folder, controller_port=controller, names=",".join(NODES),
-                nodes="\n".join(f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={port} CPUs={cores} State=UNKNOWN"
-                                for name, port in zip(NODES, ports))))
-        self._daemon("munged", "--foreground", "--force", f"--socket={inside('munge.socket')}", f"--key-file={inside('munge.key')}",
-                     f"--log-file={inside('munge.log')}", f"--pid-file={inside('munge.pid')}", f"--seed-file={inside('munge.seed')}")
+            config.write(
+                _CONFIG.format(
+                    host=host,
+                    user=getpass.getuser(),
+                    folder=self.folder,
+                    controller_port=controller,
+                    names=",".join(NODES),
+                    nodes="\n".join(
+                        f"NodeName={name} NodeHostname={host} NodeAddr=127.0.0.1 Port={port} CPUs={cores} State=UNKNOWN"
+                        for name, port in zip(NODES, ports)
+                    ),
+                )
+            )
+        self._daemon(
+            "munged",
+            "--foreground",
+            "--force",
+            f"--socket={inside('munge.socket')}",
+            f"--key-file={inside('munge.key')}",
+            f"--log-file={inside('munge.log')}",
+            f"--pid-file={inside('munge.pid')}",
+            f"--seed-file={inside('munge.seed')}",
+        )
         self._wait(lambda: os.path.exists(inside("munge.socket")), "munged")
         self._daemon("slurmctld", "-D", "-f", inside("slurm.conf"))
         for node in NODES:
@@ -153,7 +189,12 @@ class Cluster:
         self._wait(self._is_idle, "slurm")
 
     def _is_idle(self):
-        shown = subprocess.run(["sinfo", "--noheader", "--Node", "--format=%T"], env=self.environment, capture_output=True, text=True)
+        shown = subprocess.run(
+            ["sinfo", "--noheader", "--Node", "--format=%T"],
+            env=self.environment,
+            capture_output=True,
+            text=True,
+        )
         return shown.returncode == 0 and shown.stdout.split() == ["idle"] * len(NODES)
 
     def _wait(self, is_so, what):

@@ -1,4 +1,7 @@
-"""tools/farm on a real Slurm, started here and ended again: farm.tests.py FLUIDTEX. Exits with 77 where it is not installed."""
+"""tools/farm on a real Slurm, started here and ended again: farm.tests.py FLUIDTEX.
+
+Exits with 77 where Slurm is not installed.
+"""
 import filecmp
 import glob
 import itertools
@@ -23,7 +26,16 @@ SCENE = os.path.join(ROOT, "tests", "tools", "small.toml")
 PICTURES = [os.path.join(ROOT, "scenes", "exemplars", name) for name in ("green_scales.png", "lava.png")]
 PROGRAM = ""  # set below
 # So slow that there is time to take something away, and so quick that nobody waits.
-SLOW = ["--set", "frames=4", "--set", "texture.points=9000", "--set", "render.samples=64", "--set", "render.size=[320, 180]"]
+SLOW = [
+    "--set",
+    "frames=4",
+    "--set",
+    "texture.points=9000",
+    "--set",
+    "render.samples=64",
+    "--set",
+    "render.size=[320, 180]",
+]
 SHORT = ["--set", "frames=2", "--set", "texture.points=1500"]
 
 
@@ -63,12 +75,16 @@ class Farm(unittest.TestCase):
 
     def farm(self, *words, code=0):
         """What it prints."""
-        done = subprocess.run([FARM, "--program", PROGRAM, *words], env=self.environment, capture_output=True, text=True)
+        done = subprocess.run(
+            [FARM, "--program", PROGRAM, *words], env=self.environment, capture_output=True, text=True
+        )
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout + done.stderr
 
     def plain_run(self, out, *words):
-        subprocess.run([PROGRAM, "run", SCENE, "--quiet", "--out", out, *words], check=True, env=self.environment)
+        subprocess.run(
+            [PROGRAM, "run", SCENE, "--quiet", "--out", out, *words], check=True, env=self.environment
+        )
 
     def wait(self, is_so, what, seconds=300):
         end = time.monotonic() + seconds
@@ -107,7 +123,11 @@ class Farm(unittest.TestCase):
         self.slurm.lose(self.slurm.ask("squeue", "--noheader", "--format=%N", f"--jobs={job}").strip(), job)
         # The program that draws the array's first frames is killed after the first of them.
         self.wait(lambda: there("frames", "0001.png"), "nothing is drawn")
-        drawing = [number for number, words in cluster.processes() if {"render", run, "1:2"} <= {*words} and "bash" not in words[0]]
+        drawing = [
+            number
+            for number, words in cluster.processes()
+            if {"render", run, "1:2"} <= {*words} and "bash" not in words[0]
+        ]
         self.assertEqual(len(drawing), 1, "too quick to be killed")
         os.kill(drawing[0], signal.SIGKILL)
         self.assertFalse(there("frames", "0002.png"), "too quick to be killed")
@@ -127,14 +147,28 @@ class Farm(unittest.TestCase):
         after = os.stat(os.path.join(run, "frames", "0001.png"))
         self.assertEqual((before.st_ino, before.st_mtime_ns), (after.st_ino, after.st_mtime_ns))
         self.assert_same(run, contents(plain, "frames", "surface"), 8)
-        self.assertTrue(filecmp.cmp(os.path.join(run, "small.mp4"), os.path.join(plain, "small.mp4"), shallow=False))
+        self.assertTrue(
+            filecmp.cmp(os.path.join(run, "small.mp4"), os.path.join(plain, "small.mp4"), shallow=False)
+        )
         self.assertTrue(there("report.html"))
 
     def test_a_wedge_simulates_once_and_ends_in_a_contact_sheet(self):
         out = self.out("fünf & 5 % 'x'")
-        shown = self.farm(SCENE, *SHORT, "--wedge", "exemplar=" + ",".join(PICTURES), "--wedge", "render.exposure=1,2", "--chunk", "1",
-                          "--out", out)
-        self.assertIn("14 jobs", shown)  # one simulates; of each variant one textures, one draws, one finishes; the sheet
+        shown = self.farm(
+            SCENE,
+            *SHORT,
+            "--wedge",
+            "exemplar=" + ",".join(PICTURES),
+            "--wedge",
+            "render.exposure=1,2",
+            "--chunk",
+            "1",
+            "--out",
+            out,
+        )
+        self.assertIn(
+            "14 jobs", shown
+        )  # one simulates; of each variant one textures, one draws, one finishes; the sheet
         self.assertIn("still in the queue", self.farm(SCENE, *SHORT, "--resume", "--out", out, code=1))
         self.wait_for_end()
         self.assertTrue(os.path.exists(os.path.join(out, "sheet.jpg")), self.words())
@@ -151,7 +185,9 @@ class Farm(unittest.TestCase):
         given = [*SHORT, "--set", "render.samples=2"]
         self.farm(SCENE, *given, "--cycles", "--chunk", "1", "--out", out)
         self.plain_run(plain, *given)
-        subprocess.run([os.path.join(ROOT, "tools", "render_cycles"), plain], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(
+            [os.path.join(ROOT, "tools", "render_cycles"), plain], check=True, stdout=subprocess.DEVNULL
+        )
         self.wait_for_end()
         self.assertIn("drawn 2; done", self.farm("--status", out), self.words())
         self.assert_same(os.path.join(out, "small"), contents(plain, "cycles"), 2)
@@ -175,9 +211,13 @@ class Farm(unittest.TestCase):
 
     def test_what_is_wrong_is_said_before_anything_is_submitted(self):
         out = self.out("wrong")
-        for words, sentence in ((["--set", "texture.windwos=3"], "texture.windows"), (["--wedge", "texture.points"], "KEY=VALUE"),
-                                (["--wedge", "exemplar=/nowhere.png"], "/nowhere.png"), (["--chunk", "0"], "from 1 on"),
-                                (["--sbatch=--partition=nowhere"], "nowhere")):
+        for words, sentence in (
+            (["--set", "texture.windwos=3"], "texture.windows"),
+            (["--wedge", "texture.points"], "KEY=VALUE"),
+            (["--wedge", "exemplar=/nowhere.png"], "/nowhere.png"),
+            (["--chunk", "0"], "from 1 on"),
+            (["--sbatch=--partition=nowhere"], "nowhere"),
+        ):
             self.assertIn(sentence, self.farm(SCENE, *words, "--out", out, code=1))
         self.assertFalse(os.path.exists(os.path.join(out, "small")))
         self.assertEqual(self.slurm.ask("squeue", "--noheader"), "")
@@ -188,31 +228,73 @@ class WithoutSlurm(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for name in ("python3", "env"):
                 os.symlink(shutil.which(name), os.path.join(folder, name))
-            call = lambda *words: subprocess.run([FARM, SCENE, "--program", PROGRAM, "--out", os.path.join(folder, "out"), *words],
-                                                 env={**os.environ, "PATH": folder}, capture_output=True, text=True)
+            call = lambda *words: subprocess.run(
+                [FARM, SCENE, "--program", PROGRAM, "--out", os.path.join(folder, "out"), *words],
+                env={**os.environ, "PATH": folder},
+                capture_output=True,
+                text=True,
+            )
             refused = call()
             self.assertEqual(refused.returncode, 1)
             self.assertIn("sbatch: is not installed", refused.stderr)
             printed = call("--dry-run", "--link", "2")
             self.assertEqual(printed.returncode, 0, printed.stderr)
-            names = [line.partition(":")[0] for line in printed.stdout.splitlines() if not line.startswith(" ")]
-            self.assertEqual(names, ["small/liquid", "small/texture-1", "small/texture-2", "small/texture-3", "small/draw",
-                                     "small/finish"])
+            names = [
+                line.partition(":")[0] for line in printed.stdout.splitlines() if not line.startswith(" ")
+            ]
+            self.assertEqual(
+                names,
+                [
+                    "small/liquid",
+                    "small/texture-1",
+                    "small/texture-2",
+                    "small/texture-3",
+                    "small/draw",
+                    "small/finish",
+                ],
+            )
             self.assertFalse(os.path.exists(os.path.join(folder, "out")))
 
     def test_variants_share_what_does_not_change_the_liquid(self):
-        printed = subprocess.run([FARM, SCENE, "--program", PROGRAM, "--dry-run", "--wedge", "domain.resolution=20,24", "--wedge",
-                                  "camera.at=[0.5, 0.3, 0.2],[0.5, 0.3, 0.4]", "--out", "/nowhere"], capture_output=True, text=True)
+        printed = subprocess.run(
+            [
+                FARM,
+                SCENE,
+                "--program",
+                PROGRAM,
+                "--dry-run",
+                "--wedge",
+                "domain.resolution=20,24",
+                "--wedge",
+                "camera.at=[0.5, 0.3, 0.2],[0.5, 0.3, 0.4]",
+                "--out",
+                "/nowhere",
+            ],
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(printed.returncode, 0, printed.stderr)
         waiting = re.findall(r"^(\S+)/texture-1: .*afterok:(\S+)$", printed.stdout, re.MULTILINE)
-        self.assertEqual(waiting, [("small/resolution-20-at-0.5-0.3-0.2", "small/liquid"), ("small/resolution-20-at-0.5-0.3-0.4", "small/liquid"),
-                                   ("small/resolution-24-at-0.5-0.3-0.2", "small/liquid-2"),
-                                   ("small/resolution-24-at-0.5-0.3-0.4", "small/liquid-2")])
+        self.assertEqual(
+            waiting,
+            [
+                ("small/resolution-20-at-0.5-0.3-0.2", "small/liquid"),
+                ("small/resolution-20-at-0.5-0.3-0.4", "small/liquid"),
+                ("small/resolution-24-at-0.5-0.3-0.2", "small/liquid-2"),
+                ("small/resolution-24-at-0.5-0.3-0.4", "small/liquid-2"),
+            ],
+        )
 
     def test_only_the_solver_is_called_once_for_all(self):
-        for scene, given in (("flows/stretch.toml", []), ("../tests/tools/small.toml", ["--set", "motion.flow=rotation"])):
-            printed = subprocess.run([FARM, os.path.join(ROOT, "scenes", scene), "--program", PROGRAM, "--dry-run", *given], capture_output=True,
-                                     text=True)
+        for scene, given in (
+            ("flows/stretch.toml", []),
+            ("../tests/tools/small.toml", ["--set", "motion.flow=rotation"]),
+        ):
+            printed = subprocess.run(
+                [FARM, os.path.join(ROOT, "scenes", scene), "--program", PROGRAM, "--dry-run", *given],
+                capture_output=True,
+                text=True,
+            )
             self.assertEqual(printed.returncode, 0, printed.stderr)
             self.assertNotIn("simulate", printed.stdout)
             self.assertNotIn("motion.flow=files", printed.stdout)

@@ -1,4 +1,4 @@
-"""The jobs of tools/farm, and the scripts that they run: each can be started again at any moment, and then goes on."""
+"""The jobs of tools/farm, and their scripts: each can be started again at any moment, and then goes on."""
 import json
 import math
 import os
@@ -31,7 +31,8 @@ def wanted_jobs(variants, given):
         chain = _texture_jobs(variant, given, liquids.get(variant.liquid))
         jobs += [*chain, *_picture_jobs(variant, given, chain[-1])]
     if len(variants) > 1:
-        jobs.append(_sheet_job(variants, given, [job.name for job in jobs if job.name.endswith("/finish")]))
+        finished = [job.name for job in jobs if job.name.endswith("/finish")]
+        jobs.append(_sheet_job(variants, given, finished))
     return jobs
 
 
@@ -51,7 +52,9 @@ def script_of(job, given):
         "work",
         "code=$?",
         "# Above 128 the program was killed.",
-        f"if [ $code -gt 128 ] && [ ${{SLURM_RESTART_COUNT:-0}} -lt {_TIMES_AGAIN} ]; then scontrol requeue $SLURM_JOB_ID; fi",
+        f"if [ $code -gt 128 ] && [ ${{SLURM_RESTART_COUNT:-0}} -lt {_TIMES_AGAIN} ]; then",
+        "  scontrol requeue $SLURM_JOB_ID",
+        "fi",
         "exit $code", ""])
 
 
@@ -65,8 +68,8 @@ _THREADS = ("--threads", "${SLURM_CPUS_PER_TASK:-1}")
 
 def _liquid_job(name, variant, given):
     scene, *arguments = variant.liquid
-    return Job(name, [_command(given.program, "simulate", scene, *arguments, "--cache", os.path.join(given.out, name), "--resume",
-                               *_THREADS)])
+    words = [given.program, "simulate", scene, *arguments, "--cache", os.path.join(given.out, name)]
+    return Job(name, [_command(*words, "--resume", *_THREADS)])
 
 
 def _texture_jobs(variant, given, liquid):
@@ -75,10 +78,12 @@ def _texture_jobs(variant, given, liquid):
     if liquid:
         folder = json.dumps(os.path.join(given.out, liquid.name), ensure_ascii=False)
         words += ["--set", "motion.flow=files", "--set", f"files.path={folder}"]
-    words += ["--out", os.path.join(given.out, variant.name), "--no-render", "--no-report", "--resume", *_THREADS]
+    words += ["--out", os.path.join(given.out, variant.name)]
+    words += ["--no-render", "--no-report", "--resume", *_THREADS]
     chain, after = [], [liquid.name] if liquid else []
     for last in [*range(given.link, variant.frames, given.link), variant.frames]:
-        chain.append(Job(f"{variant.name}/texture-{len(chain) + 1}", [_command(*words, "--frames", f"1:{last}")], after))
+        name = f"{variant.name}/texture-{len(chain) + 1}"
+        chain.append(Job(name, [_command(*words, "--frames", f"1:{last}")], after))
         after = [chain[-1].name]
     return chain
 
@@ -86,15 +91,18 @@ def _texture_jobs(variant, given, liquid):
 def _picture_jobs(variant, given, textured):
     """An array that draws, and what makes video and page of its pictures."""
     folder, last = os.path.join(given.out, variant.name), f"first + {given.chunk - 1}"
-    frames = [f"first=$((1 + SLURM_ARRAY_TASK_ID * {given.chunk}))", f"last=$(({last} < {variant.frames} ? {last} : {variant.frames}))"]
+    frames = [f"first=$((1 + SLURM_ARRAY_TASK_ID * {given.chunk}))",
+              f"last=$(({last} < {variant.frames} ? {last} : {variant.frames}))"]
     if given.cycles:
         draw = [os.path.join(_ROOT, "tools", "render_cycles"), folder, "--missing"]
-        finish = [_command(given.program, "video", os.path.join(folder, "cycles")), _command(given.program, "report", folder)]
+        finish = [_command(given.program, "video", os.path.join(folder, "cycles")),
+                  _command(given.program, "report", folder)]
     else:
-        render = [given.program, "render", variant.scene, *variant.arguments, "--from", folder, "--out", folder, "--missing", *_THREADS]
+        render = [given.program, "render", variant.scene, *variant.arguments]
+        render += ["--from", folder, "--out", folder, "--missing", *_THREADS]
         draw, finish = [*render, "--part"], [_command(*render)]
-    array = Job(f"{variant.name}/draw", [*frames, _command(*draw, "--frames", "$first:$last")], [textured.name],
-                math.ceil(variant.frames / given.chunk))
+    frames.append(_command(*draw, "--frames", "$first:$last"))
+    array = Job(f"{variant.name}/draw", frames, [textured.name], math.ceil(variant.frames / given.chunk))
     return [array, Job(f"{variant.name}/finish", finish, [array.name])]
 
 
@@ -108,9 +116,9 @@ def _sheet_job(variants, given, after):
             frame = max(1, variant.frames * moment // moments)
             pictures += [picture_of(variant, frame, given), f"{variant.label}, {frame}"]
     # As tools/sheet/main.cpp reads it.
-    fields = [os.path.join(given.out, "sheet.jpg"), str(columns), str(_SHEET_WIDTH), str(len(pictures) // 2), *pictures]
+    fields = [os.path.join(given.out, "sheet.jpg"), columns, _SHEET_WIDTH, len(pictures) // 2, *pictures]
     drawer = os.path.join(os.path.dirname(given.program), "fluidtex_sheet")
-    return Job("sheet", [f"printf '%s\\0' {' '.join(map(shlex.quote, fields))} | {shlex.quote(drawer)}"], after)
+    return Job("sheet", [f"printf '%s\\0' {_command(*map(str, fields))} | {_command(drawer)}"], after)
 
 
 def picture_of(variant, frame, given):

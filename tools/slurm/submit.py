@@ -16,10 +16,12 @@ def submit(jobs, variants, given):
     _require_slurm()
     folder = os.path.join(given.out, "jobs")
     if still := _queued(_record(given.out)["jobs"]):
-        raise Problem(f"{given.out}: its jobs are still in the queue; wait for them, or scancel {' '.join(sorted(still))}")
+        stop = f"scancel {' '.join(sorted(still))}"
+        raise Problem(f"{given.out}: its jobs are still in the queue; wait for them, or stop them: {stop}")
     for name in {variant.name.split(os.sep)[0] for variant in variants}:
-        if not given.resume and os.path.exists(os.path.join(given.out, name)):
-            raise Problem(f"{os.path.join(given.out, name)}: is there already; --resume goes on with it, --out DIR makes it elsewhere")
+        results = os.path.join(given.out, name)
+        if not given.resume and os.path.exists(results):
+            raise Problem(f"{results}: is there already; --resume goes on with it, --out DIR begins elsewhere")
     os.makedirs(folder, exist_ok=True)
     ids = {}
     for job in jobs:
@@ -32,9 +34,9 @@ def submit(jobs, variants, given):
                 subprocess.run(["scancel", *ids.values()])
             raise Problem(f"sbatch refuses the job {job.name}: {asked.stderr.strip()}")
         ids[job.name] = asked.stdout.strip().split(";")[0]
-    shown = [{"name": variant.name, "frames": variant.frames, "pictures": "cycles" if given.cycles else "frames",
-              "liquid": next((job.after[0] for job in jobs if job.name == f"{variant.name}/texture-1" and job.after), "")}
-             for variant in variants]
+    liquids = {job.name.removesuffix("/texture-1"): "".join(job.after) for job in jobs}
+    shown = [{"name": variant.name, "frames": variant.frames, "liquid": liquids[variant.name],
+              "pictures": "cycles" if given.cycles else "frames"} for variant in variants]
     with open(os.path.join(folder, _RECORD), "w", encoding="utf-8") as file:
         json.dump({"jobs": ids, "variants": shown}, file, indent=1)
     return ids
@@ -42,11 +44,13 @@ def submit(jobs, variants, given):
 
 def options_of(job, given, ids):
     """Of sbatch. ids: of the jobs before; their names stand for those that have none."""
-    words = ["--parsable", "--requeue", "--output=/dev/null", f"--job-name={file_name(job.name)}", f"--cpus-per-task={given.cores}"]
+    words = ["--parsable", "--requeue", "--output=/dev/null", f"--job-name={file_name(job.name)}",
+             f"--cpus-per-task={given.cores}"]
     if job.tasks:
         words.append(f"--array=0-{job.tasks - 1}")
     if job.after:
-        words += ["--kill-on-invalid-dep=yes", "--dependency=afterok:" + ":".join(ids.get(name, name) for name in job.after)]
+        before = ":".join(ids.get(name, name) for name in job.after)
+        words += ["--kill-on-invalid-dep=yes", f"--dependency=afterok:{before}"]
     return words + given.sbatch
 
 
@@ -59,11 +63,13 @@ def status(out):
     queued = _queued(record["jobs"])
     lines = []
     for variant in record["variants"]:
-        count = lambda *parts: len(glob.glob(os.path.join(glob.escape(out), *map(glob.escape, parts[:-1]), parts[-1])))
+        count = lambda folder, *pattern: len(
+            glob.glob(os.path.join(glob.escape(os.path.join(out, folder)), *pattern)))
         parts = [f"simulated {count(variant['liquid'], 'frame_*.vdb')}"] if variant["liquid"] else []
         parts += [f"textured {count(variant['name'], 'surface', '[0-9]*.ply')}",
                   f"drawn {count(variant['name'], variant['pictures'], '[0-9]*.png')}"]
-        mine = [job for job in record["jobs"] if job.startswith(variant["name"] + os.sep) or job == variant["liquid"]]
+        mine = [job for job in record["jobs"]
+                if job.startswith(variant["name"] + os.sep) or job == variant["liquid"]]
         if count(variant["name"], "report.html"):
             state = "done"
         elif any(record["jobs"][job] in queued for job in mine):

@@ -37,7 +37,9 @@ def wedge(text):
     """[(key, value), ...] of KEY=V1,V2."""
     key, _, values = text.partition("=")
     if not key or not values_of(values):
-        raise Problem(f"--wedge {text}: is no key with values; give KEY=VALUE,VALUE, such as texture.points=20000,40000")
+        raise Problem(
+            f"--wedge {text}: is no key with values; give KEY=VALUE,VALUE, such as texture.points=20000,40000"
+        )
     key = key.strip()
     if key not in ("exemplar", "texture.exemplar"):
         return [(key, value) for value in values_of(values)]
@@ -63,7 +65,10 @@ def wanted_variants(given):
     variants, scene_names = [], {"jobs"}  # a folder beside theirs
     for scene in given.scenes:
         path = os.path.abspath(scene)
-        scene_name, names = unique(file_name(os.path.basename(path).removesuffix(".toml")), scene_names), set()
+        scene_name, names = (
+            unique(file_name(os.path.basename(path).removesuffix(".toml")), scene_names),
+            set(),
+        )
         for settings in combinations:
             label = ", ".join(_label(*setting) for setting in settings)
             name = os.path.join(scene_name, unique(file_name(label), names)) if settings else scene_name
@@ -79,7 +84,8 @@ def wanted_variants(given):
 
 
 def _label(key, value):
-    return f"{key.rpartition('.')[2]} {os.path.splitext(os.path.basename(value))[0] if key == 'exemplar' else value}"
+    shown = os.path.splitext(os.path.basename(value))[0] if key == "exemplar" else value
+    return f"{key.rpartition('.')[2]} {shown}"
 
 
 def _arguments(given, settings, exemplar=True):
@@ -109,7 +115,9 @@ def _is_simulated(scene, given):
 
 
 def _frames(variant, given):
-    checked = subprocess.run([given.program, "check", variant.scene, *variant.arguments], capture_output=True, text=True)
+    checked = subprocess.run(
+        [given.program, "check", variant.scene, *variant.arguments], capture_output=True, text=True
+    )
     if checked.returncode != 0:
         raise Problem(checked.stderr.strip().removeprefix("error: "))
     sys.stderr.write(checked.stderr)
