@@ -13,7 +13,8 @@ RADIUS, RATE, FALL, SECONDS = 0.1, 0.3, -0.5, 1 / 24
 def read(file):
     """Vertices as lists of numbers, triangles as lists of indices."""
     head, body = file.read_text().split("end_header\n")
-    count = {line.split()[1]: int(line.split()[2]) for line in head.splitlines() if line.startswith("element")}
+    elements = [line.split() for line in head.splitlines() if line.startswith("element")]
+    count = {name: int(number) for _, name, number in elements}
     lines = body.splitlines()
     assert len(lines) == count["vertex"] + count["face"], file
     vertices = [[float(number) for number in line.split()] for line in lines[: count["vertex"]]]
