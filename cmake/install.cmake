@@ -10,7 +10,7 @@ install(CODE "set(program \"$<TARGET_FILE:fluidtex>\")
 install(SCRIPT cmake/install_printed.cmake)
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/fluidtex
   FILES_MATCHING PATTERN *.toml PATTERN *.png PATTERN *.ply PATTERN README.md)
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The library: pipeline, and all rooms that it links.
 add_library(library INTERFACE)

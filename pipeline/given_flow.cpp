@@ -28,14 +28,16 @@ bool isFinite(const Vec3f& v) {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
 
+// By leaves, as tiles are constant and those of level sets say no more than inside or outside.
 template <class Grid, class Finite>
 void checkFinite(const Grid& grid, const char* name, const Finite& finite) {
-  for (auto value = grid.cbeginValueOn(); value; ++value) {
-    if (finite(*value)) continue;
-    const openvdb::Coord at = value.getCoord();
-    throw std::invalid_argument(
-        fmt::format("{}: is not finite at voxel ({}, {}, {}); give numbers", name, at[0], at[1], at[2]));
-  }
+  for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf)
+    for (auto value = leaf->cbeginValueOn(); value; ++value) {
+      if (finite(*value)) continue;
+      const openvdb::Coord at = value.getCoord();
+      throw std::invalid_argument(
+          fmt::format("{}: is not finite at voxel ({}, {}, {}); give numbers", name, at[0], at[1], at[2]));
+    }
 }
 
 void checkSize(const caches::SurfaceTriangles& surface, double h) {
