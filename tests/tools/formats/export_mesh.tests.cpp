@@ -115,7 +115,7 @@ TEST_CASE(
   CHECK(joints == 40);  // the two triangles of each square across the middle
 }
 
-TEST_CASE("export mesh: every value of a surface is a column; parts of vectors are one", "[tools]") {
+TEST_CASE("export mesh: every value of a surface is a column, parts of vectors are one", "[tools]") {
   texture::TexturedSurface surface = sampleSurface();
   surface.maps = {{"height", {1, 2, 3, 4}},     {"wind_x", {1, 2, 3, 4}},    {"wind_y", {5, 6, 7, 8}},
                   {"wind_z", {9, 10, 11, 12}},  {"paint_red", {1, 2, 3, 4}}, {"paint_green", {5, 6, 7, 8}},

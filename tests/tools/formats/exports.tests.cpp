@@ -11,7 +11,7 @@ using namespace fluidtex;
 using tools::Format;
 namespace fs = std::filesystem;
 
-TEST_CASE("formats: names, one or several, each once; PLY is always among them", "[tools]") {
+TEST_CASE("formats: names, one or several, each once, and PLY is always among them", "[tools]") {
   CHECK(tools::parseFormats({}) == std::vector{Format::ply});
   CHECK(tools::parseFormats({"vtp", "glb", "vtp"}) == std::vector{Format::ply, Format::glb, Format::vtp});
   CHECK_THROWS_WITH(tools::parseFormats({"fbx"}), Catch::Contains("fbx") && Catch::Contains("give ply, glb"));

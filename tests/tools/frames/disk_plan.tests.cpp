@@ -40,7 +40,7 @@ TEST_CASE("disk plan: sizes are written as people write them", "[tools]") {
   CHECK(tools::textOf(plan) == "about 600 MB: surfaces 600 MB, state/ 4 MB");
 }
 
-TEST_CASE("disk plan: a warning says when what is free will not do; an earlier run's files count as free",
+TEST_CASE("disk plan: a warning says when what is free will not do, and an earlier run's files count as free",
           "[tools]") {
   const Scratch scratch;
   const std::filesystem::path out = scratch.path / "not" / "there yet";
