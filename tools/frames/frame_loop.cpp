@@ -36,6 +36,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -300,15 +301,33 @@ class FrameLoop {
                     [&](const fs::path& file) { writePng(picture, file, pictureNotes(m_scene, frame)); });
   }
 
-  // Of frames that are done, in formats that the earlier run was not asked for, or that are lost.
+  // Contents of a frame's files, of those that are there as the journal has them.
+  std::map<Format, Fingerprint> wholeExports(const Journal& journal, int frame) const {
+    std::map<Format, Fingerprint> result;
+    for (const Format format : m_exports.formats)
+      if (const std::string name = frameFile(format, frame); isWhole(journal, m_options.out, name))
+        result[format] = fingerprintOf(m_options.out / name);
+    return result;
+  }
+
+  // Of frames that are done, in formats that the earlier run was not asked for, that are lost, or that come
+  // out otherwise now, with other --joints: the newest frame's tell, since the same PLY gives the same bytes.
   void exportEarlierFrames() {
     const int done = std::min(pipeline::stateOf(*m_motion).frame, m_last);
-    if (m_exports.formats.size() == 1 || done == 0) return;
+    if (m_exports.formats.size() == 1 || done < m_options.firstFrame) return;
     const Journal journal = readJournal(m_options.out);
-    for (int frame = m_options.firstFrame; frame <= done; ++frame) {
+    const std::map<Format, Fingerprint> before = wholeExports(journal, done);
+    exportFrame(m_options.out, done, m_exports, exemplarColor());
+    const std::map<Format, Fingerprint> now = wholeExports(readJournal(m_options.out), done);
+    const auto isOtherwise = [&](Format format) {
+      const auto was = before.find(format), is = now.find(format);
+      return was != before.end() && is != now.end() && was->second != is->second;
+    };
+    for (int frame = m_options.firstFrame; frame < done; ++frame) {
       Exports missing = m_exports;
-      std::erase_if(missing.formats,
-                    [&](Format format) { return isWhole(journal, m_options.out, frameFile(format, frame)); });
+      std::erase_if(missing.formats, [&](Format format) {
+        return !isOtherwise(format) && isWhole(journal, m_options.out, frameFile(format, frame));
+      });
       if (!missing.formats.empty()) exportFrame(m_options.out, frame, missing, exemplarColor());
       if (m_stop) throw Interrupted();
     }

@@ -89,6 +89,14 @@ TEST_CASE(
   CHECK(readBytes(whole / "vtp" / "0001.vtp") == readBytes(resumed / "vtp" / "0001.vtp"));
   CHECK(readBytes(whole / "glb" / "0001.glb") == readBytes(resumed / "glb" / "0001.glb"));
   CHECK(fs::last_write_time(resumed / "glb" / "0002.glb") == time);
+  // With joints of the other kind all are made anew, so that a sequence is of one kind.
+  const fs::path blended = scratch.path / "blended";
+  run(blended, {"--frames", "1:3", "--format", "glb", "--joints", "blend"});
+  run(resumed, {"--frames", "1:3", "--resume", "--format", "glb", "--joints", "blend"});
+  for (const char* name : {"glb/0001.glb", "glb/0002.glb", "glb/0003.glb"}) {
+    CHECK(readBytes(blended / name) == readBytes(resumed / name));
+    CHECK(readBytes(blended / name) != readBytes(whole / name));
+  }
   // A run that starts anew leaves nothing of them.
   run(resumed, {"--frames", "2"});
   CHECK_FALSE(fs::exists(resumed / "glb"));
