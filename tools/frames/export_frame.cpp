@@ -50,14 +50,19 @@ void writePictures(const fs::path& out, const texture::Image& color, const fs::p
   if (!betweenFile.empty()) write(kBetweenFile, texture::readImage(betweenFile));
 }
 
-void exportFrame(const fs::path& out, int frame, const Exports& exports, const texture::Image& color) {
+void writeFrameExports(const fs::path& out, int frame, const Exports& exports, const texture::Image& color,
+                       const fs::path& to) {
   const double time = (frame - 1) / exports.appearance.frameRate;
   texture::TexturedSurface surface = readPly(out / frameFile(Format::ply, frame), color.width, color.height);
   if (lacksGradients(surface)) {
     surface.spacing = spacingOf(out, surface, frame);
     texture::recoverGradients(exports.appearance.toroidal, surface);
   }
-  writeExports(surface, frame, time, exports, out);
+  writeExports(surface, frame, time, exports, to);
+}
+
+void exportFrame(const fs::path& out, int frame, const Exports& exports, const texture::Image& color) {
+  writeFrameExports(out, frame, exports, color, out);
   updateSequences(exports, out);
   if (!hasJournal(out)) return;
   std::vector<JournalLine> lines;

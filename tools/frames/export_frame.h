@@ -16,6 +16,11 @@ Appearance appearanceOf(const Json& scene, const texture::Image& color);
 void writePictures(const std::filesystem::path& out, const texture::Image& color,
                    const std::filesystem::path& betweenFile);
 
+// Writes the files of a frame of OUT into another folder, where they are named as in OUT. Throws as
+// exportFrame().
+void writeFrameExports(const std::filesystem::path& out, int frame, const Exports& exports,
+                       const texture::Image& color, const std::filesystem::path& to);
+
 // Writes a frame's files, brings the files up to date that list the sequence, and adds the frame's to the
 // journal if there is one. Throws UsageError where the PLY is no surface of a run, std::system_error of the
 // disk.

@@ -12,6 +12,7 @@
 #include "tools/frames/check_relief.h"
 #include "tools/frames/color_between.h"
 #include "tools/frames/disk_plan.h"
+#include "tools/frames/earlier_exports.h"
 #include "tools/frames/exemplar_fit.h"
 #include "tools/frames/export_frame.h"
 #include "tools/frames/image_notes.h"
@@ -36,7 +37,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -111,7 +111,9 @@ class FrameLoop {
       clearEarlierRun(m_options.out, m_scene.name);
     }
     writePictures(m_options.out, exemplarColor(), m_scene.texture.exemplar.betweenFile);
-    exportEarlierFrames();
+    exportEarlierFrames(m_options.out, m_options.firstFrame,
+                        std::min(pipeline::stateOf(*m_motion).frame, m_last), m_exports, exemplarColor(),
+                        m_stop);
     tellWarnings();
     for (const std::string& note : imageNotes(colorPictures(m_scene.texture.exemplar))) warn(note);
     tellDisk();
@@ -299,38 +301,6 @@ class FrameLoop {
     Stopwatch watch(seconds.write);
     writeAtomically(m_options.out / "frames" / (render::frameName(frame) + ".png"),
                     [&](const fs::path& file) { writePng(picture, file, pictureNotes(m_scene, frame)); });
-  }
-
-  // Contents of a frame's files, of those that are there as the journal has them.
-  std::map<Format, Fingerprint> wholeExports(const Journal& journal, int frame) const {
-    std::map<Format, Fingerprint> result;
-    for (const Format format : m_exports.formats)
-      if (const std::string name = frameFile(format, frame); isWhole(journal, m_options.out, name))
-        result[format] = fingerprintOf(m_options.out / name);
-    return result;
-  }
-
-  // Of frames that are done, in formats that the earlier run was not asked for, that are lost, or that come
-  // out otherwise now, with other --joints: the newest frame's tell, since the same PLY gives the same bytes.
-  void exportEarlierFrames() {
-    const int done = std::min(pipeline::stateOf(*m_motion).frame, m_last);
-    if (m_exports.formats.size() == 1 || done < m_options.firstFrame) return;
-    const Journal journal = readJournal(m_options.out);
-    const std::map<Format, Fingerprint> before = wholeExports(journal, done);
-    exportFrame(m_options.out, done, m_exports, exemplarColor());
-    const std::map<Format, Fingerprint> now = wholeExports(readJournal(m_options.out), done);
-    const auto isOtherwise = [&](Format format) {
-      const auto was = before.find(format), is = now.find(format);
-      return was != before.end() && is != now.end() && was->second != is->second;
-    };
-    for (int frame = m_options.firstFrame; frame < done; ++frame) {
-      Exports missing = m_exports;
-      std::erase_if(missing.formats, [&](Format format) {
-        return !isOtherwise(format) && isWhole(journal, m_options.out, frameFile(format, frame));
-      });
-      if (!missing.formats.empty()) exportFrame(m_options.out, frame, missing, exemplarColor());
-      if (m_stop) throw Interrupted();
-    }
   }
 
   const texture::Image& exemplarColor() const { return m_texturing.synthesizer.exemplar.color; }
