@@ -1,0 +1,34 @@
+#!/usr/bin/env python3
+"""tools/pages/blender_page.py FIGURES.json PAGE: the times of docs/tutorial-blender.md.
+
+FIGURES.json is what tools/blender/time_frames.py wrote (tools/measure_blender). The table is written anew, fewest points
+first.
+"""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from markdown import Page, bring_up_to_date, number
+
+COLUMNS = ("points", "wall s a frame", "CPU s", "on")
+
+
+def updated_page(text, figures):
+    """The page's text with the figures. Throws PageError."""
+    page = Page(text)
+    runs = sorted(figures["runs"], key=lambda run: run["vertices"])
+    of = "%s, Blender %s" % (figures["machine"], figures["blender"])
+    page.replace(COLUMNS, [["{:,}".format(run["vertices"]), number(run["wall"]), number(run["processor"]), of]
+                           for run in runs])
+    return page.text()
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    figures, path = sys.argv[1:]
+    bring_up_to_date(path, [figures], "tools/blender/time_frames.py", lambda text, found: updated_page(text, found[0]))
+
+
+if __name__ == "__main__":
+    main()
