@@ -35,6 +35,21 @@ texture::TexturedSurface surfaceOf(const fs::path& out, int frame) {
   return tools::readPly(out / "surface" / ("000" + std::to_string(frame) + ".ply"), 256, 256);
 }
 
+void well(const std::vector<std::string>& args) {
+  const Finished done = runProgram(args);
+  INFO(done.err);
+  REQUIRE(done.exitCode == 0);
+}
+
+std::vector<std::uint8_t> pixels(const fs::path& out, int frame) {
+  const auto in =
+      OIIO::ImageInput::open((out / "frames" / ("000" + std::to_string(frame) + ".png")).string());
+  REQUIRE(in);
+  std::vector<std::uint8_t> values(std::size_t(in->spec().width) * std::size_t(in->spec().height) * 3);
+  REQUIRE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, values.data()));
+  return values;
+}
+
 texture::Vec3f bumpAt(const texture::TexturedSurface& surface, std::size_t v) {
   const texture::Vec3f bump(surface.maps.at("bump_x")[v], surface.maps.at("bump_y")[v],
                             surface.maps.at("bump_z")[v]);
@@ -54,9 +69,7 @@ TEST_CASE("fluidtex apply: later gives what the run itself would have written, i
     std::vector<std::string> args{"run",      kSmallScene, "--out",      out.string(),
                                   "--frames", "1:3",       "--no-render"};
     args.insert(args.end(), more.begin(), more.end());
-    const Finished done = runProgram(args);
-    INFO(done.err);
-    REQUIRE(done.exitCode == 0);
+    well(args);
   };
   run(with, {"--set", "texture.map=[{ name = 'shade', file = '" + (scratch.path / "shade.png").string() +
                           "' }, { name = 'fine', file = '" + (scratch.path / "fine.png").string() +
@@ -64,11 +77,9 @@ TEST_CASE("fluidtex apply: later gives what the run itself would have written, i
                           (scratch.path / "fine.png").string() + "' }]"});
   run(after, {});
   const std::string exemplar = FLUIDTEX_SOURCE "/scenes/exemplars/green_scales.png";
-  const Finished done = runProgram({"apply", after.string(), "shade=" + (scratch.path / "shade.png").string(),
-                                    "fine=" + (scratch.path / "fine.png").string(), "color=" + exemplar,
-                                    "bump:normals=" + (scratch.path / "fine.png").string()});
-  INFO(done.err);
-  REQUIRE(done.exitCode == 0);
+  well({"apply", after.string(), "shade=" + (scratch.path / "shade.png").string(),
+        "fine=" + (scratch.path / "fine.png").string(), "color=" + exemplar,
+        "bump:normals=" + (scratch.path / "fine.png").string()});
   for (int frame = 1; frame <= 3; ++frame) {
     const texture::TexturedSurface a = surfaceOf(with, frame), b = surfaceOf(after, frame);
     CHECK(a.positions == b.positions);
@@ -140,23 +151,11 @@ TEST_CASE("fluidtex render: the exemplar is looked up in files as in the run, ac
           "[tools][slow]") {
   const Scratch scratch;
   const fs::path out = scratch.path / "out", again = scratch.path / "again";
-  const auto well = [](const std::vector<std::string>& args) {
-    const Finished done = runProgram(args);
-    INFO(done.err);
-    REQUIRE(done.exitCode == 0);
-  };
   const std::string looksUp = "texture.between=exemplar";
   well({"run", kSmallScene, "--out", out.string(), "--frames", "1:4", "--set", looksUp});
   well({"render", kSmallScene, "--from", out.string(), "--out", again.string(), "--frames", "4:4", "--set",
         looksUp});
-  const auto pixels = [](const fs::path& folder) {
-    const auto in = OIIO::ImageInput::open((folder / "frames" / "0004.png").string());
-    REQUIRE(in);
-    std::vector<std::uint8_t> values(std::size_t(in->spec().width) * std::size_t(in->spec().height) * 3);
-    REQUIRE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, values.data()));
-    return values;
-  };
-  const std::vector<std::uint8_t> wanted = pixels(out), found = pixels(again);
+  const std::vector<std::uint8_t> wanted = pixels(out, 4), found = pixels(again, 4);
   REQUIRE(wanted.size() == found.size());
   int largest = 0;
   for (std::size_t i = 0; i < wanted.size(); ++i)
@@ -168,18 +167,6 @@ TEST_CASE("fluidtex render: shows what the run has shown, and other colours once
           "[tools][slow]") {
   const Scratch scratch;
   const fs::path out = scratch.path / "out", again = scratch.path / "again";
-  const auto well = [](const std::vector<std::string>& args) {
-    const Finished done = runProgram(args);
-    INFO(done.err);
-    REQUIRE(done.exitCode == 0);
-  };
-  const auto picture = [](const fs::path& folder) {
-    const auto in = OIIO::ImageInput::open((folder / "frames" / "0002.png").string());
-    REQUIRE(in);
-    std::vector<std::uint8_t> pixels(std::size_t(in->spec().width) * std::size_t(in->spec().height) * 3);
-    REQUIRE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, pixels.data()));
-    return pixels;
-  };
   const auto difference = [](const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
     REQUIRE(a.size() == b.size());
     double sum = 0.0;
@@ -189,12 +176,12 @@ TEST_CASE("fluidtex render: shows what the run has shown, and other colours once
   well({"run", kSmallScene, "--out", out.string(), "--frames", "1:2"});
   well({"render", kSmallScene, "--from", out.string(), "--out", again.string(), "--frames", "1:2"});
   CHECK(fs::exists(again / "small.mp4"));
-  const std::vector<std::uint8_t> before = picture(out), same = picture(again);
+  const std::vector<std::uint8_t> before = pixels(out, 2), same = pixels(again, 2);
   CHECK(difference(before, same) < 0.5);  // colours went through eight bits
   writeImage(scratch.path / "grey.png", 64, 1);
   well({"apply", out.string(), "color=" + (scratch.path / "grey.png").string()});
   well({"render", kSmallScene, "--from", out.string(), "--out", again.string(), "--frames", "1:2"});
-  CHECK(difference(before, picture(again)) > 2.0);
+  CHECK(difference(before, pixels(again, 2)) > 2.0);
 
   // Relief, once its map is there.
   const std::string height = (scratch.path / "height.png").string();
@@ -209,11 +196,11 @@ TEST_CASE("fluidtex render: shows what the run has shown, and other colours once
   const Finished without = runProgram(bumped);
   CHECK(without.exitCode == 1);
   CHECK_THAT(without.err, Catch::Contains("0001.ply: has no height") && Catch::Contains("fluidtex apply"));
-  const std::vector<std::uint8_t> smooth = picture(again);
+  const std::vector<std::uint8_t> smooth = pixels(again, 2);
   well({"apply", out.string(), "height=" + height});
   fs::rename(out / "run.json", out / "gone.json");  // relief needs no report
   well(bumped);
-  CHECK(difference(smooth, picture(again)) > 0.1);
+  CHECK(difference(smooth, pixels(again, 2)) > 0.1);
 
   const Finished missing =
       runProgram({"render", kSmallScene, "--from", out.string(), "--out", again.string(), "--frames", "1:3"});

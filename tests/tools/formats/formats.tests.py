@@ -53,6 +53,11 @@ def area(points, triangles):
     return total
 
 
+def linear(c):
+    """Of the value in a picture, sRGB."""
+    return c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
+
+
 class Formats(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -119,12 +124,19 @@ class InBlender(Formats):
     def read(self, file):
         return self.found("blender", "-b", "--factory-startup", "-P", os.path.join(HERE, "in_blender.py"), "--", file)
 
-    def test_glb(self):
-        found = self.read(self.file("cut", "glb", f"{LAST:04}.glb"))
+    def is_the_surface_with_its_picture(self, found, uv_sets):
         self.is_the_surface(found)
-        self.assertEqual(found["uv sets"], 2)
+        self.assertEqual(found["uv sets"], uv_sets)
         self.assertEqual(found["picture"], [256, 256])
         self.shows_its_colors(found)
+
+    def has_colors(self, found, name):
+        """At the vertices, linear as Blender holds them."""
+        ours = [linear(c / 255.0) for c in self.vertices[name]]
+        self.close(ours, found["colors"][0][name][: self.count], 0.01)
+
+    def test_glb(self):
+        self.is_the_surface_with_its_picture(self.read(self.file("cut", "glb", f"{LAST:04}.glb")), 2)
 
     def test_glb_with_joints_that_blend(self):
         found = self.read(self.file("blend", "glb", f"{LAST:04}.glb"))
@@ -132,18 +144,12 @@ class InBlender(Formats):
         self.assertEqual(found["uv sets"], 6)
         self.assertEqual(found["triangles"], len(self.faces))
         self.assertEqual(len(found["colors"]), 1)
-        linear = lambda c: c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
-        self.close([linear(c / 255.0) for c in self.vertices["green"]], found["colors"][0]["green"][: self.count], 0.01)
+        self.has_colors(found, "green")
 
     def test_obj(self):
         found = self.read(self.file("cut", "obj", f"{LAST:04}.obj"))
-        self.is_the_surface(found)
-        self.assertEqual(found["uv sets"], 1)
-        self.assertEqual(found["picture"], [256, 256])
-        self.shows_its_colors(found)
-        # What Blender holds is linear.
-        linear = lambda c: c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
-        self.close([linear(c / 255.0) for c in self.vertices["red"]], found["colors"][0]["red"][: self.count], 0.01)
+        self.is_the_surface_with_its_picture(found, 1)
+        self.has_colors(found, "red")
 
 
 @unittest.skipUnless(shutil.which("pvpython"), "ParaView's pvpython is not installed (python3-paraview)")
