@@ -1347,10 +1347,19 @@ class FLUIDTEX_OT_stop(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class FLUIDTEX_PT_liquid(bpy.types.Panel):
-    bl_label = "fluidtex"
+class _PropertiesPanel:
     bl_space_type = "PROPERTIES"
     bl_region_type = "WINDOW"
+
+    def show(self, own, names):
+        """A row for each of these properties, its name to the left."""
+        self.layout.use_property_split = True
+        for name in names:
+            self.layout.prop(own, name)
+
+
+class FLUIDTEX_PT_liquid(_PropertiesPanel, bpy.types.Panel):
+    bl_label = "fluidtex"
     bl_context = "object"
 
     @classmethod
@@ -1359,11 +1368,9 @@ class FLUIDTEX_PT_liquid(bpy.types.Panel):
 
     def draw(self, context):
         own, layout = context.object.fluidtex, self.layout
-        layout.use_property_split = True
         if own.problem:
             layout.label(text=own.problem, icon="ERROR")
-        for name in ("surfaces", "start", "frame_rate", "beyond", "custom_normals"):
-            layout.prop(own, name)
+        self.show(own, ("surfaces", "start", "frame_rate", "beyond", "custom_normals"))
         layout.separator()
         for names in (
             ("exemplar",),
@@ -1376,16 +1383,12 @@ class FLUIDTEX_PT_liquid(bpy.types.Panel):
             ("displacement_map", "displacement_scale"),
             ("alpha_map",),
         ):
-            layout.prop(own, names[0])
-            if len(names) > 1 and getattr(own, names[0]):
-                layout.prop(own, names[1])
+            self.show(own, names if getattr(own, names[0]) else names[:1])
         layout.operator("fluidtex.material")
 
 
-class FLUIDTEX_PT_texture(bpy.types.Panel):
+class FLUIDTEX_PT_texture(_PropertiesPanel, bpy.types.Panel):
     bl_label = "Texture this liquid"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
     bl_context = "physics"
 
     @classmethod
@@ -1394,9 +1397,7 @@ class FLUIDTEX_PT_texture(bpy.types.Panel):
 
     def draw(self, context):
         own, layout = context.object.fluidtex_texture, self.layout
-        layout.use_property_split = True
-        for name in ("exemplar", "toroidal", "out", "quality", "frames", "settings", "resume"):
-            layout.prop(own, name)
+        self.show(own, ("exemplar", "toroidal", "out", "quality", "frames", "settings", "resume"))
         if context.object.name in _jobs:
             layout.label(text=own.status, icon="TIME")
             layout.operator("fluidtex.stop", icon="CANCEL")
