@@ -154,10 +154,10 @@ std::string difference(const sim::State& a, const sim::State& b) {
   sim::forEachGrid(b,
                    [&](const char*, const sim::FloatGrid::Ptr& grid, int) { others.push_back(grid.get()); });
   std::string found;
-  std::size_t n = 0;
+  auto theirs = others.begin();
   sim::forEachGrid(a, [&](const char* name, const sim::FloatGrid::Ptr& grid, int) {
-    const sim::FloatGrid* other = others[n++];
-    if (found.empty()) found = gridDifference(name, grid.get(), other);
+    if (found.empty()) found = gridDifference(name, grid.get(), *theirs);
+    ++theirs;
   });
   if (!found.empty()) return found;
   if (a.markers.size() != b.markers.size()) return "the markers' blocks";

@@ -249,7 +249,7 @@ class Writer {
       } else {
         content = shape(Vec3d(0.1 * m_size), Vec3d(0.85 * m_size));
       }
-      if (m_random.chance(0.3)) content += "\n" + speed(0.7);
+      if (m_random.chance(0.3)) content += '\n' + speed(0.7);
       if (n > 0 && m_random.chance(0.4)) content += "\nfrom = " + text(m_random.number(0.0, end()));
       if (m_random.chance(0.3)) content += "\ntemperature = " + text(m_random.number(300.0, 1800.0));
       table("liquid", content);

@@ -60,11 +60,12 @@ TEST_CASE("pose: bounds are those of the turned and moved box, infinite where th
   pose.angle = 0.25 * std::numbers::pi;
   pose.move = Vec3d(0.0, 0.0, 5.0);
   const openvdb::BBoxd bounds = boundsAt({Vec3d(0.0, -1.0, 0.0), Vec3d(2.0, 1.0, 1.0)}, pose);
-  const double half = std::numbers::sqrt2;
-  CHECK((bounds.min() - Vec3d(1.0 - half, -half, 5.0)).length() < 1e-9);
-  CHECK((bounds.max() - Vec3d(1.0 + half, half, 6.0)).length() < 1e-9);
+  const double halfDiagonal = std::numbers::sqrt2;
+  CHECK((bounds.min() - Vec3d(1.0 - halfDiagonal, -halfDiagonal, 5.0)).length() < 1e-9);
+  CHECK((bounds.max() - Vec3d(1.0 + halfDiagonal, halfDiagonal, 6.0)).length() < 1e-9);
   CHECK(boundsAt({Vec3d(0.0, 0.0, -kForever), Vec3d(1.0)}, pose).min().z() == -kForever);
-  CHECK((pose.directionToWorld(Vec3d(1.0, 0.0, 0.0)) - Vec3d(0.5 * half, 0.5 * half, 0.0)).length() < 1e-12);
+  CHECK((pose.directionToWorld(Vec3d(1.0, 0.0, 0.0)) - Vec3d(0.5 * halfDiagonal, 0.5 * halfDiagonal, 0.0))
+            .length() < 1e-12);
 }
 
 TEST_CASE("pose: what gets into a box is what its inverse motion sweeps", "[sim]") {
