@@ -3,8 +3,13 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <fstream>
+#include <mutex>
+#include <set>
 #include <system_error>
 
 namespace fluidtex::tools {
@@ -13,8 +18,48 @@ namespace {
 
 constexpr const char* kPrefix = ".tmp-";
 
+// ".tmp-MACHINE-": without a - in it, so that no other machine's begins so.
+const std::string& prefixOfMachine() {
+  static const std::string prefix = [] {
+    constexpr std::size_t kLongest = 30;
+    char name[256] = "";
+    gethostname(name, sizeof name - 1);
+    std::string machine = std::string(name).substr(0, kLongest);
+    for (char& c : machine)
+      if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+    return kPrefix + machine + "-";
+  }();
+  return prefix;
+}
+
 fs::path temporaryName(const fs::path& file) {
-  return file.parent_path() / (kPrefix + file.filename().string());
+  return file.parent_path() / (prefixOfMachine() + std::to_string(getpid()) + "-" + file.filename().string());
+}
+
+// Whether this is the temporary name of a process of this machine that has ended.
+bool isLeftover(const std::string& name) {
+  const std::string& prefix = prefixOfMachine();
+  if (!name.starts_with(prefix)) return false;
+  pid_t process = 0;
+  const char* end = name.data() + name.size();
+  const auto [after, error] = std::from_chars(name.data() + prefix.size(), end, process);
+  return error == std::errc() && after != end && *after == '-' && process > 0 && kill(process, 0) != 0 &&
+         errno == ESRCH;
+}
+
+template <typename Which>
+void removeFrom(const fs::path& folder, const Which& which) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (which(entry.path().filename().string())) fs::remove_all(entry.path(), error);
+}
+
+// Once a folder: while this process writes there, nobody else is likely to be killed there.
+void clearLeftovers(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::set<fs::path> cleared;
+  const std::lock_guard lock(mutex);
+  if (cleared.insert(fs::absolute(folder)).second) removeFrom(folder, isLeftover);
 }
 
 [[noreturn]] void fail(const fs::path& file, const char* what) {
@@ -49,8 +94,9 @@ void guarded(const fs::path& temporary, const std::function<void()>& work) {
 
 void writeAtomically(const fs::path& file, const std::function<void(const fs::path&)>& write) {
   fs::create_directories(folderOf(file));
+  clearLeftovers(folderOf(file));
   const fs::path temporary = temporaryName(file);
-  fs::remove_all(temporary);
+  fs::remove_all(temporary);  // of an earlier process with this number
   guarded(temporary, [&] {
     write(temporary);
     flush(temporary);
@@ -60,9 +106,11 @@ void writeAtomically(const fs::path& file, const std::function<void(const fs::pa
 }
 
 void writeFolderAtomically(const fs::path& folder, const std::function<void(const fs::path&)>& write) {
+  fs::create_directories(folderOf(folder));
+  clearLeftovers(folderOf(folder));
   const fs::path temporary = temporaryName(folder);
   fs::remove_all(temporary);
-  fs::create_directories(temporary);
+  fs::create_directory(temporary);
   guarded(temporary, [&] {
     write(temporary);
     for (const auto& entry : fs::directory_iterator(temporary)) flush(entry.path());
@@ -75,7 +123,8 @@ void writeFolderAtomically(const fs::path& folder, const std::function<void(cons
 
 void removeFolderAtomically(const fs::path& folder) {
   if (!fs::exists(fs::symlink_status(folder))) return;
-  const fs::path removed = folder.parent_path() / (kPrefix + ("old-" + folder.filename().string()));
+  clearLeftovers(folderOf(folder));
+  const fs::path removed = temporaryName(folder.parent_path() / ("old-" + folder.filename().string()));
   fs::remove_all(removed);
   fs::rename(folder, removed);
   fs::remove_all(removed);
@@ -92,10 +141,21 @@ void writeTextAtomically(const fs::path& file, std::string_view text) {
   writeAtomically(file, [&](const fs::path& temporary) { writeBytes(temporary, text); });
 }
 
+void withTemporaryFolder(const fs::path& folder, const std::string& name,
+                         const std::function<void(const fs::path&)>& work) {
+  fs::create_directories(folder);
+  clearLeftovers(folder);
+  const fs::path temporary = temporaryName(folder / name);
+  fs::remove_all(temporary);
+  guarded(temporary, [&] {
+    fs::create_directory(temporary);
+    work(temporary);
+  });
+  fs::remove_all(temporary);
+}
+
 void removeTemporaries(const fs::path& folder) {
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.path().filename().string().starts_with(kPrefix)) fs::remove_all(entry.path(), error);
+  removeFrom(folder, [](const std::string& name) { return name.starts_with(kPrefix); });
 }
 
 }  // namespace fluidtex::tools

@@ -1,5 +1,6 @@
 #include "tools/frames/earlier_exports.h"
 
+#include "tools/base/atomic_file.h"
 #include "tools/base/errors.h"
 #include "tools/base/fingerprint.h"
 #include "tools/run_folder/journal.h"
@@ -18,14 +19,13 @@ std::vector<Format> otherwiseNow(const fs::path& out, int frame, const Exports& 
     return format == Format::ply || !isWhole(journal, out, frameFile(format, frame));
   });
   if (whole.formats.empty()) return {};
-  const fs::path tried = out / ".tmp-exports";
-  fs::remove_all(tried);
-  writeFrameExports(out, frame, whole, color, tried);
-  std::erase_if(whole.formats, [&](Format format) {
-    const std::string name = frameFile(format, frame);
-    return fingerprintOf(out / name) == fingerprintOf(tried / name);
+  withTemporaryFolder(out, "exports", [&](const fs::path& tried) {
+    writeFrameExports(out, frame, whole, color, tried);
+    std::erase_if(whole.formats, [&](Format format) {
+      const std::string name = frameFile(format, frame);
+      return fingerprintOf(out / name) == fingerprintOf(tried / name);
+    });
   });
-  fs::remove_all(tried);
   return whole.formats;
 }
 
