@@ -1,9 +1,11 @@
-// make_exemplars FOLDER: writes the example images that ship with the scenes into FOLDER.
+// make_exemplars FOLDER [WIDTH]: writes the example images that ship with the scenes into FOLDER; with a
+// WIDTH the green scales alone, green_scales_WIDTH.png: the same picture, so many pixels wide.
 #include "scenes/exemplars/foam.h"
 #include "scenes/exemplars/lava.h"
 #include "scenes/exemplars/scales.h"
 #include "scenes/write_png.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 
@@ -22,12 +24,19 @@ bool write(const std::string& file, int size, const std::vector<std::uint8_t>& p
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2 || !std::filesystem::is_directory(argv[1])) {
-    std::cerr << "usage: make_exemplars FOLDER, for example make_exemplars scenes/exemplars\n";
+  const int width = argc == 3 ? std::atoi(argv[2]) : 0;
+  if (argc < 2 || argc > 3 || (argc == 3 && (width < 1 || width > 8192)) ||
+      !std::filesystem::is_directory(argv[1])) {
+    std::cerr << "usage: make_exemplars FOLDER [WIDTH], for example make_exemplars scenes/exemplars\n";
     return 1;
   }
   const std::filesystem::path folder = argv[1];
-  const fluidtex::exemplars::Scales scales;
+  fluidtex::exemplars::Scales scales;
+  if (width > 0) {
+    scales.size = width;
+    const std::string name = "green_scales_" + std::to_string(width) + ".png";
+    return write((folder / name).string(), width, fluidtex::exemplars::makeGreenScales(scales)) ? 0 : 2;
+  }
   const fluidtex::exemplars::Lava lava;
   const fluidtex::exemplars::CoolingLava cooling = fluidtex::exemplars::makeCoolingLava();
   const fluidtex::exemplars::FoamyWater water;
