@@ -5,6 +5,7 @@
 #include "caches/liquid/read_frame.h"
 #include "caches/liquid/survey.h"
 #include "tools/benchmarks/measure.h"
+#include "tools/benchmarks/temporary_folder.h"
 
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
@@ -12,7 +13,6 @@
 #include <zlib.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -30,21 +30,6 @@ using openvdb::Vec3f;
 constexpr int kFrames = 5;
 constexpr double kRate = 24.0;       // frames a second
 const Vec3d kDrift(1.3, 0.4, -0.7);  // m/s
-
-struct Folder {
-  fs::path path;
-
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "fluidtex-bench-XXXXXX").string();
-    path = mkdtemp(pattern.data());
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-};
 
 // A ball of radius 1 m with waves of several lengths, which drifts: an octahedron, each of whose sides is a
 // lattice of `side` triangles an edge.
@@ -144,7 +129,7 @@ caches::Cache cacheIn(const fs::path& folder, int triangles) {
 // On all threads.
 void frame(benchmark::State& state, int triangles) {
   openvdb::initialize();
-  const Folder folder;
+  const TemporaryFolder folder;
   const caches::Cache cache = cacheIn(folder.path, triangles);
   for ([[maybe_unused]] auto _ : state) {
     caches::CachedFlow flow(cache);

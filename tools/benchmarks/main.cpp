@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   registerSurface();
   registerSynthesis();
   registerTransport();
+  registerOutput();
   registerWindowSearch();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

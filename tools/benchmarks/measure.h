@@ -46,6 +46,7 @@ void registerCacheFrames();
 void registerDamBreak();
 void registerPressure();
 void registerMemory();
+void registerOutput();
 void registerScaling();
 void registerSurface();
 void registerSynthesis();

@@ -73,18 +73,6 @@ void firstFrame(benchmark::State& state, int points, int size) {
   }
 }
 
-// A level sheet that is drawn out evenly, as in scenes/flows/stretch.toml, on as many cells as points along a
-// side.
-scenes::Scene stretchedSheet(int points) {
-  scenes::Scene scene;
-  scene.sim.size = {1.5, 1.5, 0.4};
-  scene.sim.resolution = std::max(48, int(std::sqrt(0.5 * points)));
-  scene.sim.liquid.push_back({{sim::Box{{-0.5, -0.5, 0.16}, {2.0, 2.0, 0.24}}}});
-  scene.motion.flow = sim::MotionKind::stretch;
-  scene.texture.points = points;
-  return scene;
-}
-
 void laterFrames(benchmark::State& state, int points, int size) {
   const scenes::Scene scene = stretchedSheet(points);
   pipeline::Texturing texturing = pipeline::makeTexturing(

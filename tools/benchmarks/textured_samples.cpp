@@ -6,6 +6,9 @@
 #include "texture/orientation/orient.h"
 #include "tools/benchmarks/moving_surfaces.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace fluidtex::benchmarks {
 
 texture::Image scales(int size) {
@@ -29,6 +32,16 @@ texture::Surface sphere(int points, int levels) {
       texture::prepareSurface(*moving.before, moving.spacing, texture::Seeds{}, levels, {});
   texture::orient(surface, {});
   return surface;
+}
+
+scenes::Scene stretchedSheet(int points) {
+  scenes::Scene scene;
+  scene.sim.size = {1.5, 1.5, 0.4};
+  scene.sim.resolution = std::max(48, int(std::sqrt(0.5 * points)));
+  scene.sim.liquid.push_back({{sim::Box{{-0.5, -0.5, 0.16}, {2.0, 2.0, 0.24}}}});
+  scene.motion.flow = sim::MotionKind::stretch;
+  scene.texture.points = points;
+  return scene;
 }
 
 }  // namespace fluidtex::benchmarks

@@ -1,6 +1,8 @@
-// What the benchmarks of synthesis are made from: an exemplar of any size, and a surface to put it on.
+// What the benchmarks of synthesis and output are made from: an exemplar of any size, and surfaces to put it
+// on.
 #pragma once
 
+#include "scenes/scene.h"
 #include "texture/exemplar/exemplar.h"
 #include "texture/surface.h"
 
@@ -11,5 +13,9 @@ texture::Image scales(int size);
 
 // An oriented sphere of about so many points, with so many levels.
 texture::Surface sphere(int points, int levels);
+
+// A level sheet that is drawn out evenly, as in scenes/flows/stretch.toml, on as many cells as points along a
+// side.
+scenes::Scene stretchedSheet(int points);
 
 }  // namespace fluidtex::benchmarks
