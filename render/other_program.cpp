@@ -43,15 +43,29 @@ bool take(int descriptor, std::string& text) {
   return count > 0 || (count < 0 && errno == EINTR);
 }
 
-// Feeds the input and gathers what comes, in whichever order the other program likes, until it says no more.
+// Takes the whole lines off the text and gives them to `line`.
+void tellLines(std::string& text, const std::function<void(const std::string&)>& line) {
+  if (!line) return;
+  for (std::size_t end = text.find('\n'); end != text.npos; end = text.find('\n')) {
+    const std::string whole = text.substr(0, end);
+    text.erase(0, end + 1);
+    line(whole);
+  }
+}
+
+// Feeds the input and gathers what comes, in whichever order the other program likes, until it says no more,
+// or is to be stopped.
 void converse(Descriptor& feed, const std::string& input, Descriptor& output, Descriptor& complaints,
-              Outcome& outcome) {
+              const Meanwhile& meanwhile, Outcome& outcome) {
+  constexpr int kTenthOfSecond = 100, kForever = -1;  // ms
   std::size_t fed = 0;
   while (output.number >= 0 || complaints.number >= 0) {
     // A number below 0 is passed over.
     std::array<pollfd, 3> ends{
         {{feed.number, POLLOUT, 0}, {output.number, POLLIN, 0}, {complaints.number, POLLIN, 0}}};
-    if (poll(ends.data(), ends.size(), -1) < 0) {
+    const int ready = poll(ends.data(), ends.size(), meanwhile.stop ? kTenthOfSecond : kForever);
+    if (meanwhile.stop && meanwhile.stop()) return;
+    if (ready < 0) {
       if (errno == EINTR) continue;
       break;
     }
@@ -64,12 +78,34 @@ void converse(Descriptor& feed, const std::string& input, Descriptor& output, De
     }
     if (ends[1].revents != 0 && !take(output.number, outcome.output)) output.shut();
     if (ends[2].revents != 0 && !take(complaints.number, outcome.complaints)) complaints.shut();
+    tellLines(outcome.output, meanwhile.line);
   }
 }
 
+// A process of ours that is waited for by scope, and killed before that unless it has ended well.
+struct Child {
+  pid_t number = 0;
+  bool ended = false;
+  Child() = default;
+  ~Child() {
+    if (number > 0 && !ended) wait(true);
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  int wait(bool killed) {
+    if (killed) kill(number, SIGKILL);
+    int status = 0;
+    while (waitpid(number, &status, 0) < 0 && errno == EINTR) {
+    }
+    ended = true;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+};
+
 }  // namespace
 
-Outcome runOther(const std::vector<std::string>& arguments, const std::string& input) {
+Outcome runOther(const std::vector<std::string>& arguments, const std::string& input,
+                 const Meanwhile& meanwhile) {
   const auto fail = [&](int error) {
     throw std::runtime_error(arguments[0] + " could not be started: " + std::strerror(error));
   };
@@ -106,19 +142,19 @@ Outcome runOther(const std::vector<std::string>& arguments, const std::string& i
   sigaddset(&usual, SIGPIPE);
   posix_spawnattr_setsigdefault(&attributes, &usual);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-  pid_t child = 0;
-  const int error = posix_spawnp(&child, argv[0], &actions, &attributes, argv.data(), environ);
+  Child child;
+  const int error = posix_spawnp(&child.number, argv[0], &actions, &attributes, argv.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   for (Channel* channel : {&in, &out, &err}) channel->there.shut();
-  if (error != 0) fail(error);
+  if (error != 0) {
+    child.ended = true;
+    fail(error);
+  }
 
   Outcome outcome;
-  converse(in.here, input, out.here, err.here, outcome);
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  outcome.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  converse(in.here, input, out.here, err.here, meanwhile, outcome);
+  outcome.exitCode = child.wait(meanwhile.stop && meanwhile.stop());
   return outcome;
 }
 

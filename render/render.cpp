@@ -11,7 +11,7 @@ namespace {
 // bent smoothly into what is left below 1, so that highlights do not burn out.
 constexpr float kKnee = 0.8f;
 
-float develop(float radiance, float exposure) {
+float developed(float radiance, float exposure) {
   const float x = radiance * exposure;
   if (!(x > kKnee)) return std::isfinite(x) ? x : 0.0f;
   return kKnee + (1.0f - kKnee) * (1.0f - std::exp(-(x - kKnee) / (1.0f - kKnee)));
@@ -19,11 +19,14 @@ float develop(float radiance, float exposure) {
 
 }  // namespace
 
+void develop(Picture& picture, double exposure) {
+  for (float& value : picture.rgb) value = developed(value, static_cast<float>(exposure));
+}
+
 Picture render(const texture::TexturedSurface& surface, const std::vector<Solid>& solids,
                const Options& options, const View& view, const std::function<void(double)>& progress) {
   Picture picture = traceRadiance(surface, solids, options, view, progress);
-  const float exposure = static_cast<float>(options.exposure);
-  for (float& value : picture.rgb) value = develop(value, exposure);
+  develop(picture, options.exposure);
   return picture;
 }
 

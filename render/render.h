@@ -43,6 +43,10 @@ struct View {
 Picture render(const texture::TexturedSurface& surface, const std::vector<Solid>& solids,
                const Options& options, const View& view, const std::function<void(double)>& progress = {});
 
+// Makes radiance, linear and without exposure, the values of a picture, 0..1: what is brighter than 0.8 is
+// bent to stay below 1. render() does so itself.
+void develop(Picture& picture, double exposure);
+
 // Text that is kept in a picture's file, UTF-8: a PNG keyword ("Title", of 79 Latin letters at most) and what
 // it says.
 struct PictureNote {

@@ -5,6 +5,7 @@
 #include "tools/base/console.h"
 #include "tools/base/errors.h"
 #include "tools/commands.h"
+#include "tools/draw_by_cycles.h"
 #include "tools/output/contact_sheet.h"
 #include "tools/run_folder/cache_folder.h"
 
@@ -36,7 +37,7 @@ struct Helper {
 const std::vector<Helper> kOptional = {
     {{"gnuplot", "--version"}, "plots of fluidtex validate --plots", "gnuplot-nox"},
     {{"python3", "--version"}, "tools/measure_synthesis, --docs of tools/bench and others", "python3"},
-    {{"blender", "--version"}, "caches to try, renders by Cycles", "blender"},
+    {{"blender", "--version"}, "fluidtex render --cycles, caches to try", "blender"},
     {{"sbatch", "--version"}, "tools/farm", "slurm-client"},
     {{"clang", "--version"}, "tools/fuzz", "clang"},
 };
@@ -101,6 +102,7 @@ class Doctor {
     needed("keeps tables", "make the folder writable, or set XDG_CACHE_HOME; runs begin slower without it",
            [&] { keepsTables(); });
     for (const Helper& helper : kOptional) optional(helper);
+    scripts();
     return m_good ? kDone : kFailed;
   }
 
@@ -158,6 +160,14 @@ class Doctor {
     }
     line("missing", helper.version[0],
          fmt::format("not needed for runs; {}: apt-get install {}", helper.use, helper.package));
+  }
+
+  static void scripts() {
+    try {
+      line("ok", "scripts for Blender", blenderScripts().string());
+    } catch (const std::runtime_error& error) {
+      line("missing", "scripts for Blender", fmt::format("not needed for runs; {}", error.what()));
+    }
   }
 
   Scratch m_scratch;

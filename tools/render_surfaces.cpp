@@ -1,4 +1,5 @@
-// fluidtex render SCENE --from DIR: pictures and video of surfaces that are there already.
+// fluidtex render SCENE --from DIR: pictures and video of surfaces that are there already, by the program's
+// own path tracer or by Blender's.
 #include "render/bump.h"
 #include "render/frame_name.h"
 #include "render/render.h"
@@ -6,26 +7,37 @@
 #include "tools/base/atomic_file.h"
 #include "tools/base/console.h"
 #include "tools/base/errors.h"
+#include "tools/base/stop_signal.h"
 #include "tools/base/work.h"
 #include "tools/common_options.h"
+#include "tools/draw_by_cycles.h"
 #include "tools/frames/color_between.h"
 #include "tools/frames/picture_notes.h"
+#include "tools/frames/progress.h"
 #include "tools/frames/visible_solids.h"
 #include "tools/output/ply.h"
 #include "tools/output/read_ply.h"
 #include "tools/report/write_report.h"
+#include "tools/run_folder/earlier_run.h"
 #include "tools/run_folder/finished_run.h"
 #include "tools/run_folder/out_folder.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <map>
 #include <memory>
 
 namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
+
+// With which an interrupted call goes on.
+constexpr const char* kOnward = "--missing";
 
 // The run's own exemplar; the scene says only in what picture of it colours are looked up.
 texture::Options optionsOf(const FinishedRun& run, texture::Options options) {
@@ -39,10 +51,160 @@ struct RenderOptions {
   fs::path from;
   bool missing = false;  // only pictures that are not there yet
   bool part = false;     // beside other processes, which draw other frames into the same folder
+  bool byCycles = false;
+  CyclesOptions cycles;
+  std::vector<std::string> maps;  // KIND=IMAGE, of cycles
+  fs::path blend;                 // nothing is drawn, but saved for Blender
 };
+
+// Frames to be drawn, all of which have a surface.
+struct Frames {
+  int first = 1, last = 0;
+  std::vector<int> drawn;  // those that are
+};
+
+fs::path surfaceOf(const fs::path& from, int frame) {
+  return from / "surface" / (render::frameName(frame) + ".ply");
+}
 
 fs::path pictureOf(const fs::path& out, int frame) {
   return out / "frames" / (render::frameName(frame) + ".png");
+}
+
+Frames framesOf(const RenderOptions& wanted, const scenes::Scene& scene, const fs::path& out) {
+  Frames frames;
+  parseFrames(wanted.common.frames, scene, frames.first, frames.last);
+  for (int frame = frames.first; frame <= frames.last; ++frame) {
+    if (!fs::exists(surfaceOf(wanted.from, frame)))
+      throw UsageError(fmt::format("{}: is not there; give --frames of which there are surfaces",
+                                   surfaceOf(wanted.from, frame).string()));
+    if (!wanted.missing || !fs::exists(pictureOf(out, frame))) frames.drawn.push_back(frame);
+  }
+  return frames;
+}
+
+// Of a liquid in Cycles' sense, by what they say.
+std::map<std::string, fs::path> mapsOf(const std::vector<std::string>& texts) {
+  std::map<std::string, fs::path> maps;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    const std::string kind = text.substr(0, equals);
+    if (equals == text.npos || equals + 1 == text.size() ||
+        std::find(std::begin(kMapsOfCycles), std::end(kMapsOfCycles), kind) == std::end(kMapsOfCycles))
+      throw UsageError(fmt::format("--map {}: is no map; write KIND=IMAGE, where KIND is one of {}", text,
+                                   fmt::join(kMapsOfCycles, ", ")));
+    if (!maps.emplace(kind, text.substr(equals + 1)).second)
+      throw UsageError(fmt::format("--map {}: there is a map of {} already", text, kind));
+    if (!fs::exists(maps[kind])) throw UsageError(fmt::format("--map {}: there is no such picture", text));
+  }
+  return maps;
+}
+
+// Draws pictures one after the other, and tells of them.
+class Drawing {
+ public:
+  Drawing(const RenderOptions& wanted, const scenes::Scene& scene, const Frames& frames, const fs::path& out,
+          const std::atomic<bool>& stop)
+      : m_wanted(wanted),
+        m_scene(scene),
+        m_frames(frames),
+        m_out(out),
+        m_stop(stop),
+        m_progress(frames.last - int(frames.drawn.size()) + 1, frames.last, wanted.common.quiet) {}
+
+  void run() {
+    nowAt(kOnPicture);
+    if (m_frames.drawn.empty()) return;
+    if (m_wanted.byCycles)
+      drawElsewhere();
+    else
+      drawHere();
+  }
+
+ private:
+  void drawHere() {
+    const fs::path& from = m_wanted.from;
+    VisibleSolids solids(m_scene.sim);
+    // Coordinates count in pixels of the exemplar, whose size does not matter to vertices' colours.
+    int width = 1, height = 1;
+    std::optional<texture::Detail> detail;
+    if (m_scene.texture.exemplar.between != texture::Between::points) {
+      const FinishedRun run = openRun(from, {});
+      width = run.color.width, height = run.color.height;
+      if (run.looksUp) detail = detailOf(optionsOf(run, m_scene.texture));
+    }
+    for (const int frame : m_frames.drawn) {
+      nowAt(kOnPicture, frame);
+      texture::TexturedSurface surface = readPly(surfaceOf(from, frame), width, height);
+      if (m_scene.render.bump.any() && !surface.empty()) {
+        if (!hasMap(surface, m_scene.render.bump))
+          throw UsageError(
+              fmt::format("{0}: has no {1} of one number or of normals, which render.bump.map names; "
+                          "fluidtex apply {2} {1}=IMAGE adds it from a grey picture",
+                          surfaceOf(from, frame).string(), m_scene.render.bump.map, from.string()));
+        surface.spacing = spacingOf(from, surface, frame);
+      }
+      texture::Joints joints;
+      if (detail && !surface.empty()) {
+        if (lacksGradients(surface)) {
+          surface.spacing = spacingOf(from, surface, frame);
+          texture::recoverGradients(detail->toroidal, surface);
+        }
+        joints = texture::findJoints(surface, detail->toroidal);
+      }
+      const double turned = m_scene.frames > 1 ? double(frame - 1) / (m_scene.frames - 1) : 0.0;
+      take(frame, render::render(surface, solids.at((frame - 1) / m_scene.sim.frameRate), m_scene.render,
+                                 {m_scene.sim.size, turned, frame, colorBetween(detail, surface, joints),
+                                  detail && detail->seeThrough, m_scene.domainOrigin},
+                                 [&](double part) { show(frame, part); }));
+    }
+  }
+
+  void drawElsewhere() {
+    const auto develop = [&](int frame, render::Picture picture) {
+      render::develop(picture, m_scene.render.exposure);
+      take(frame, picture);
+    };
+    withTemporaryFolder(m_out / "frames", "cycles", [&](const fs::path& scratch) {
+      drawByCycles(m_scene, m_wanted.from, m_frames.drawn, m_wanted.cycles, m_wanted.common.threads, scratch,
+                   {develop, [&](int frame, double part) { m_progress.update(frame, "render", part); },
+                    [&] { return m_stop.load(); }});
+    });
+  }
+
+  void show(int frame, double part) {
+    if (m_stop) throw Interrupted(kOnward);
+    m_progress.update(frame, "render", part);
+  }
+
+  void take(int frame, const render::Picture& picture) {
+    writeAtomically(pictureOf(m_out, frame),
+                    [&](const fs::path& file) { writePng(picture, file, pictureNotes(m_scene, frame)); });
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> seconds = now - m_begun;
+    m_begun = now;
+    m_progress.frameDone(frame, fmt::format("{:.2f} s", seconds.count()));
+  }
+
+  const RenderOptions& m_wanted;
+  const scenes::Scene& m_scene;
+  const Frames& m_frames;
+  const fs::path& m_out;
+  const std::atomic<bool>& m_stop;
+  Progress m_progress;
+  std::chrono::steady_clock::time_point m_begun = std::chrono::steady_clock::now();
+};
+
+void writeVideo(const scenes::Scene& scene, const Frames& frames, const fs::path& out, const fs::path& video,
+                const std::atomic<bool>& stop) {
+  try {
+    writeAtomically(video, [&](const fs::path& file) {
+      render::writeVideo(out / "frames", frames.first, frames.last, scene.sim.frameRate, file);
+    });
+  } catch (const std::runtime_error&) {
+    if (stop) throw Interrupted(kOnward);  // Ctrl-C reaches the encoder too, which then fails
+    throw;
+  }
 }
 
 void renderSurfaces(const RenderOptions& wanted) {
@@ -52,67 +214,60 @@ void renderSurfaces(const RenderOptions& wanted) {
     throw UsageError(
         fmt::format("--from {}: there is no such folder; give that of a run of fluidtex run", from.string()));
   const scenes::Scene scene = loadScene(options);
-  int first = 1, last = 0;
-  parseFrames(options.frames, scene, first, last);
-  if (last == 0) last = scene.frames;
-  const auto surfaceOf = [&](int frame) { return from / "surface" / (render::frameName(frame) + ".ply"); };
-  for (int frame = first; frame <= last; ++frame)
-    if (!fs::exists(surfaceOf(frame)))
-      throw UsageError(fmt::format("{}: is not there; give --frames of which there are surfaces",
-                                   surfaceOf(frame).string()));
   const fs::path out = options.out.empty() ? fs::path("out") / scene.name : options.out;
+  const Frames frames = framesOf(wanted, scene, out);
+  if (!wanted.blend.empty()) {
+    saveForBlender(scene, from, wanted.cycles, wanted.blend);
+    if (!options.quiet) say("done: {}\n", wanted.blend.string());
+    return;
+  }
   const OutFolder folder(out, wanted.part ? Holding::together : Holding::alone);
+  if (!wanted.part) removeLeftovers(out);
+  const std::atomic<bool>& stop = stopOnSignals(kOnward);
   const tbb::global_control threads(
       tbb::global_control::max_allowed_parallelism,
       std::size_t(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()));
-  VisibleSolids solids(scene.sim);
-  // Coordinates count in pixels of the exemplar, whose size does not matter to vertices' colours.
-  int width = 1, height = 1;
-  std::optional<texture::Detail> detail;
-  if (scene.texture.exemplar.between != texture::Between::points) {
-    const FinishedRun run = openRun(from, {});
-    width = run.color.width, height = run.color.height;
-    if (run.looksUp) detail = detailOf(optionsOf(run, scene.texture));
-  }
-  for (int frame = first; frame <= last; ++frame) {
-    if (wanted.missing && fs::exists(pictureOf(out, frame))) continue;
-    texture::TexturedSurface surface = readPly(surfaceOf(frame), width, height);
-    if (scene.render.bump.any() && !surface.empty()) {
-      if (!hasMap(surface, scene.render.bump))
-        throw UsageError(
-            fmt::format("{0}: has no {1} of one number or of normals, which render.bump.map names; "
-                        "fluidtex apply {2} {1}=IMAGE adds it from a grey picture",
-                        surfaceOf(frame).string(), scene.render.bump.map, from.string()));
-      surface.spacing = spacingOf(from, surface, frame);
-    }
-    texture::Joints joints;
-    if (detail && !surface.empty()) {
-      if (lacksGradients(surface)) {
-        surface.spacing = spacingOf(from, surface, frame);
-        texture::recoverGradients(detail->toroidal, surface);
-      }
-      joints = texture::findJoints(surface, detail->toroidal);
-    }
-    const double progress = scene.frames > 1 ? double(frame - 1) / (scene.frames - 1) : 0.0;
-    nowAt(kOnPicture, frame);
-    const render::Picture picture =
-        render::render(surface, solids.at((frame - 1) / scene.sim.frameRate), scene.render,
-                       {scene.sim.size, progress, frame, colorBetween(detail, surface, joints),
-                        detail && detail->seeThrough, scene.domainOrigin});
-    writeAtomically(pictureOf(out, frame),
-                    [&](const fs::path& file) { writePng(picture, file, pictureNotes(scene, frame)); });
-    if (!options.quiet) say("frame {}\n", frame);
-  }
+  Drawing(wanted, scene, frames, out, stop).run();
   if (wanted.part) return;
   const fs::path video = out / (scene.name + ".mp4");
-  writeAtomically(video, [&](const fs::path& file) {
-    render::writeVideo(out / "frames", first, last, scene.sim.frameRate, file);
-  });
+  writeVideo(scene, frames, out, video, stop);
   if (!options.quiet) say("done: {}\n", video.string());
   // Surfaces alone, without a run's figures, have no page.
   if (options.noReport || !fs::exists(from / "run.json")) return;
   writeReport({from, out});
   if (!options.quiet) say("report: {}\n", (out / "report.html").string());
+}
+
+void addCyclesOptions(CLI::App& command, RenderOptions& options) {
+  CLI::Option* cycles =
+      command.add_flag("--cycles", options.byCycles,
+                       "Draw by Blender's path tracer, Cycles, which looks the exemplar up at every place");
+  const auto add = [&](const char* name, auto& value, const char* text, const char* type) {
+    return command.add_option(name, value, text)->type_name(type)->needs(cycles);
+  };
+  add("--shutter", options.cycles.shutter,
+      "With --cycles: how many frames it is open, for motion blur (default: 0, none)", "FRAMES")
+      ->check(CLI::NonNegativeNumber);
+  add("--shader", options.cycles.shader,
+      "With --cycles: coat, as the program's own pictures have it (default), or principled, Blender's own",
+      "NAME")
+      ->check(CLI::IsMember({"coat", "principled"}));
+  add("--map", options.maps,
+      "With --cycles: a picture over the exemplar, of any size, for color, roughness, normal, bump, "
+      "displacement "
+      "or alpha; may be repeated",
+      "KIND=IMAGE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add("--height", options.cycles.height,
+      "With --map of bump or displacement: of white above black, metres (default: 0.01)", "M");
+  add("--blend", options.blend,
+      "With --cycles: save it all as a file of Blender's, NAME.blend, and draw nothing", "FILE")
+      ->check(CLI::Validator(
+          [](const std::string& file) {
+            return file.ends_with(".blend") ? std::string() : file + ": does not end in .blend";
+          },
+          "", "blend"));
 }
 
 }  // namespace
@@ -129,10 +284,17 @@ void addRender(CLI::App& app, int& exitCode) {
       "--part", options->part,
       "Draw beside other processes that draw other --frames into the same folder; pictures only");
   command->add_flag("--no-report", options->common.noReport, "Write no report.html");
+  addCyclesOptions(*command, *options);
   command->footer(
-      "Example:\n  fluidtex render scenes/dam_break.toml --from out/dam_break --out out/closer --set "
-      "camera.fov=15");
-  command->callback([options, &exitCode] { exitCode = guarded([&] { renderSurfaces(*options); }); });
+      "Examples:\n"
+      "  fluidtex render scenes/dam_break.toml --from out/dam_break --out out/closer --set camera.fov=15\n"
+      "  fluidtex render scenes/dam_break.toml --from out/dam_break --out out/cycles --cycles --shutter 0.5");
+  command->callback([options, &exitCode] {
+    exitCode = guarded([&] {
+      options->cycles.maps = mapsOf(options->maps);
+      renderSurfaces(*options);
+    });
+  });
 }
 
 }  // namespace fluidtex::tools

@@ -32,7 +32,7 @@ double rateOf(const fs::path& run) {
 
 void makeVideo(VideoOptions options) {
   fs::path pictures = fs::absolute(options.pictures).lexically_normal();
-  // "out/cycles/" and "out/cycles/." have an empty last name.
+  // "out/frames/" and "out/frames/." have an empty last name.
   if (!pictures.has_filename()) pictures = pictures.parent_path();
   const std::vector<int> frames = framesIn(pictures, ".png");
   if (frames.empty())
@@ -62,7 +62,7 @@ void addVideo(CLI::App& app, int& exitCode) {
                    "Frames a second (default: of the run in whose folder PICTURES lies)")
       ->type_name("N")
       ->check(CLI::Range(0.01, 1000.0));
-  command->footer("Example:\n  fluidtex video out/dam_break/cycles");
+  command->footer("Example:\n  fluidtex video out/dam_break/frames");
   command->callback([options, &exitCode] { exitCode = guarded([&] { makeVideo(*options); }); });
 }
 

@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import shutil
 import sys
 import unittest
 
@@ -16,7 +17,6 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..", "..", "tools", "blender")]
 import fluidtex
 import render as cycles
-import small_run
 import solids
 import stage
 from addon_tests import InBlender, render, run_tests
@@ -326,37 +326,80 @@ class Pictures(InBlender):
             json.dump({"scene": own, "frames": []}, report)
         return folder
 
-    def test_every_frame_becomes_a_picture(self):
-        folder = self.make_run()
-        cycles.main([folder, "--frames", "2:9", "--size", "90", "60", "--samples", "4", "--shutter", "0.5"])
-        self.assertEqual(sorted(os.listdir(os.path.join(folder, "cycles"))), ["0002.png", "0003.png"])
-        picture = os.path.join(folder, "cycles", "0002.png")
-        image = bpy.data.images.load(picture)
-        self.assertEqual((*image.size, image.channels), (90, 60, 4))
-        before = os.stat(picture).st_mtime_ns
-        cycles.main([folder, "--missing", "--size", "90", "60", "--samples", "1"])
-        self.assertEqual(
-            sorted(os.listdir(os.path.join(folder, "cycles"))), ["0001.png", "0002.png", "0003.png"]
-        )
-        self.assertEqual(os.stat(picture).st_mtime_ns, before)
+    def asked(self, folder, **more):
+        """What the program would ask for."""
+        with open(os.path.join(folder, "run.json")) as report:
+            own = json.load(report)["scene"]
+        return {
+            "run": folder,
+            "scene": own,
+            "origin": [0.0, 0.0, 0.0],
+            "frames": [1, 2, 3],
+            "pictures": self.folder,
+            "shutter": 0.0,
+            "shader": "coat",
+            "maps": {},
+            "height": None,
+            "blend": None,
+            **more,
+        }
 
-    def test_values_are_bent_as_in_the_runs_own_pictures(self):
-        light = np.array([0.0, 0.3, 0.64, 0.8, 2.0, np.nan])
-        bent = 0.8 + 0.2 * (1 - np.exp(-(1.25 * np.array([0.8, 2.0]) - 0.8) / 0.2))
-        np.testing.assert_allclose(
-            cycles.developed(light, 1.25, False),
-            small_run.encoded(np.array([0, 0.375, 0.8, *bent, 0])),
-            atol=1e-9,
-        )
-        np.testing.assert_allclose(
-            cycles.developed(light, 1.0, True)[3:5], small_run.encoded(np.array([0.8, 1.0])), atol=1e-9
-        )
+    def light(self, frame):
+        return np.fromfile(os.path.join(self.folder, f"{frame:04d}.light"), "<f4").reshape(48, 64, 3)
+
+    def test_every_frame_becomes_a_picture_of_the_scene_that_is_asked_for(self):
+        folder = self.make_run()
+        asked = self.asked(folder, frames=[2, 3], shutter=0.5)
+        asked["scene"]["render"].update(samples=4, ground=False)
+        cycles.draw(asked)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["0002.light", "0003.light", "light.exr", "run"])
+        picture = self.light(3)
+        self.assertGreater(np.abs(picture - self.light(2)).mean(), 0.001)
+        # Rows from the top: beside the tank there is the sky, and below the horizon no ground, as the run has it.
+        np.testing.assert_allclose(picture[-1, 0], (0.8, 0.7, 0.6), atol=0.01)
+        asked = self.asked(folder, frames=[3])
+        asked["scene"]["render"]["ground_color"] = [0.1, 0.1, 0.1]
+        cycles.draw(asked)
+        self.assertLess(self.light(3)[-1, 0].max(), 0.4)
+
+    def test_coat_and_relief_are_those_of_the_scene_that_is_asked_for(self):
+        folder = self.make_run()
+        asked = self.asked(folder)
+        asked["scene"]["render"].update(gloss=0.25, roughness=0.16, bump={"map": "height", "height": 2.0})
+        noise = os.path.join(folder, "noise.png")
+        asked["scene"]["texture"]["map"] = [{"name": "height", "file": noise}]
+        cycles.set_up(asked)
+        own = bpy.data.objects["small"].fluidtex
+        self.assertEqual(own.bump_map, noise)
+        nodes = bpy.data.objects["small"].data.materials[0].node_tree.nodes
+        film = next(node for node in nodes if node.type == "BSDF_GLOSSY")
+        self.assertAlmostEqual(film.inputs["Roughness"].default_value, 0.4, 6)
+        asked = self.asked(folder, maps={"bump": noise, "color": noise}, height=0.125)
+        cycles.set_up(asked)
+        own = bpy.data.objects["small"].fluidtex
+        self.assertEqual((own.bump_map, own.color_map), (noise, noise))
+        self.assertEqual(own.bump_distance, 0.125)
+
+    def test_the_finer_picture_is_that_of_the_scene_or_the_runs_own_copy_of_it(self):
+        folder = self.make_run()
+        copy = os.path.join(folder, "between.png")
+        shutil.copy(os.path.join(folder, "noise.png"), copy)
+        asked = self.asked(folder)
+        run = fluidtex.Run(folder)
+        self.assertEqual(cycles.maps_of(asked, run), {})
+        asked["scene"]["texture"].update(between="file", between_file="/pictures/fine.png")
+        self.assertEqual(cycles.maps_of(asked, run), {"color": "/pictures/fine.png"})
+        run.scene["texture"].update(between="file", between_file="/pictures/fine.png")
+        run.between = copy
+        self.assertEqual(cycles.maps_of(asked, run), {"color": copy})
+        asked["maps"] = {"color": "/mine.png"}
+        self.assertEqual(cycles.maps_of(asked, run), {"color": "/mine.png"})
 
     def test_the_scene_can_be_saved_instead(self):
         folder = self.make_run()
         file = os.path.join(folder, "scene.blend")
-        cycles.main([folder, "--blend", file])
-        self.assertFalse(os.path.exists(os.path.join(folder, "cycles")))
+        cycles.draw(self.asked(folder, blend=file))
+        self.assertEqual(os.listdir(self.folder), ["run"])
         bpy.ops.wm.open_mainfile(filepath=file)
         names = {thing.name for thing in bpy.data.objects}
         self.assertEqual(names, {"camera", "sun", "ground", "tank", "solid 0", "small"})
@@ -365,15 +408,12 @@ class Pictures(InBlender):
 
     def test_faults_are_told(self):
         folder = self.make_run()
-        for words, sentence in (
-            ([folder, "--frames", "7:9"], "from 1 to 3"),
-            ([folder, "--frames", "a"], "no range"),
-            ([folder, "--samples", "0"], "above 0"),
-            ([self.folder], "holds no surface"),
-            ([folder, "--bump", "nothing.png"], "is no picture"),
+        for more, sentence in (
+            ({"run": self.folder}, "holds no surface"),
+            ({"maps": {"bump": "/nothing.png"}}, "is no picture"),
         ):
             with self.assertRaisesRegex(fluidtex.Problem, sentence):
-                cycles.main(words)
+                cycles.draw(self.asked(folder, **more))
 
 
 if __name__ == "__main__":

@@ -184,14 +184,15 @@ class Farm(unittest.TestCase):
         out, plain = self.out("cycles"), self.out("plain_cycles")
         given = [*SHORT, "--set", "render.samples=2"]
         self.farm(SCENE, *given, "--cycles", "--chunk", "1", "--out", out)
-        self.plain_run(plain, *given)
+        self.plain_run(plain, *given, "--no-render")
         subprocess.run(
-            [os.path.join(ROOT, "tools", "render_cycles"), plain], check=True, stdout=subprocess.DEVNULL
+            [PROGRAM, "render", SCENE, *given, "--from", plain, "--out", plain, "--cycles", "--quiet"],
+            check=True,
         )
         self.wait_for_end()
         self.assertIn("drawn 2; done", self.farm("--status", out), self.words())
-        self.assert_same(os.path.join(out, "small"), contents(plain, "cycles"), 2)
-        self.assertTrue(os.path.exists(os.path.join(out, "small", "cycles.mp4")))
+        self.assert_same(os.path.join(out, "small"), contents(plain, "frames"), 2)
+        self.assertTrue(os.path.exists(os.path.join(out, "small", "small.mp4")))
 
     def test_what_waits_for_a_failed_job_is_cancelled_and_resume_goes_on(self):
         out, picture = self.out("failing"), self.out("my picture.png")

@@ -14,7 +14,12 @@ run(${CMAKE_COMMAND} --install "${BUILD}" --prefix "${WORK}/first")
 set(prefix "${WORK}/a place & more")
 file(RENAME "${WORK}/first" "${prefix}")
 
-run("${prefix}/bin/fluidtex" doctor)
+execute_process(COMMAND "${prefix}/bin/fluidtex" doctor OUTPUT_VARIABLE doctor COMMAND_ERROR_IS_FATAL ANY)
+message("${doctor}")
+string(FIND "${doctor}" "${prefix}/share/fluidtex/blender\n" scripts)
+if(scripts EQUAL -1)
+  message(FATAL_ERROR "What Blender runs is not taken from where it was installed.")
+endif()
 run("${prefix}/bin/fluidtex" check "${prefix}/share/fluidtex/scenes/dam_break.toml")
 foreach(file man/man1/fluidtex.1 bash-completion/completions/fluidtex zsh/site-functions/_fluidtex
     fish/vendor_completions.d/fluidtex.fish)

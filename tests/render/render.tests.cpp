@@ -100,6 +100,14 @@ TEST_CASE("render: exposure scales, and only highlights are bent", "[render]") {
   }
 }
 
+TEST_CASE("develop: what another renderer gives is made as our own pictures are", "[render]") {
+  fluidtex::render::Picture picture{2, 1, {0.0f, 0.3f, 0.64f, 0.8f, 2.0f, NAN}};
+  develop(picture, 1.25);
+  const auto bent = [](double x) { return 0.8 + 0.2 * (1.0 - std::exp(-(1.25 * x - 0.8) / 0.2)); };
+  const double expected[] = {0.0, 0.375, 0.8, bent(0.8), bent(2.0), 0.0};
+  for (std::size_t k = 0; k < 6; ++k) CHECK(picture.rgb[k] == Approx(expected[k]).margin(1e-6));
+}
+
 TEST_CASE("render: a texture's mid green that faces the light looks mid green", "[render]") {
   Options options = smallPicture(9, 9, 64);
   options.surroundings.ground = options.surroundings.tank = false;

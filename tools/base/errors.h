@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <stdexcept>
+#include <string>
 
 namespace fluidtex::tools {
 
@@ -13,11 +14,11 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Stopped on request; the state of the last complete frame is on disk.
+// Stopped on request; what is finished is on disk. `onward`: the option with which the same command goes on.
 struct Interrupted : std::runtime_error {
-  Interrupted()
-      : std::runtime_error(
-            "interrupted; the same command with --resume goes on from the last finished frame") {}
+  explicit Interrupted(const std::string& onward = "--resume")
+      : std::runtime_error("interrupted; the same command with " + onward +
+                           " goes on from the last finished frame") {}
 };
 
 // Calls body. Prints an exception's sentence on stderr (for a scene one line per fault) and returns its exit

@@ -32,9 +32,9 @@ void onInterrupt(int) {
 
 }  // namespace
 
-const std::atomic<bool>& stopOnSignals() {
-  static const bool prepared = [] {
-    std::strncpy(sentence, Interrupted().what(), sizeof sentence - 2);
+const std::atomic<bool>& stopOnSignals(const std::string& onward) {
+  static const bool prepared = [&] {
+    std::strncpy(sentence, Interrupted(onward).what(), sizeof sentence - 2);
     std::strcat(sentence, "\n");
     sigevent event{};
     event.sigev_notify = SIGEV_SIGNAL;

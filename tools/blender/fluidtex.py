@@ -717,11 +717,11 @@ def _coat(nodes, color, roughness, normal, gloss):
     return mix.outputs[0]
 
 
-def make_material(liquid):
-    """Makes the material of an imported run anew, from the settings of its panel. Throws Problem if a picture
-    is missing."""
+def make_material(liquid, run=None):
+    """Makes the material of an imported run anew, from the settings of its panel. run: where what it says is
+    not what is on the disk. Throws Problem if a picture is missing."""
     settings = liquid.fluidtex
-    run = Run(settings.surfaces)
+    run = run or Run(settings.surfaces)
     if settings.exemplar:
         run.exemplar = bpy.path.abspath(settings.exemplar)
     render = run.scene.get("render") or {}
@@ -861,9 +861,9 @@ def on_frame(scene, _depsgraph=None):
 
 
 def import_run(path, start=1, scene=None, name=None, **settings):
-    """One object that shows a run's frames, linked into the scene. path: as Run. start: the scene's frame
-    that shows the run's frame 1. settings: those of FluidtexLiquid. Throws Problem."""
-    run = Run(path)
+    """One object that shows a run's frames, linked into the scene. path: as Run, or a Run. start: the scene's
+    frame that shows the run's frame 1. settings: those of FluidtexLiquid. Throws Problem."""
+    run = path if isinstance(path, Run) else Run(path)
     scene = scene or bpy.context.scene
     name = name or run.scene.get("name") or os.path.basename(run.folder)
     mesh = bpy.data.meshes.new(name)
@@ -879,7 +879,7 @@ def import_run(path, start=1, scene=None, name=None, **settings):
     for key, value in settings.items():
         setattr(own, key, value)
     try:
-        make_material(liquid)
+        make_material(liquid, run)
         show(liquid, scene)
     except Problem as problem:
         bpy.data.objects.remove(liquid)

@@ -1,7 +1,6 @@
 # Camera, light and surroundings of a run's scene in Blender, as the run's own pictures have them
 # (render/camera.h, render/sky.h, render/surroundings.h).
 import math
-import os
 
 import bpy
 import numpy as np
@@ -67,6 +66,8 @@ def add_light(scene):
 
     world = bpy.context.scene.world = bpy.data.worlds.new("sky")
     world.use_nodes = True
+    # By itself Cycles samples this smooth sky at 2048 times 1024 places, seconds a frame.
+    world.cycles.sampling_method, world.cycles.sample_map_resolution = "MANUAL", 256
     nodes = fluidtex.Nodes(world.node_tree)
     up = nodes.parts(nodes.new("ShaderNodeTexCoord").outputs["Generated"])[2]
     below = nodes.math("SUBTRACT", 1.0, nodes.math("MINIMUM", nodes.math("MAXIMUM", up, 0.0), 1.0))
@@ -76,21 +77,6 @@ def add_light(scene):
     background = nodes.new("ShaderNodeBackground")
     nodes.put(sky, background.inputs["Color"])
     nodes.put(background.outputs[0], nodes.new("ShaderNodeOutputWorld").inputs["Surface"])
-
-
-def _origin(run):
-    """Lowest corner of the domain. That of a liquid out of other programs' files is not noted: it is the box
-    around its surfaces."""
-    motion, files = run.scene.get("motion") or {}, run.scene.get("files") or {}
-    simulated = os.path.exists(os.path.join(files.get("path") or "", "cache.json"))  # by fluidtex simulate
-    if motion.get("flow") != "files" or simulated:
-        return Vector((0, 0, 0))
-    frames, lowest = run.frames(), []
-    for frame in (frames[0], frames[len(frames) // 2], frames[-1]):
-        vertices = fluidtex.read_ply(run.file(frame))["vertex"]
-        if len(vertices):
-            lowest.append([float(vertices[axis].min()) for axis in "xyz"])
-    return Vector(np.min(lowest, axis=0)) if lowest else Vector((0, 0, 0))
 
 
 def add_ground(scene, origin):
@@ -153,10 +139,10 @@ def add_tank(scene, origin):
     _link("tank", mesh)
 
 
-def build(run):
+def build(scene, origin):
     """Everything but the liquid, in the current scene, which should be empty; frames, rate and size of the
-    picture too."""
-    scene, current = run.scene, bpy.context.scene
+    picture too. origin: lowest corner of the domain."""
+    current = bpy.context.scene
     current.frame_start, current.frame_end = 1, scene["frames"]
     rate = scene["frame_rate"]
     current.render.fps = max(1, math.ceil(rate))
@@ -165,7 +151,7 @@ def build(run):
     current.render.resolution_percentage = 100
     add_camera(scene)
     add_light(scene)
-    origin = _origin(run)
+    origin = Vector(origin)
     if scene["render"]["ground"]:
         add_ground(scene, origin)
     if scene["render"]["tank"]:

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 
 from variants import file_name, unique
 
-_ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 _SHEET_MOMENTS, _SHEET_COLUMNS, _SHEET_WIDTH = 3, 6, 480
 _TIMES_AGAIN = 3  # that a job whose program was killed is started again
 
@@ -93,17 +92,11 @@ def _picture_jobs(variant, given, textured):
     folder, last = os.path.join(given.out, variant.name), f"first + {given.chunk - 1}"
     frames = [f"first=$((1 + SLURM_ARRAY_TASK_ID * {given.chunk}))",
               f"last=$(({last} < {variant.frames} ? {last} : {variant.frames}))"]
-    if given.cycles:
-        draw = [os.path.join(_ROOT, "tools", "render_cycles"), folder, "--missing"]
-        finish = [_command(given.program, "video", os.path.join(folder, "cycles")),
-                  _command(given.program, "report", folder)]
-    else:
-        render = [given.program, "render", variant.scene, *variant.arguments]
-        render += ["--from", folder, "--out", folder, "--missing", *_THREADS]
-        draw, finish = [*render, "--part"], [_command(*render)]
-    frames.append(_command(*draw, "--frames", "$first:$last"))
+    render = [given.program, "render", variant.scene, *variant.arguments]
+    render += ["--from", folder, "--out", folder, "--missing", *["--cycles"] * given.cycles, *_THREADS]
+    frames.append(_command(*render, "--part", "--frames", "$first:$last"))
     array = Job(f"{variant.name}/draw", frames, [textured.name], math.ceil(variant.frames / given.chunk))
-    return [array, Job(f"{variant.name}/finish", finish, [array.name])]
+    return [array, Job(f"{variant.name}/finish", [_command(*render)], [array.name])]
 
 
 def _sheet_job(variants, given, after):
@@ -122,4 +115,4 @@ def _sheet_job(variants, given, after):
 
 
 def picture_of(variant, frame, given):
-    return os.path.join(given.out, variant.name, "cycles" if given.cycles else "frames", f"{frame:04d}.png")
+    return os.path.join(given.out, variant.name, "frames", f"{frame:04d}.png")

@@ -35,8 +35,8 @@ def submit(jobs, variants, given):
             raise Problem(f"sbatch refuses the job {job.name}: {asked.stderr.strip()}")
         ids[job.name] = asked.stdout.strip().split(";")[0]
     liquids = {job.name.removesuffix("/texture-1"): "".join(job.after) for job in jobs}
-    shown = [{"name": variant.name, "frames": variant.frames, "liquid": liquids[variant.name],
-              "pictures": "cycles" if given.cycles else "frames"} for variant in variants]
+    shown = [{"name": variant.name, "frames": variant.frames, "liquid": liquids[variant.name]}
+             for variant in variants]
     with open(os.path.join(folder, _RECORD), "w", encoding="utf-8") as file:
         json.dump({"jobs": ids, "variants": shown}, file, indent=1)
     return ids
@@ -67,7 +67,7 @@ def status(out):
             glob.glob(os.path.join(glob.escape(os.path.join(out, folder)), *pattern)))
         parts = [f"simulated {count(variant['liquid'], 'frame_*.vdb')}"] if variant["liquid"] else []
         parts += [f"textured {count(variant['name'], 'surface', '[0-9]*.ply')}",
-                  f"drawn {count(variant['name'], variant['pictures'], '[0-9]*.png')}"]
+                  f"drawn {count(variant['name'], 'frames', '[0-9]*.png')}"]
         mine = [job for job in record["jobs"]
                 if job.startswith(variant["name"] + os.sep) or job == variant["liquid"]]
         if count(variant["name"], "report.html"):
