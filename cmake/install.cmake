@@ -11,8 +11,8 @@ install(SCRIPT cmake/install_printed.cmake)
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/fluidtex
   FILES_MATCHING PATTERN *.toml PATTERN *.png PATTERN *.ply PATTERN README.md)
 # What Blender runs: the add-on, and what draws.
-file(GLOB scripts CONFIGURE_DEPENDS tools/blender/*.py)
-install(FILES ${scripts} DESTINATION ${CMAKE_INSTALL_DATADIR}/fluidtex/blender)
+install(FILES tools/blender/fluidtex.py tools/blender/render.py tools/blender/solids.py tools/blender/stage.py
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/fluidtex/blender)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The library: pipeline, and all rooms that it links.

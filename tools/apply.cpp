@@ -106,6 +106,7 @@ void applyMaps(const ApplyWishes& wishes) {
                                              fingerprintOf(file))});
     });
   }
+  if (fs::exists(wishes.out / "report.html")) writeReport({wishes.out, wishes.out});
   for (const auto& [name, map] : maps)
     print("{} {} in {} surfaces\n", name, name == kColor ? "replaced" : "written", run.frames.size());
   std::string stale;
@@ -143,8 +144,6 @@ void addApply(CLI::App& app, int& exitCode) {
     exitCode = guarded([&] {
       for (const std::string& text : arguments->maps) arguments->wishes.maps.push_back(parseMap(text));
       applyMaps(arguments->wishes);
-      const std::filesystem::path& out = arguments->wishes.out;
-      if (std::filesystem::exists(out / "report.html")) writeReport({out, out});
     });
   });
 }

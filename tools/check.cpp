@@ -48,9 +48,10 @@ void printPlannedPoints(const scenes::Scene& scene, const std::optional<double>&
 
 // As a run with these options would take it.
 void tellDisk(const scenes::Scene& scene, const CheckOptions& options, int frames, double cells,
-              double points) {
+              double points, double copied) {
   if (points <= 0.0) return;
-  const DiskPlan plan = plannedDisk(scene, frames, points, cells, true, parseFormats(options.formats));
+  const DiskPlan plan =
+      plannedDisk(scene, frames, points, cells, copied, true, parseFormats(options.formats));
   print("disk      {}\n", textOf(plan));
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path("out") / scene.name : options.out;
@@ -141,11 +142,15 @@ void printPlan(const scenes::Scene& scene, const CheckOptions& options) {
           detail->color.height);
   print("pictures  {} x {}, {} paths a pixel\n", scene.render.width, scene.render.height,
         scene.render.samples);
-  print("memory    about {} GB", twoDigits(plannedMemory(scene, liquid, points) / 1e9));
+  const double memory =
+      plannedMemory(scene, liquid, points, parseFormats(options.formats), jointsAs(options));
+  print("memory    about {} GB", twoDigits(memory / 1e9));
   // How much sources bring cannot be told beforehand.
   if (!scene.sim.sources.empty()) print(", and {:.0f} kB a cell of what flows in", kBytesPerLiquidCell / 1e3);
   print("\n");
-  tellDisk(scene, options, last - first + 1, double(liquid.cells), points.value_or(0.0));
+  const bool finer = detail && !scene.texture.exemplar.betweenFile.empty();
+  const double copied = pixels + (finer ? double(detail->color.width) * detail->color.height : 0.0);
+  tellDisk(scene, options, last - first + 1, double(liquid.cells), points.value_or(0.0), copied);
   if (points)
     printTime(scene, options, plannedTime(scene, liquid, *points, pixels, threadsOf(options)), last);
   for (const std::string& note : imageNotes(colorPictures(scene.texture.exemplar)))

@@ -107,6 +107,7 @@ void addCompare(CLI::App& app, int& exitCode) {
   command->add_flag("--resume", options->resume,
                     "Go on with the variants that an earlier call has left undone");
   command->add_flag("--no-render", options->noRender, "Only the table, no pictures and no video");
+  command->add_flag("--no-report", options->noReport, "Write no report.html of the variants");
   command->footer(
       "Example:\n  fluidtex compare scenes/dam_break.toml --quality preview --out out/compare\n"
       "Writes compare.jpg, compare.mp4, compare.md and compare.json, and each variant's run beside them.");

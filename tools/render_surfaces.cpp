@@ -246,8 +246,8 @@ void addCyclesOptions(CLI::App& command, RenderOptions& options) {
     return command.add_option(name, value, text)->type_name(type)->needs(cycles);
   };
   add("--shutter", options.cycles.shutter,
-      "With --cycles: how many frames it is open, for motion blur (default: 0, none)", "FRAMES")
-      ->check(CLI::NonNegativeNumber);
+      "With --cycles: how many frames the shutter is open, for motion blur (default: 0, none)", "FRAMES")
+      ->check(CLI::Range(0.0, 1000.0));
   add("--shader", options.cycles.shader,
       "With --cycles: coat, as the program's own pictures have it (default), or principled, Blender's own",
       "NAME")

@@ -36,10 +36,11 @@ void logTo(const std::filesystem::path& file, bool verbose) {
 }
 
 // What is known of it; the run's own memory is free again.
-std::string neededBy(const scenes::Scene& scene) {
+std::string neededBy(const scenes::Scene& scene, const RunOptions& run) {
   try {
-    return fmt::format(" (the scene needs about {:.2g} GB in all)",
-                       plannedMemory(scene, pipeline::planLiquid(scene.sim)) / 1e9);
+    const pipeline::LiquidPlan liquid = pipeline::planLiquid(scene.sim);
+    const double bytes = plannedMemory(scene, liquid, plannedPoints(scene, liquid), run.formats, run.joints);
+    return fmt::format(" (the scene needs about {:.2g} GB in all)", bytes / 1e9);
   } catch (const std::exception&) {
     return {};
   }
@@ -65,7 +66,7 @@ void runInto(const std::filesystem::path& out, const scenes::Scene& scene, const
   try {
     atItsLine(options, scene, [&] { runScene(scene, run, stopOnSignals()); });
   } catch (const std::bad_alloc&) {
-    throw std::runtime_error(outOfMemory() + neededBy(scene));
+    throw std::runtime_error(outOfMemory() + neededBy(scene, run));
   }
   if (options.noReport) return;
   writeReport({run.out, run.out});

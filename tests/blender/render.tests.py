@@ -50,7 +50,11 @@ class Render(unittest.TestCase):
 
     def command(self, *words):
         return [PROGRAM, "render", SCENE, "--set", "frames=3", *SMALL, "--from", self.run_folder] + [
-            "--out", self.out, "--cycles", *words]
+            "--out",
+            self.out,
+            "--cycles",
+            *words,
+        ]
 
     def render(self, *words, code=0):
         done = subprocess.run(self.command(*words), capture_output=True, text=True)
@@ -76,7 +80,9 @@ class Render(unittest.TestCase):
 
     def test_parts_and_missing_ones_give_the_same_bytes(self):
         whole, self.out = self.out, tempfile.mkdtemp(dir=self.folder)
-        subprocess.run([word if word != self.out else whole for word in self.command("--threads", "1")], check=True)
+        subprocess.run(
+            [word if word != self.out else whole for word in self.command("--threads", "1")], check=True
+        )
         self.render("--part", "--frames", "1:2", "--threads", "2", "--no-report")
         self.assertEqual(self.names(), ["frames"])
         before = os.stat(os.path.join(self.out, "frames", "0001.png"))
@@ -147,7 +153,12 @@ class Render(unittest.TestCase):
             said = self.render(*words, code=1)
             self.assertIn(sentence, said)
             self.assertEqual(len(said.strip().splitlines()), 1, said)
-        for words in (["--shutter", "0.5"], ["--shader", "coat"], ["--map", "bump=a.png"], ["--blend", "a.blend"]):
+        for words in (
+            ["--shutter", "0.5"],
+            ["--shader", "coat"],
+            ["--map", "bump=a.png"],
+            ["--blend", "a.blend"],
+        ):
             command = [word for word in self.command(*words) if word != "--cycles"]
             done = subprocess.run(command, capture_output=True, text=True)
             self.assertNotEqual(done.returncode, 0)

@@ -355,7 +355,7 @@ class Pictures(InBlender):
         self.assertEqual(sorted(os.listdir(self.folder)), ["0002.light", "0003.light", "light.exr", "run"])
         picture = self.light(3)
         self.assertGreater(np.abs(picture - self.light(2)).mean(), 0.001)
-        # Rows from the top: beside the tank there is the sky, and below the horizon no ground, as the run has it.
+        # Rows from the top: below the horizon there is no ground, which the run has.
         np.testing.assert_allclose(picture[-1, 0], (0.8, 0.7, 0.6), atol=0.01)
         asked = self.asked(folder, frames=[3])
         asked["scene"]["render"]["ground_color"] = [0.1, 0.1, 0.1]

@@ -33,6 +33,12 @@ TEST_CASE("fluidtex compare: every variant's run, sheet, video and table", "[too
   CHECK(json.at(1).at("renewed") == 0.0);
   CHECK(json.at(2).at("renewed") == 1.0);
   CHECK(json.at(4).at("renewed") < 1.0);
+  const fs::path page = out / "full" / "report.html";
+  CHECK(fs::remove(page));
+  CHECK(runProgram(
+            {"compare", kSmallScene, "--frames", "1:2", "--resume", "--no-report", "--out", out.string()})
+            .exitCode == 0);
+  CHECK_FALSE(fs::exists(page));
 }
 
 TEST_CASE("fluidtex run: the texture on a mesh of the user's own", "[tools]") {

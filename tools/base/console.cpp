@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
 #include <csignal>
@@ -18,8 +19,8 @@
 namespace fluidtex::tools {
 namespace {
 
-int printFault = 0;  // errno of the first failure
-bool statusShown = false;
+int printFault = 0;                    // errno of the first failure
+std::atomic<bool> statusShown{false};  // by any thread
 
 void put(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
@@ -98,8 +99,7 @@ void showStatus(std::string_view line) {
 }
 
 void clearStatus() {
-  if (statusShown) put("\r\033[K");
-  statusShown = false;
+  if (statusShown.exchange(false)) put("\r\033[K");
 }
 
 void printText(std::string_view text) {

@@ -31,7 +31,7 @@ DescribedOption describedOption(const CLI::Option& option) {
   if (option.get_items_expected_max() == 0) return result;  // a flag
   // "NAME:{preview,default,final}", "N:INT in [1 - 4096]", "A:B": the name of the value, then what it may be.
   const std::string type = option.get_type_name();
-  result.value = type.substr(0, std::min(type.find(":{"), type.find(":INT in")));
+  result.value = type.substr(0, std::min({type.find(":{"), type.find(":INT in"), type.find(":FLOAT in")}));
   result.repeated =
       option.get_expected_max() > 1 || option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
   result.kind = ValueKind::any;
@@ -41,7 +41,7 @@ DescribedOption describedOption(const CLI::Option& option) {
     result.kind = ValueKind::keys;
   } else if (isOneOf(result.value, {"DIR", "OUT"})) {
     result.kind = ValueKind::folders;
-  } else if (isOneOf(result.value, {"SCENE", "IMAGE", "FILE", "PAGE", "NAME=FILE"})) {
+  } else if (isOneOf(result.value, {"SCENE", "IMAGE", "FILE", "PAGE", "NAME=FILE", "KIND=IMAGE"})) {
     result.kind = ValueKind::files;
   }
   return result;

@@ -72,11 +72,16 @@ std::vector<std::uint16_t> encoded(const std::vector<texture::Vec4f>& color) {
   return values;
 }
 
+// In capitals; of names that differ in these alone, the first. The others stay as they are, with a _ behind them
+// where that is not enough.
 std::string customName(const std::string& name, const Json& taken) {
   std::string capitals = "_" + name;
   std::transform(capitals.begin(), capitals.end(), capitals.begin(),
                  [](unsigned char c) { return char(std::toupper(c)); });
-  return taken.contains(capitals) ? "_" + name : capitals;
+  if (!taken.contains(capitals)) return capitals;
+  std::string own = "_" + name;
+  while (taken.contains(own)) own += "_";
+  return own;
 }
 
 Json attributesOf(const ExportMesh& mesh, const std::vector<std::uint16_t>& colors, bool pictured,

@@ -156,8 +156,8 @@ void putMaterial(TextStream& text, const Appearance& appearance) {
 
 void putHead(TextStream& text, int first, int last, double frameRate) {
   text.put(
-      "#usda 1.0\n(\n    defaultPrim = \"liquid\"\n    endTimeCode = {}\n    framesPerSecond = {:g}\n"
-      "    metersPerUnit = 1\n    startTimeCode = {}\n    timeCodesPerSecond = {:g}\n    upAxis = "
+      "#usda 1.0\n(\n    defaultPrim = \"liquid\"\n    endTimeCode = {}\n    framesPerSecond = {}\n"
+      "    metersPerUnit = 1\n    startTimeCode = {}\n    timeCodesPerSecond = {}\n    upAxis = "
       "\"Z\"\n)\n\n",
       last, frameRate, first, frameRate);
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <system_error>
 
 namespace fluidtex::tools {
@@ -28,6 +29,13 @@ double bytesPerPoint(Format format) {
 }
 // PNG of a path tracer's noise, and H.264.
 constexpr double kBytesPerPixel = 1.6, kBytesPerVideoPixel = 0.1;
+// Of a photograph as PNG.
+constexpr double kBytesPerCopiedPixel = 2.0;
+// Of the page: a JPEG, a triangle, its script; base64, which adds a third; and its bounds
+// (tools/report/write_report.h).
+constexpr double kBytesPerPreview = 40e3, kBytesPerTriangle = 5.0, kBytesOfScript = 0.7e6, kBase64 = 4.0 / 3.0;
+constexpr double kMostOfPreviews = 5e6, kMostOfMeshes = 8e6, kMostOfVideo = 8e6;
+constexpr int kMostPreviews = 120, kMostMeshes = 12;
 // The solver's grids, and the surface as it is in memory.
 constexpr double kBytesOfSolver = 15e6, kStateBytesPerCell = 200.0, kStateBytesPerPoint = 181.0;
 
@@ -47,16 +55,25 @@ double bytesIn(const fs::path& folder) {
   return bytes;
 }
 
+double bytesOfPage(int frames, double points, double video) {
+  const double triangles = 2.0 * points;
+  const double meshes = std::min(kMostOfMeshes, std::min(frames, kMostMeshes) * triangles * kBytesPerTriangle);
+  const double previews =
+      video > 0.0 ? std::min(kMostOfPreviews, std::min(frames, kMostPreviews) * kBytesPerPreview) : 0.0;
+  return kBytesOfScript + kBase64 * (meshes + previews + (video <= kMostOfVideo ? video : 0.0));
+}
+
 }  // namespace
 
-DiskPlan plannedDisk(const scenes::Scene& scene, int frames, double points, double cells, bool rendered,
-                     const std::vector<Format>& formats) {
+DiskPlan plannedDisk(const scenes::Scene& scene, int frames, double points, double cells, double copied,
+                     bool rendered, const std::vector<Format>& formats) {
   DiskPlan plan;
   for (const Format format : formats) plan.surfaces += frames * points * bytesPerPoint(format);
   if (scenes::putsOnto(scene)) plan.surfaces += frames * points * bytesPerPoint(Format::ply);
-  if (rendered)
-    plan.pictures =
-        frames * double(scene.render.width) * scene.render.height * (kBytesPerPixel + kBytesPerVideoPixel);
+  const double pixels = rendered ? frames * double(scene.render.width) * scene.render.height : 0.0;
+  const double video = pixels * kBytesPerVideoPixel;
+  plan.pictures = pixels * kBytesPerPixel + video;
+  plan.page = bytesOfPage(frames, points, video) + copied * kBytesPerCopiedPixel;
   plan.state = 2.0 * (points * kStateBytesPerPoint +
                       (cells > 0.0 ? kBytesOfSolver + cells * kStateBytesPerCell : 0.0));
   return plan;
@@ -65,7 +82,7 @@ DiskPlan plannedDisk(const scenes::Scene& scene, int frames, double points, doub
 std::string textOf(const DiskPlan& plan) {
   std::string text = fmt::format("about {}: surfaces {}, ", sizeText(plan.total()), sizeText(plan.surfaces));
   if (plan.pictures > 0.0) text += fmt::format("pictures {}, ", sizeText(plan.pictures));
-  return text + fmt::format("state/ {}", sizeText(plan.state));
+  return text + fmt::format("state/ {}, report and exemplar {}", sizeText(plan.state), sizeText(plan.page));
 }
 
 std::optional<double> freeBytes(const fs::path& folder) {

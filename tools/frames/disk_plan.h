@@ -16,14 +16,16 @@ struct DiskPlan {
   double surfaces = 0.0;  // bytes of all frames, in all formats
   double pictures = 0.0;  // and the video
   double state = 0.0;     // while a new one takes the place of the last, both are there
-  double total() const { return surfaces + pictures + state; }
+  double page = 0.0;      // report.html, exemplar.png and between.png
+  double total() const { return surfaces + pictures + state + page; }
 };
 
-// points: on the surface of a frame. cells: of liquid; 0 where nothing is simulated.
-DiskPlan plannedDisk(const scenes::Scene& scene, int frames, double points, double cells, bool rendered,
-                     const std::vector<Format>& formats);
+// points: on the surface of a frame. cells: of liquid; 0 where nothing is simulated. copied: pixels of the
+// exemplar, and of the picture that texture.between_file names, of which the folder gets copies.
+DiskPlan plannedDisk(const scenes::Scene& scene, int frames, double points, double cells, double copied,
+                     bool rendered, const std::vector<Format>& formats);
 
-// "about 1.2 GB: surfaces 0.9 GB, pictures 0.1 GB, state/ 0.2 GB".
+// "about 1.2 GB: surfaces 0.9 GB, pictures 0.1 GB, state/ 0.2 GB, report and exemplar 0.02 GB".
 std::string textOf(const DiskPlan& plan);
 
 // Bytes that are free where the folder is, or would be made; nothing where the system does not say.

@@ -150,8 +150,11 @@ class FrameLoop {
     const pipeline::LiquidPlan liquid = pipeline::planLiquid(m_scene.sim);
     const double points = plannedPoints(m_scene, liquid).value_or(0.0);
     if (points <= 0.0) return;
+    const auto pixelsOf = [](const texture::Image& color) { return double(color.width) * color.height; };
+    const bool finer = m_detail && !m_scene.texture.exemplar.betweenFile.empty();
+    const double copied = pixelsOf(exemplarColor()) + (finer ? pixelsOf(m_detail->color) : 0.0);
     const DiskPlan plan = plannedDisk(m_scene, m_last - m_options.firstFrame + 1, points,
-                                      double(liquid.cells), m_options.render, m_options.formats);
+                                      double(liquid.cells), copied, m_options.render, m_options.formats);
     spdlog::info("disk: {}", textOf(plan));
     if (!m_options.quiet) say("disk: {}\n", textOf(plan));
     if (const std::string note = diskNote(plan, m_options.out); !note.empty()) warn(note);

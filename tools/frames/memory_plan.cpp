@@ -7,8 +7,22 @@ namespace {
 // mostly the velocities of a frame's substeps, a dozen at a CFL number of 1. Leads, not promises.
 constexpr double kBytesPerPoint = 1000.0;
 constexpr double kBytesProgram = 250e6;
+// What a frame takes on top while it is written in other formats, of each mesh that these need
+// (tools/formats): measured at 200,000 points, 10 MB with glb, 75 with glb and usda whose joints blend, 113
+// with all four then.
+constexpr double kBytesPerCutPoint = 100.0, kBytesPerBlendedPoint = 400.0;
 // Three floats, three bytes, and those again packed.
 constexpr double kBytesPerPixel = 18.0;
+
+double exportBytesPerPoint(const std::vector<Format>& formats, JointsAs joints) {
+  bool cut = false, blended = false;
+  for (const Format format : formats) {
+    if (format == Format::ply) continue;
+    const bool blends = joints == JointsAs::blend && (format == Format::glb || format == Format::usda);
+    (blends ? blended : cut) = true;
+  }
+  return (cut ? kBytesPerCutPoint : 0.0) + (blended ? kBytesPerBlendedPoint : 0.0);
+}
 
 }  // namespace
 
@@ -20,13 +34,11 @@ std::optional<double> plannedPoints(const scenes::Scene& scene, const pipeline::
 }
 
 double plannedMemory(const scenes::Scene& scene, const pipeline::LiquidPlan& liquid,
-                     const std::optional<double>& points) {
+                     const std::optional<double>& points, const std::vector<Format>& formats,
+                     JointsAs joints) {
   return kBytesProgram + kBytesPerLiquidCell * static_cast<double>(liquid.cells) +
-         kBytesPerPoint * points.value_or(0.0) + kBytesPerPixel * scene.render.width * scene.render.height;
-}
-
-double plannedMemory(const scenes::Scene& scene, const pipeline::LiquidPlan& liquid) {
-  return plannedMemory(scene, liquid, plannedPoints(scene, liquid));
+         (kBytesPerPoint + exportBytesPerPoint(formats, joints)) * points.value_or(0.0) +
+         kBytesPerPixel * scene.render.width * scene.render.height;
 }
 
 }  // namespace fluidtex::tools

@@ -154,7 +154,9 @@ TEST_CASE("glb: a frame without surface is a file without a mesh", "[tools]") {
 TEST_CASE("glb: columns whose names differ in capitals alone stay apart", "[tools]") {
   tools::ExportMesh mesh = sampleMesh();
   mesh.vertex.push_back({"Age", 1, {9, 9, 9, 9}});
+  mesh.vertex.push_back({"AGE", 1, {7, 7, 7, 7}});
   const Glb glb(glbOf(mesh, kPictured));
   CHECK(glb.attribute("_AGE")[0] == 0.5);
   CHECK(glb.attribute("_Age")[0] == 9.0);
+  CHECK(glb.attribute("_AGE_")[0] == 7.0);
 }

@@ -14,7 +14,7 @@ TEST_CASE("disk plan: surfaces grow with frames, points and formats, the state d
           "[tools]") {
   const scenes::Scene scene;
   const auto plan = [&](int frames, double points, const std::vector<Format>& formats) {
-    return tools::plannedDisk(scene, frames, points, 1000.0, true, formats);
+    return tools::plannedDisk(scene, frames, points, 1000.0, 1e6, true, formats);
   };
   const tools::DiskPlan one = plan(1, 1e5, {Format::ply}), ten = plan(10, 1e5, {Format::ply}),
                         many = plan(10, 1e5, {Format::ply, Format::usda});
@@ -23,7 +23,18 @@ TEST_CASE("disk plan: surfaces grow with frames, points and formats, the state d
   CHECK(ten.state == one.state);
   CHECK(many.surfaces > ten.surfaces);
   CHECK(plan(1, 2e5, {Format::ply}).surfaces == Approx(2.0 * one.surfaces));
-  CHECK(tools::plannedDisk(scene, 10, 1e5, 0.0, false, {Format::ply}).pictures == 0.0);
+  CHECK(tools::plannedDisk(scene, 10, 1e5, 0.0, 1e6, false, {Format::ply}).pictures == 0.0);
+}
+
+TEST_CASE("disk plan: the page grows to its bound, and copies of pictures come on top", "[tools]") {
+  const scenes::Scene scene;
+  const auto page = [&](int frames, double points, double copied) {
+    return tools::plannedDisk(scene, frames, points, 0.0, copied, true, {Format::ply}).page;
+  };
+  CHECK(page(2, 1e4, 0.0) > page(1, 1e4, 0.0));
+  CHECK(page(2, 2e4, 0.0) > page(2, 1e4, 0.0));
+  CHECK(page(10000, 1e7, 0.0) < 30e6);
+  CHECK(page(1, 1e4, 4e6) > page(1, 1e4, 0.0) + 4e6);
 }
 
 TEST_CASE("disk plan: sizes are written as people write them", "[tools]") {
@@ -37,7 +48,8 @@ TEST_CASE("disk plan: sizes are written as people write them", "[tools]") {
   tools::DiskPlan plan;
   plan.surfaces = 5.96e8;
   plan.state = 4e6;
-  CHECK(tools::textOf(plan) == "about 600 MB: surfaces 600 MB, state/ 4 MB");
+  plan.page = 1e6;
+  CHECK(tools::textOf(plan) == "about 600 MB: surfaces 600 MB, state/ 4 MB, report and exemplar 1 MB");
 }
 
 TEST_CASE("disk plan: a warning says when what is free will not do, and an earlier run's files count as free",
