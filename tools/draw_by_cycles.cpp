@@ -88,9 +88,15 @@ void tellWarning(const std::string& line) {
 // temporary: where Blender puts what it makes for itself.
 void runBlender(const Json& asked, int threads, const fs::path& temporary,
                 const render::Meanwhile& meanwhile) {
-  // Debian's Blender takes the Python that comes first, which has to be Debian's.
-  std::vector<std::string> words{"env", "PATH=/usr/bin:" + variable("PATH"),
-                                 "TMPDIR=" + fs::absolute(temporary).string(), blender().string()};
+  // It goes when this program is killed. Debian's Blender takes the Python that comes first, which has to be
+  // Debian's.
+  std::vector<std::string> words{"setpriv",
+                                 "--pdeathsig",
+                                 "KILL",
+                                 "env",
+                                 "PATH=/usr/bin:" + variable("PATH"),
+                                 "TMPDIR=" + fs::absolute(temporary).string(),
+                                 blender().string()};
   words.insert(words.end(), {"-b", "--factory-startup", "-noaudio", "--python-exit-code", "1"});
   if (threads > 0) words.insert(words.end(), {"-t", std::to_string(threads)});
   words.insert(words.end(), {"-P", (blenderScripts() / "render.py").string()});

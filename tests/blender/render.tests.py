@@ -132,8 +132,10 @@ class Render(unittest.TestCase):
         work.kill()
         work.wait()
         work.stderr.close()
-        for number in processes_in(self.out):
-            os.kill(int(number), signal.SIGKILL)
+        end = time.monotonic() + 10
+        while processes_in(self.out) and time.monotonic() < end:
+            time.sleep(0.05)
+        self.assertEqual(processes_in(self.out), [])
         self.assertEqual([name[:5] for name in self.names("frames")], [".tmp-"])
         self.render("--part", "--frames", "1")
         self.assertEqual(self.names("frames"), ["0001.png"])
