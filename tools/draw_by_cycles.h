@@ -27,8 +27,8 @@ inline constexpr const char* kMapsOfCycles[] = {"color", "roughness",    "normal
 
 // What is done with what comes; the last two may be empty.
 struct CyclesReceiver {
-  std::function<void(int frame, const render::Picture&)>
-      picture;                                           // radiance, linear, as render::develop() takes it
+  // Gets radiance, linear, as render::develop() takes it.
+  std::function<void(int frame, const render::Picture&)> picture;
   std::function<void(int frame, double part)> progress;  // of one picture, 0..1
   std::function<bool()> stop;                            // asked ten times a second
 };
@@ -45,7 +45,8 @@ void drawByCycles(const scenes::Scene& scene, const std::filesystem::path& run,
 void saveForBlender(const scenes::Scene& scene, const std::filesystem::path& run,
                     const CyclesOptions& options, const std::filesystem::path& blend);
 
-// RUN/../share/fluidtex/blender of the program that runs, else where it was built: the add-on and what draws.
+// Where the add-on is and what draws: ../share/fluidtex/blender from the program that runs, as it is
+// installed, else the sources that it was built of. Throws std::runtime_error where they are not there.
 std::filesystem::path blenderScripts();
 
 }  // namespace fluidtex::tools

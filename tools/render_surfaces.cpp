@@ -83,7 +83,7 @@ Frames framesOf(const RenderOptions& wanted, const scenes::Scene& scene, const f
   return frames;
 }
 
-// Of a liquid in Cycles' sense, by what they say.
+// Of KIND=IMAGE, by what they say.
 std::map<std::string, fs::path> mapsOf(const std::vector<std::string>& texts) {
   std::map<std::string, fs::path> maps;
   for (const std::string& text : texts) {
@@ -116,7 +116,7 @@ class Drawing {
     nowAt(kOnPicture);
     if (m_frames.drawn.empty()) return;
     if (m_wanted.byCycles)
-      drawElsewhere();
+      drawInBlender();
     else
       drawHere();
   }
@@ -160,7 +160,7 @@ class Drawing {
     }
   }
 
-  void drawElsewhere() {
+  void drawInBlender() {
     const auto develop = [&](int frame, render::Picture picture) {
       render::develop(picture, m_scene.render.exposure);
       take(frame, picture);
