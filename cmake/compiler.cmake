@@ -21,15 +21,11 @@ target_compile_options(fluidtex_flags INTERFACE
   "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow>"
   $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>>  # g++ 12 warns falsely of "text" + std::string
   -fno-math-errno -ffp-contract=off
+  # The Python module is a shared library, and takes in only such code. No other library is to put its functions in the
+  # place of ours, so they may be inlined as in a program.
+  -fPIC $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>>
   $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>>  # for ccache
   $<IF:$<BOOL:${FLUIDTEX_NATIVE}>,-march=native,-march=x86-64-v3>)
-
-if(FLUIDTEX_PYTHON)
-  # A module is a shared library, and takes in only such code. No other library is to put its functions in the place of
-  # ours, so they may be inlined as in a program.
-  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(fluidtex_flags INTERFACE $<BUILD_INTERFACE:-fno-semantic-interposition>)
-endif()
 
 find_program(MOLD_PROGRAM mold)
 if(MOLD_PROGRAM)

@@ -11,11 +11,14 @@ string(REGEX REPLACE
 string(REGEX REPLACE "#include \"([A-Za-z0-9]+\\.h)\"" "#include <openvdb/math/\\1>" maps "${maps}")
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/openvdb_maps.h CONTENT "${maps}" @ONLY)
 
-add_library(openvdb_headers OBJECT cmake/openvdb_headers.cpp)
-target_link_libraries(openvdb_headers PRIVATE fluidtex_flags OpenVDB::openvdb)
-target_precompile_headers(openvdb_headers PRIVATE ${PROJECT_BINARY_DIR}/openvdb_maps.h <openvdb/openvdb.h>)
+# Its own grids are compiled once, too.
+add_library(openvdb_grids STATIC cmake/openvdb_grids.cpp)
+target_link_libraries(openvdb_grids PRIVATE fluidtex_flags OpenVDB::openvdb)
+target_precompile_headers(openvdb_grids PRIVATE
+  ${PROJECT_BINARY_DIR}/openvdb_maps.h <openvdb/openvdb.h> ${PROJECT_SOURCE_DIR}/cmake/openvdb_grids.h)
 
 # For targets that link OpenVDB.
 function(fluidtex_precompiled target)
-  target_precompile_headers(${target} REUSE_FROM openvdb_headers)
+  target_precompile_headers(${target} REUSE_FROM openvdb_grids)
+  target_link_libraries(${target} PRIVATE openvdb_grids)
 endfunction()

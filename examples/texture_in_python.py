@@ -3,7 +3,7 @@
 A drop swings between long and flat and is twisted as it does so, in closed form. Run it as a script, or cell
 by cell in an editor that knows "# %%":
 
-    PYTHONPATH=build/python/python python3 examples/texture_in_python.py [EXEMPLAR] [PICTURE.png]
+    PYTHONPATH=build/release/python python3 examples/texture_in_python.py [EXEMPLAR] [PICTURE.png]
 
 It needs NumPy, and Matplotlib for the picture (Debian: python3-numpy python3-matplotlib).
 """

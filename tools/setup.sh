@@ -25,14 +25,16 @@ install_missing_packages() {
   echo "Installing: $(tr '\n' ' ' <<<"$missing")"
   apt-get update -q
   DEBIAN_FRONTEND=noninteractive $command
+  installed=yes
 }
 
-# build PRESET [TARGET...]: configures once, then builds.
+# build PRESET [TARGET...]: configures where that was not done, or more is installed since, then builds.
+installed=no
 build() {
   local preset=$1
   shift
   cd "$root"
-  [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset"
+  [ "$installed" = no ] && [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset"
   cmake --build --preset "$preset" ${@:+--target "$@"}
   cd "$OLDPWD"
 }
