@@ -10,8 +10,10 @@ namespace fs = std::filesystem;
 
 TEST_CASE("fluidtex compare: every variant's run, sheet, video and table", "[tools][slow]") {
   const Scratch scratch;
-  const fs::path out = scratch.path / "out";
-  const Finished run = runProgram({"compare", kSmallScene, "--frames", "1:2", "--out", out.string()});
+  // A name that means something to a shell, a web page or printf.
+  const fs::path out = scratch.path / "Vergleich & 100 %d";
+  const Finished run =
+      runProgram({"compare", kSmallScene, "--frames", "1:2", "--no-report", "--out", out.string()});
   INFO(run.all());
   REQUIRE(run.exitCode == 0);
   for (const char* name : {"compare.jpg", "compare.mp4", "compare.md", "compare.json", "frames/0002.png"})
@@ -33,12 +35,7 @@ TEST_CASE("fluidtex compare: every variant's run, sheet, video and table", "[too
   CHECK(json.at(1).at("renewed") == 0.0);
   CHECK(json.at(2).at("renewed") == 1.0);
   CHECK(json.at(4).at("renewed") < 1.0);
-  const fs::path page = out / "full" / "report.html";
-  CHECK(fs::remove(page));
-  CHECK(runProgram(
-            {"compare", kSmallScene, "--frames", "1:2", "--resume", "--no-report", "--out", out.string()})
-            .exitCode == 0);
-  CHECK_FALSE(fs::exists(page));
+  CHECK_FALSE(fs::exists(out / "full" / "report.html"));
 }
 
 TEST_CASE("fluidtex run: the texture on a mesh of the user's own", "[tools]") {

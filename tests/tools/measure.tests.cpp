@@ -11,7 +11,7 @@ using Json = nlohmann::json;
 
 TEST_CASE("fluidtex measure: fills the report of a run and writes all figures", "[tools][slow]") {
   const Scratch scratch;
-  const fs::path out = scratch.path / "out", json = scratch.path / "m.json";
+  const fs::path out = scratch.path / "out", json = scratch.path / "Maße & Werte.json";
   // Of fewer points hardly a tile is flat enough to be judged.
   REQUIRE(runProgram({"run", kSmallScene, "--out", out.string(), "--frames", "1:3", "--no-render", "--set",
                       "texture.points=5000"})

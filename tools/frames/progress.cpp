@@ -14,8 +14,9 @@ constexpr auto kRedraw = std::chrono::milliseconds(100);
 
 std::string bar(double share, int cells) {
   const int full = static_cast<int>(std::clamp(share, 0.0, 1.0) * cells + 0.5);
-  return "[" + std::string(static_cast<std::size_t>(full), '#') +
-         std::string(static_cast<std::size_t>(cells - full), '.') + "]";
+  std::string text(static_cast<std::size_t>(cells), '.');
+  text.replace(0, static_cast<std::size_t>(full), static_cast<std::size_t>(full), '#');
+  return '[' + text + ']';
 }
 
 }  // namespace

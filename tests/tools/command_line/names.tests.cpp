@@ -28,10 +28,6 @@ TEST_CASE("command line: odd names of files and folders", "[tools][command_line]
   runs({"render", name, "--from", out, "--frames", "1:2", "--out", "noch einmal"});
   CHECK(fs::exists(folder / "noch einmal" / "große Welle %d.mp4"));
   runs({"apply", out, "height=" + picture.filename().string()});
-  runs({"measure", out, "--json", "Maße & Werte.json"});
-  runs({"compare", name, "--frames", "1:2", "--out", "Vergleich & 100 %"});
-  CHECK(fs::exists(folder / "Vergleich & 100 %" / "compare.mp4"));
-  CHECK(fs::exists(folder / "Vergleich & 100 %" / "compare.jpg"));
   // The liquid of another program, here meshes in numbered files.
   fs::create_directories(folder / "Flüssigkeit & 1 %");
   for (const char* number : {"1", "2", "3"})
