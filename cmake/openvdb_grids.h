@@ -1,5 +1,6 @@
-// OpenVDB's own grids, as files hold them, are compiled in openvdb_grids.cpp alone: a grid's virtual functions
-// take 10 s in each file that makes one. Precompiled for all that links OpenVDB, see precompile.cmake.
+// OpenVDB's own grids, as files hold them, are compiled in openvdb_grids.cpp alone: a grid's virtual
+// functions take 10 s in each file that makes one. Precompiled for all that links OpenVDB, see
+// precompile.cmake.
 #pragma once
 
 #include <openvdb/openvdb.h>
