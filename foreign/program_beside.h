@@ -8,7 +8,8 @@ namespace fluidtex::foreign {
 
 // The first of these places at which there is a program of that name:
 // - beside the program that runs;
-// - beside the shared library that this code is in, such as a Python module, and in bin/ of the folders above;
+// - beside the shared library that this code is in, such as a Python module, and in bin/ of the folders
+// above;
 // - in the folder that fluidtexPrograms() names;
 // - where it was built, `built`, which is also what comes back where there is none.
 std::filesystem::path programBeside(const std::string& name, const std::filesystem::path& built);

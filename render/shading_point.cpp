@@ -98,7 +98,8 @@ ShadingPoint shadingPoint(const Stage& stage, const Ray& ray) {
     const Mesh& mesh = stage.meshes[ray.geometry - 1];
     point.material.base = mesh.color;
     if (mesh.kind == MeshKind::ground)
-      point.opacity = groundOpacity((c.position - stage.domainOrigin - stage.domainSize * 0.5f).length() / diagonal);
+      point.opacity =
+          groundOpacity((c.position - stage.domainOrigin - stage.domainSize * 0.5f).length() / diagonal);
   }
   point.origin = c.position + lift + point.faceNormal * (kStartOff * diagonal);
   return point;

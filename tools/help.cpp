@@ -77,8 +77,9 @@ void addHelp(CLI::App& app, int& exitCode) {
   help->callback([&app, command, &exitCode] {
     exitCode = guarded([&] {
       // Its own help() would be that of the subcommand which was given: of this one.
-      printText(command->empty() ? app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal)
-                                 : app.get_subcommand(*command)->help(app.get_name()));
+      printText(command->empty()
+                    ? app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal)
+                    : app.get_subcommand(*command)->help(app.get_name()));
     });
   });
 }

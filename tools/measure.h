@@ -14,8 +14,8 @@ struct MeasureWishes {
 };
 
 // Reads run.json and surface/, and fills likeness, sharpness, pop and change_along_flow of run.json;
-// report.html, if there is one, is written anew. Throws UsageError if the folder holds no run, or its exemplar
-// is missing.
+// report.html, if there is one, is written anew. Throws UsageError if the folder holds no run, or its
+// exemplar is missing.
 void measureRun(const MeasureWishes& wishes);
 
 }  // namespace fluidtex::tools

@@ -72,8 +72,8 @@ std::vector<std::uint16_t> encoded(const std::vector<texture::Vec4f>& color) {
   return values;
 }
 
-// In capitals; of names that differ in these alone, the first. The others stay as they are, with a _ behind them
-// where that is not enough.
+// In capitals; of names that differ in these alone, the first. The others stay as they are, with a _ behind
+// them where that is not enough.
 std::string customName(const std::string& name, const Json& taken) {
   std::string capitals = "_" + name;
   std::transform(capitals.begin(), capitals.end(), capitals.begin(),

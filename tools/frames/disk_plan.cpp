@@ -33,7 +33,8 @@ constexpr double kBytesPerPixel = 1.6, kBytesPerVideoPixel = 0.1;
 constexpr double kBytesPerCopiedPixel = 2.0;
 // Of the page: a JPEG, a triangle, its script; base64, which adds a third; and its bounds
 // (tools/report/write_report.h).
-constexpr double kBytesPerPreview = 40e3, kBytesPerTriangle = 5.0, kBytesOfScript = 0.7e6, kBase64 = 4.0 / 3.0;
+constexpr double kBytesPerPreview = 40e3, kBytesPerTriangle = 5.0, kBytesOfScript = 0.7e6,
+                 kBase64 = 4.0 / 3.0;
 constexpr double kMostOfPreviews = 5e6, kMostOfMeshes = 8e6, kMostOfVideo = 8e6;
 constexpr int kMostPreviews = 120, kMostMeshes = 12;
 // The solver's grids, and the surface as it is in memory.
@@ -57,7 +58,8 @@ double bytesIn(const fs::path& folder) {
 
 double bytesOfPage(int frames, double points, double video) {
   const double triangles = 2.0 * points;
-  const double meshes = std::min(kMostOfMeshes, std::min(frames, kMostMeshes) * triangles * kBytesPerTriangle);
+  const double meshes =
+      std::min(kMostOfMeshes, std::min(frames, kMostMeshes) * triangles * kBytesPerTriangle);
   const double previews =
       video > 0.0 ? std::min(kMostOfPreviews, std::min(frames, kMostPreviews) * kBytesPerPreview) : 0.0;
   return kBytesOfScript + kBase64 * (meshes + previews + (video <= kMostOfVideo ? video : 0.0));

@@ -14,9 +14,9 @@ namespace fluidtex::tools {
 // Removes all temporary files and folders of a killed run.
 void removeLeftovers(const std::filesystem::path& out);
 
-// Creates the folder if missing, and removes frames, surfaces in every format, states, journal, report, video,
-// the exemplar's copy and log of an earlier run of the scene. The state goes first, so that a kill in between
-// leaves nothing that could be resumed wrongly.
+// Creates the folder if missing, and removes frames, surfaces in every format, states, journal, report,
+// video, the exemplar's copy and log of an earlier run of the scene. The state goes first, so that a kill in
+// between leaves nothing that could be resumed wrongly.
 void clearEarlierRun(const std::filesystem::path& out, const std::string& sceneName);
 
 // Files of a frame, relative to `out`: its surface, its picture if `rendered`, the scene's own mesh if

@@ -41,8 +41,8 @@ double spacingOf(const std::filesystem::path& out, const texture::TexturedSurfac
 // Returns the folder if it exists; commands that work on a run create none. Throws UsageError otherwise.
 const std::filesystem::path& existing(const std::filesystem::path& out);
 
-// exemplar: replaces the run's own; else empty. Where that is no longer at its place, the copy in the folder is
-// taken. Throws UsageError if the folder holds no run, or its exemplar is missing.
+// exemplar: replaces the run's own; else empty. Where that is no longer at its place, the copy in the folder
+// is taken. Throws UsageError if the folder holds no run, or its exemplar is missing.
 FinishedRun openRun(const std::filesystem::path& out, const std::filesystem::path& exemplar);
 
 }  // namespace fluidtex::tools
