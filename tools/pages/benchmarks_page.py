@@ -105,8 +105,8 @@ def judged(cells, figure):
 
 def run_of(context):
     """Its row in the table of runs; named by its day."""
-    load = context.get("load_avg") or ["?"]
-    return [context["date"][:10], context.get("processor", "?"), str(context["num_cpus"]), str(load[0])]
+    load = [f"{value:.2g}" for value in context.get("load_avg") or []] or ["?"]
+    return [context["date"][:10], context.get("processor", "?"), str(context["num_cpus"]), load[0]]
 
 
 def anchor(topic):
