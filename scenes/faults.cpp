@@ -57,8 +57,9 @@ std::vector<std::string> Faults::lines() const {
     result.push_back(std::move(line));
   }
   if (full())
-    result.push_back("error: there may be more faults than these " + std::to_string(kMost) +
-                     "; mend them first");
+    result.emplace_back("error: there may be more faults than these ")
+        .append(std::to_string(kMost))
+        .append("; mend them first");
   return result;
 }
 

@@ -41,6 +41,7 @@ KnownFlow flowOf(const Options& options, const MotionOptions& motion) {
       return sourceAndSink(options.size, motion.rate);
     case MotionKind::rest:
     case MotionKind::solver:
+    case MotionKind::files:
       break;
   }
   return still();

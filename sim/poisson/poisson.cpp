@@ -1,8 +1,7 @@
-// Preconditioned conjugate gradients, in the flexible form that tolerates a preconditioner rounded to single
-// precision: Notay, "Flexible conjugate gradients", 2000. Singular parts: Bochev and Lehoucq, "On the finite
-// element solution of the pure Neumann problem", 2005.
+// Singular parts: Bochev and Lehoucq, "On the finite element solution of the pure Neumann problem", 2005.
 #include "sim/poisson/poisson.h"
 
+#include "sim/poisson/conjugate_gradients.h"
 #include "sim/poisson/multigrid.h"
 
 #include <tbb/blocked_range.h>
@@ -18,27 +17,7 @@ namespace fluidtex::sim {
 
 namespace {
 
-using Range = tbb::blocked_range<int>;
-
-// Sums are split at fixed places, so that they do not depend on the number of threads.
-constexpr int kGrain = 8192;
-
-struct Sums {
-  double first = 0.0, second = 0.0;
-};
-
-template <typename Body>
-Sums sum(int n, const Body& body) {
-  return tbb::parallel_deterministic_reduce(
-      Range(0, n, kGrain), Sums{},
-      [&](const Range& range, Sums sums) {
-        for (int i = range.begin(); i < range.end(); ++i) body(i, sums);
-        return sums;
-      },
-      [](const Sums& a, const Sums& b) {
-        return Sums{a.first + b.first, a.second + b.second};
-      });
-}
+using Range = IndexRange;
 
 template <typename Scalar>
 void removeMeans(const std::vector<std::vector<int>>& parts, std::vector<Scalar>& values) {
@@ -205,21 +184,29 @@ PoissonReport PoissonSolver::solve(std::vector<double> b, std::vector<double>& x
   removeMeans(m_singular, b);
 
   PoissonReport report;
-  const double normB = std::sqrt(sum(n, [&](int i, Sums& s) { s.first += b[i] * b[i]; }).first);
-  if (!(normB > 0.0)) {
+  const double rightNorm = std::sqrt(sumOver(n, [&](int i) { return b[i] * b[i]; }));
+  if (!(rightNorm > 0.0)) {
     std::fill(x.begin(), x.end(), 0.0);
-    report.converged = normB == 0.0;
-    report.residual = normB;
+    report.converged = rightNorm == 0.0;
+    report.residual = rightNorm;
     return report;
   }
 
-  std::vector<double> p(n + 1, 0.0), q(n), r(std::move(b));
-  std::vector<float> scaled(n + 1, 0.0f), z(n + 1, 0.0f);
-  std::copy(x.begin(), x.end(), p.begin());
+  // One value more, 0, for neighbours that are not there.
+  ConjugateGradients v{.n = n,
+                       .x = x,
+                       .r = std::move(b),
+                       .p = std::vector<double>(n + 1, 0.0),
+                       .q = std::vector<double>(n),
+                       .scaled = std::vector<float>(n + 1, 0.0f),
+                       .z = std::vector<float>(n + 1, 0.0f),
+                       .rightNorm = rightNorm};
+  std::copy(x.begin(), x.end(), v.p.begin());
   // The sum of what body(i, row i times p) gives.
   const auto sumOfProducts = [&](const auto& body) {
+    const std::vector<double>& p = v.p;
     return tbb::parallel_deterministic_reduce(
-        Range(0, n, kGrain), 0.0,
+        Range(0, n, kIndicesAtOnce), 0.0,
         [&](const Range& range, double total) {
           even.forParts(
               range.begin(), range.end(),
@@ -244,58 +231,33 @@ PoissonReport PoissonSolver::solve(std::vector<double> b, std::vector<double>& x
         },
         std::plus<double>());
   };
-  double normR = std::sqrt(sumOfProducts([&](int i, double product) {
-    r[i] -= product;
-    return r[i] * r[i];
+  v.residualNorm = std::sqrt(sumOfProducts([&](int i, double product) {
+    v.r[i] -= product;
+    return v.r[i] * v.r[i];
   }));
-  report.residual = normR / normB;
+  report.residual = v.residualNorm / v.rightNorm;
   report.converged = report.residual <= tolerance;
   if (report.converged) return report;
 
   if (m_preconditioner == nullptr) m_preconditioner = std::make_unique<Multigrid>(system, even);
-  double rz = 0.0, alpha = 0.0;
+  const auto precondition = [&] {
+    m_preconditioner->apply(v.scaled, v.z);
+    removeMeans(m_singular, v.z);
+  };
+  const auto product = [&] {
+    return sumOfProducts([&](int i, double value) {
+      v.q[i] = value;
+      return v.p[i] * value;
+    });
+  };
   bool asked = probe.continues == nullptr;
-  while (!report.converged && !report.ended && report.iterations < maxIterations &&
-         std::isfinite(report.residual)) {
-    // Scaled, since the preconditioner works on values of about 1.
-    const double unit = normR / std::sqrt(static_cast<double>(n));
-    tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
-      for (int i = range.begin(); i < range.end(); ++i) scaled[i] = static_cast<float>(r[i] / unit);
-    });
-    m_preconditioner->apply(scaled, z);
-    removeMeans(m_singular, z);
-
-    // z.(r - r_old) = -alpha z.q gives the flexible (Polak-Ribiere) direction without keeping the old
-    // residual.
-    const Sums products = sum(n, [&](int i, Sums& s) {
-      s.first += z[i] * r[i];
-      s.second += z[i] * q[i];
-    });
-    const double beta = report.iterations == 0 ? 0.0 : -alpha * products.second / rz;
-    rz = products.first;
-    tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
-      for (int i = range.begin(); i < range.end(); ++i)
-        p[i] = report.iterations == 0 ? z[i] : z[i] + beta * p[i];
-    });
-    const double pq = sumOfProducts([&](int i, double product) {
-      q[i] = product;
-      return p[i] * product;
-    });
-    if (!(pq > 0.0) || !(rz > 0.0)) break;  // only rounding is left
-    alpha = rz / pq;
-    normR = std::sqrt(sum(n, [&](int i, Sums& s) {
-                        x[i] += alpha * p[i];
-                        r[i] -= alpha * q[i];
-                        s.first += r[i] * r[i];
-                      }).first);
-    ++report.iterations;
-    report.residual = normR / normB;
-    report.converged = report.residual <= tolerance;
-    if (!asked && !report.converged && report.residual <= probe.tolerance) {
-      asked = true;
-      report.ended = !probe.continues(x);
-    }
-  }
+  const auto goesOn = [&] {
+    if (asked || report.residual > probe.tolerance) return true;
+    asked = true;
+    report.ended = !probe.continues(x);
+    return !report.ended;
+  };
+  conjugateGradients(v, tolerance, maxIterations, precondition, product, goesOn, report);
   removeMeans(m_singular, x);
   return report;
 }

@@ -235,10 +235,10 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
           // The cell's outflow through open faces is balanced by inflow at its walls, so that it is
           // divergence-free; each wall takes a share in proportion to the speed at which liquid was about to
           // leave it.
-          const auto& [open, theta, closed, leaving] = liquid.sidesOf(wet);
+          const auto& sides = liquid.sidesOf(wet);
           const double relative = leaf.getValue(c) - push;
           const double ready = std::max(0.0, solidBelow ? relative : -relative);
-          const double share = leaving > 0.0f ? ready / leaving : 1.0 / closed;
+          const double share = sides.leaving > 0.0f ? ready / sides.leaving : 1.0 / sides.closed;
           away = std::max(0.0, projectedOutflow(liquid, surface, q, wet)) * share;
         }
         leaf.setValueOn(c, static_cast<float>(push + (solidBelow ? away : -away)));

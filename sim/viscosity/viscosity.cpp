@@ -1,11 +1,11 @@
 #include "sim/viscosity/viscosity.h"
 
 #include "sim/grid/require.h"
+#include "sim/poisson/conjugate_gradients.h"
 #include "sim/viscosity/viscous_multigrid.h"
 #include "sim/viscosity/viscous_system.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,19 +13,8 @@
 namespace fluidtex::sim {
 namespace {
 
-using Range = tbb::blocked_range<std::int32_t>;
-constexpr std::int32_t kGrain = 8192;
-
-template <typename Term>
-double sum(std::int32_t n, const Term& term) {
-  return tbb::parallel_deterministic_reduce(
-      Range(0, n, kGrain), 0.0,
-      [&](const Range& range, double value) {
-        for (std::int32_t i = range.begin(); i < range.end(); ++i) value += term(i);
-        return value;
-      },
-      [](double a, double b) { return a + b; }, tbb::simple_partitioner());
-}
+using Range = IndexRange;
+constexpr std::int32_t kGrain = kIndicesAtOnce;
 
 // The gradient of the viscous energy: stress gets the weighted strains of x, and out the sum at each face.
 // whole: with the offsets, else only the part that is linear in x.
@@ -81,60 +70,44 @@ ViscosityReport solveViscous(const ViscousSystem& system, std::vector<double>& x
   const std::int32_t n = system.unknowns;
   ViscosityReport report;
   report.faces = n;
-  std::vector<double> p(x.size(), 0.0), q(n), r(n), stress(system.samples.size());
+  std::vector<double> stress(system.samples.size());
+  ConjugateGradients v{.n = n,
+                       .x = x,
+                       .r = std::vector<double>(n),
+                       .p = std::vector<double>(x.size(), 0.0),
+                       .q = std::vector<double>(n)};
 
   // The right-hand side: the momentum before, and the forces of moving solids.
-  std::copy(x.begin() + n, x.end(), p.begin() + n);
-  viscousForce(system, p, true, stress, q);
-  const double normB = std::sqrt(sum(n, [&](std::int32_t i) {
-    const double b = system.mass[i] * x[i] - q[i];
+  std::copy(x.begin() + n, x.end(), v.p.begin() + n);
+  viscousForce(system, v.p, true, stress, v.q);
+  v.rightNorm = std::sqrt(sumOver(n, [&](std::int32_t i) {
+    const double b = system.mass[i] * x[i] - v.q[i];
     return b * b;
   }));
-  std::fill(p.begin(), p.end(), 0.0);
+  std::fill(v.p.begin(), v.p.end(), 0.0);
 
-  viscousForce(system, x, true, stress, q);
-  double normR = std::sqrt(sum(n, [&](std::int32_t i) {
-    r[i] = -q[i];
-    return r[i] * r[i];
+  viscousForce(system, x, true, stress, v.q);
+  v.residualNorm = std::sqrt(sumOver(n, [&](std::int32_t i) {
+    v.r[i] = -v.q[i];
+    return v.r[i] * v.r[i];
   }));
-  report.residual = normB == 0.0 ? 0.0 : normR / normB;
-  report.converged = normR <= options.tolerance * normB;
+  report.residual = v.rightNorm == 0.0 ? 0.0 : v.residualNorm / v.rightNorm;
+  report.converged = v.residualNorm <= options.tolerance * v.rightNorm;
   if (report.converged) return report;
 
   ViscousMultigrid preconditioner(system);
-  std::vector<float> scaled(n), z(n);
-  double rz = 0.0, alpha = 0.0;
-  while (!report.converged && report.iterations < options.maxIterations && std::isfinite(report.residual)) {
-    // Scaled, since the preconditioner works on values of about 1.
-    const double unit = normR / std::sqrt(static_cast<double>(n));
-    tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
-      for (std::int32_t i = range.begin(); i < range.end(); ++i) scaled[i] = static_cast<float>(r[i] / unit);
+  v.scaled.resize(n);
+  v.z.resize(n);
+  const auto product = [&] {
+    viscousForce(system, v.p, false, stress, v.q);
+    return sumOver(n, [&](std::int32_t i) {
+      v.q[i] += system.mass[i] * v.p[i];
+      return v.p[i] * v.q[i];
     });
-    preconditioner.apply(scaled, z);
-    // z.(r - r_old) = -alpha z.q gives the flexible (Polak-Ribiere) direction without the old residual.
-    const double zr = sum(n, [&](std::int32_t i) { return z[i] * r[i]; });
-    const double zq = sum(n, [&](std::int32_t i) { return z[i] * q[i]; });
-    const double beta = report.iterations == 0 ? 0.0 : -alpha * zq / rz;
-    rz = zr;
-    tbb::parallel_for(Range(0, n, kGrain), [&](const Range& range) {
-      for (std::int32_t i = range.begin(); i < range.end(); ++i) p[i] = z[i] + beta * p[i];
-    });
-    viscousForce(system, p, false, stress, q);
-    const double pq = sum(n, [&](std::int32_t i) {
-      q[i] += system.mass[i] * p[i];
-      return p[i] * q[i];
-    });
-    if (!(pq > 0.0) || !(rz > 0.0)) break;  // only rounding is left
-    alpha = rz / pq;
-    normR = std::sqrt(sum(n, [&](std::int32_t i) {
-      x[i] += alpha * p[i];
-      r[i] -= alpha * q[i];
-      return r[i] * r[i];
-    }));
-    ++report.iterations;
-    report.residual = normR / normB;
-    report.converged = report.residual <= options.tolerance;
-  }
+  };
+  conjugateGradients(
+      v, options.tolerance, options.maxIterations, [&] { preconditioner.apply(v.scaled, v.z); }, product,
+      [] { return true; }, report);
   return report;
 }
 

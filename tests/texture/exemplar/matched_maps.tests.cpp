@@ -32,14 +32,6 @@ double varianceOf(const Image& image) {
   return result;
 }
 
-double squaredDifference(const Image& image, std::size_t a, std::size_t b) {
-  const auto channels = std::size_t(image.channels);
-  double sum = 0.0;
-  for (std::size_t c = 0; c < channels; ++c)
-    sum += std::pow(image.data[a * channels + c] - image.data[b * channels + c], 2);
-  return sum;
-}
-
 Image opaque() {
   return blobImage(kWidth, kHeight, 4, 12.0, 2);
 }
@@ -150,13 +142,13 @@ TEST_CASE(
   const std::map<std::string, ExemplarMap> four = {{"albedo", {albedo, MapHolds::values, 0.5f}},
                                                    {"height", {height, MapHolds::values, 0.5f}}};
   const MatchedMaps whole = matchedMaps(four, color, color, false, 4),
-                    half = matchedMaps(four, color, color, false, 2);
+                    halved = matchedMaps(four, color, color, false, 2);
   CHECK(whole.share == Approx(1.0));
   CHECK(whole.image.channels == 4);
-  CHECK(half.image.channels == 2);
+  CHECK(halved.image.channels == 2);
   // Of a half in the height and a sixth in each colour, all independent.
-  CHECK(half.share == Approx(2.0 / 3.0).epsilon(0.05));
-  CHECK(varianceOf(half.image) == Approx(half.share * varianceOf(whole.image)).epsilon(1e-3));
+  CHECK(halved.share == Approx(2.0 / 3.0).epsilon(0.05));
+  CHECK(varianceOf(halved.image) == Approx(halved.share * varianceOf(whole.image)).epsilon(1e-3));
 }
 
 TEST_CASE("matched maps: what is not seen does not count, nor what says nothing") {
