@@ -254,8 +254,7 @@ void addCyclesOptions(CLI::App& command, RenderOptions& options) {
       ->check(CLI::IsMember({"coat", "principled"}));
   add("--map", options.maps,
       "With --cycles: a picture over the exemplar, of any size, for color, roughness, normal, bump, "
-      "displacement "
-      "or alpha; may be repeated",
+      "displacement or alpha; may be repeated",
       "KIND=IMAGE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

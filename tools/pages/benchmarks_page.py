@@ -14,7 +14,7 @@ import sys
 import tomllib
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from markdown import FAILS, Page, PageError, bring_up_to_date, number, state
+from markdown import FAILS, Page, PageError, main_of_one, number, state
 
 BARS = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "benchmarks", "bars.toml")
 COLUMNS = ("row", "figure", "ours", "peer", "peer / ours", "must", "goal", "", "run")
@@ -143,14 +143,10 @@ def updated_page(text, measured, bars):
     return page.text()
 
 
-def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    figures, path = sys.argv[1:]
+def known_bars():
     with open(BARS, "rb") as file:
-        bars = tomllib.load(file)
-    bring_up_to_date(path, [figures], "Google Benchmark", lambda text, found: updated_page(text, found[0], bars))
+        return tomllib.load(file)
 
 
 if __name__ == "__main__":
-    main()
+    main_of_one(__doc__, "Google Benchmark", lambda text, figures: updated_page(text, figures, known_bars()))

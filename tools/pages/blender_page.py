@@ -8,7 +8,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from markdown import Page, bring_up_to_date, number
+from markdown import Page, main_of_one, number
 
 COLUMNS = ("points", "wall s a frame", "CPU s", "on")
 
@@ -23,12 +23,5 @@ def updated_page(text, figures):
     return page.text()
 
 
-def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    figures, path = sys.argv[1:]
-    bring_up_to_date(path, [figures], "tools/blender/time_frames.py", lambda text, found: updated_page(text, found[0]))
-
-
 if __name__ == "__main__":
-    main()
+    main_of_one(__doc__, "tools/blender/time_frames.py", updated_page)

@@ -8,7 +8,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from markdown import Page, bring_up_to_date, number
+from markdown import Page, main_of_one, number
 
 SEEN = ("frame", "points", "joints, of the triangles", "of the pixels", "vertices when cut, over the points")
 WAYS = ("in joints", "gradient over that elsewhere", "steps above 0.1", "elsewhere", "deviation over that elsewhere")
@@ -33,12 +33,5 @@ def updated_page(text, figures):
     return page.text()
 
 
-def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    figures, path = sys.argv[1:]
-    bring_up_to_date(path, [figures], "fluidtex_joints", lambda text, found: updated_page(text, found[0]))
-
-
 if __name__ == "__main__":
-    main()
+    main_of_one(__doc__, "fluidtex_joints", updated_page)

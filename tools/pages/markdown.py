@@ -122,6 +122,14 @@ def bring_up_to_date(path, files, written_by, updated):
         sys.exit("error: %s: not what %s writes" % (read, written_by))
 
 
+def main_of_one(usage, written_by, updated):
+    """main() of a script FIGURES.json PAGE: updated(page's text, the figures) takes the page's place."""
+    if len(sys.argv) != 3:
+        sys.exit(usage)
+    figures, path = sys.argv[1:]
+    bring_up_to_date(path, [figures], written_by, lambda text, found: updated(text, found[0]))
+
+
 def write_whole(path, text):
     """A file that is there whole or as it was before."""
     folder = os.path.dirname(os.path.abspath(path))
