@@ -12,10 +12,15 @@ string(REGEX REPLACE "#include \"([A-Za-z0-9]+\\.h)\"" "#include <openvdb/math/\
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/openvdb_maps.h CONTENT "${maps}" @ONLY)
 
 # Its own grids are compiled once, too.
-add_library(openvdb_grids STATIC cmake/openvdb_grids.cpp)
+add_library(openvdb_grids STATIC
+  cmake/openvdb/float_grid.cpp
+  cmake/openvdb/int_grid.cpp
+  cmake/openvdb/mask_grid.cpp
+  cmake/openvdb/vec_grid.cpp
+)
 target_link_libraries(openvdb_grids PRIVATE fluidtex_flags OpenVDB::openvdb)
 target_precompile_headers(openvdb_grids PRIVATE
-  ${PROJECT_BINARY_DIR}/openvdb_maps.h <openvdb/openvdb.h> ${PROJECT_SOURCE_DIR}/cmake/openvdb_grids.h)
+  ${PROJECT_BINARY_DIR}/openvdb_maps.h <openvdb/openvdb.h> ${PROJECT_SOURCE_DIR}/cmake/openvdb/grids.h)
 
 # For targets that link OpenVDB.
 function(fluidtex_precompiled target)

@@ -1,13 +1,16 @@
 # The arrows between rooms. fluidtex_room() notes each room; fluidtex_write_arrows() writes what each may include, which
 # the test "layout: includes follow the link lines" reads (cmake/check_includes.cmake).
 
-# fluidtex_room(NAME SOURCES...): one static library a folder; headers alone make an interface library. Its link line is
-# its arrows: its files include those of its own folder and of what it links.
+# fluidtex_room(NAME SOURCES... [ALONE SOURCES...]): one static library a folder; headers alone make an interface library.
+# Its link line is its arrows: its files include those of its own folder and of what it links. ALONE: see batches.cmake.
 function(fluidtex_room name)
-  if(ARGN)
-    add_library(${name} STATIC ${ARGN})
+  cmake_parse_arguments(room "" "" "ALONE" ${ARGN})
+  set(sources ${room_UNPARSED_ARGUMENTS} ${room_ALONE})
+  if(sources)
+    add_library(${name} STATIC ${sources})
     target_link_libraries(${name} PUBLIC fluidtex_flags)
     fluidtex_precompiled(${name})
+    fluidtex_in_batches(${name} ALONE ${room_ALONE})
   else()
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE fluidtex_flags)

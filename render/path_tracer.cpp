@@ -33,7 +33,7 @@ struct Path {
   std::uint16_t pixel, sample;
 };
 
-struct Light {
+struct PixelLight {
   Vec3f radiance;  // that arrives if nothing is in the way
   std::uint16_t pixel;
 };
@@ -71,7 +71,7 @@ class TileTracer {
       addUnblocked(m_sunRays, m_sunLight, Coherence::alike);
     }
     // From the last vertices on, only what comes straight from the sky counts.
-    std::vector<Light> skyLight(m_rays.size());
+    std::vector<PixelLight> skyLight(m_rays.size());
     for (std::size_t i = 0; i < m_rays.size(); ++i)
       skyLight[i] = {escaped(m_rays[i].direction, m_paths[i]), m_paths[i].pixel};
     addUnblocked(m_rays, skyLight, Coherence::scattered);
@@ -103,7 +103,7 @@ class TileTracer {
     }
   }
 
-  // Light that a path brings back when its ray leaves the scene. The camera does not see the sun's disc.
+  // PixelLight that a path brings back when its ray leaves the scene. The camera does not see the sun's disc.
   Vec3f escaped(const Vec3f& direction, const Path& path) const {
     const Sky& sky = m_world.sky;
     Vec3f radiance = sky.radiance(direction);
@@ -139,7 +139,7 @@ class TileTracer {
     return 0.0f;
   }
 
-  void addUnblocked(const std::vector<Ray>& rays, const std::vector<Light>& light, Coherence coherence) {
+  void addUnblocked(const std::vector<Ray>& rays, const std::vector<PixelLight>& light, Coherence coherence) {
     if (m_world.stage.seeThrough) {
       for (std::size_t i = 0; i < rays.size(); ++i)
         m_sum[light[i].pixel] += light[i].radiance * transmitted(rays[i]);
@@ -226,7 +226,7 @@ class TileTracer {
   std::vector<Ray> m_rays;
   std::vector<Path> m_paths;  // of m_rays
   std::vector<Ray> m_sunRays;
-  std::vector<Light> m_sunLight;  // of m_sunRays
+  std::vector<PixelLight> m_sunLight;  // of m_sunRays
   std::vector<std::uint8_t> m_blocked;
 };
 

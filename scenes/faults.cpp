@@ -10,7 +10,7 @@ namespace fluidtex::scenes {
 namespace {
 
 // A key of a scene has at most 60 letters, a message at most 600 of its own and a file's name.
-constexpr std::size_t kLongestKey = 160, kLongestMessage = 1200, kLongestName = 60;
+constexpr std::size_t kLongestKey = 160, kLongestMessage = 1200, kLongestHint = 60;
 
 std::string lowered(std::string text) {
   for (char& letter : text) letter = char(std::tolower(static_cast<unsigned char>(letter)));
@@ -90,7 +90,7 @@ int editDistance(const std::string& first, const std::string& second) {
 
 std::string nearestName(const std::string& wrong, const std::vector<std::string>& names) {
   // Its distance takes time and memory by the product of both lengths.
-  if (wrong.size() > kLongestName) return "";
+  if (wrong.size() > kLongestHint) return "";
   // A third of the letters may be wrong; with more of them the guess would be as often misleading as helpful.
   int best = std::max(1, int(wrong.size()) / 3) + 1;
   std::string nearest;

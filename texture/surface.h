@@ -17,6 +17,9 @@ using openvdb::Vec3f;
 using openvdb::Vec3I;
 using openvdb::Vec4f;
 
+// No vertex, triangle or other index.
+inline constexpr std::uint32_t kNone = ~std::uint32_t(0);
+
 // Gradient of the exemplar coordinate in world space, texels per metre. s: of the column,
 // rightwards; t: of the row, downwards. Both are tangent to the surface. World space, so that the value
 // does not depend on the axes that a vertex chooses.

@@ -148,7 +148,7 @@ void printPair(const ComparedFrames& pair) {
 }
 
 // Distance of this many points on a surface, m.
-double spacingOf(double area, double points) {
+double spacingFor(double area, double points) {
   return std::sqrt(area / points);
 }
 
@@ -245,8 +245,9 @@ std::vector<ComparedFrames> compareFrames(const scenes::Scene& scene, int first,
 
 double printPoints(const scenes::Scene& scene, const std::vector<ComparedFrames>& compared) {
   if (compared.empty() || compared.front().area == 0.0) return 0.0;
-  const double spacing = scene.texture.spacing > 0.0 ? scene.texture.spacing
-                                                     : spacingOf(compared.front().area, scene.texture.points);
+  const double spacing = scene.texture.spacing > 0.0
+                             ? scene.texture.spacing
+                             : spacingFor(compared.front().area, scene.texture.points);
   const auto pointsOn = [&](const ComparedFrames& pair) { return pair.area / (spacing * spacing); };
   const auto less = [](const ComparedFrames& a, const ComparedFrames& b) { return a.area < b.area; };
   const ComparedFrames& largest = *std::max_element(compared.begin(), compared.end(), less);

@@ -36,7 +36,7 @@ void checkPlace(const Band& band, const sim::FloatGrid& grid, int axis) {
 
 Band bandOf(const sim::Frame& frame) {
   Band band;
-  band.index = std::make_shared<Band::IndexTree>(Band::kNone);
+  band.index = std::make_shared<sim::IndexTree>(Band::kNone);
   sim::MaskTree mask;
   for (const sim::Substep& substep : frame.substeps) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -62,7 +62,7 @@ Band bandOf(const sim::Frame& frame) {
   band.neighbor.resize(band.cells.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, band.cells.size(), texture::kGrain),
                     [&](const auto& range) {
-                      openvdb::tree::ValueAccessor<const Band::IndexTree> index(*band.index);
+                      openvdb::tree::ValueAccessor<const sim::IndexTree> index(*band.index);
                       for (std::size_t cell = range.begin(); cell != range.end(); ++cell) {
                         for (int side = 0; side < 6; ++side) {
                           Coord beside = band.cells[cell];

@@ -18,13 +18,12 @@ using openvdb::Vec3f;
 // All cells whose velocity is known in one of the frame's substeps.
 struct Band {
   static constexpr std::int32_t kNone = -1;
-  using IndexTree = sim::TreeOf<std::int32_t>;
 
   double h = 0.0;     // side of a cell, metres
   Vec3d origin{0.0};  // centre of cell (0, 0, 0)
   std::vector<openvdb::Coord> cells;
   std::vector<std::array<std::int32_t, 6>> neighbor;  // -x, +x, -y, +y, -z, +z; kNone: no cell
-  IndexTree::Ptr index;                               // cell -> its index, kNone elsewhere
+  sim::IndexTree::Ptr index;                          // cell -> its index, kNone elsewhere
 
   Vec3d center(std::size_t cell) const { return origin + cells[cell].asVec3d() * h; }
 };

@@ -28,9 +28,6 @@ using texture::SurfaceMesh;
 using texture::TexturedSurface;
 using texture::Vec3f;
 
-// Penalty for a triangle that faces the other way, in units of the length scale of trust.
-constexpr double kOtherSide = 4.0;
-
 // Least length scale of trust: surfaces closer than half a voxel, or than the spacing, cannot be told apart.
 double halfVoxel(const sim::Frame& frame) {
   double voxel = 0.0;

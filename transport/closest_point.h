@@ -13,6 +13,9 @@ using openvdb::Vec3d;
 using openvdb::Vec3f;
 using openvdb::Vec3I;
 
+// The penalty below that mapping to another surface uses, in units of its length scale.
+inline constexpr double kOtherSide = 4.0;
+
 struct SurfacePoint {
   std::uint32_t triangle = 0;
   Vec3f weight{0.0f};     // barycentric

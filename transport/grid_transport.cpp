@@ -1,9 +1,8 @@
 #include "transport/grid_transport.h"
 
+#include "sim/grid/dilate.h"
 #include "texture/loops/parallel.h"
 #include "transport/within_reach.h"
-
-#include <openvdb/tools/Morphology.h>
 
 #include <algorithm>
 #include <cmath>

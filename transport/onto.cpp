@@ -2,6 +2,7 @@
 
 #include "texture/loops/parallel.h"
 #include "texture/orientation/tangent.h"
+#include "transport/closest_point.h"
 #include "transport/cubic_directions.h"
 #include "transport/trust.h"
 
@@ -11,9 +12,6 @@ namespace fluidtex::transport {
 namespace {
 
 using texture::forEachIndex;
-
-// Penalty for a side that faces away, in spacings.
-constexpr double kOtherSide = 4.0;
 
 std::vector<Vec3f> normalsOf(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles) {
   std::vector<Vec3f> normals(positions.size(), Vec3f(0.0f));

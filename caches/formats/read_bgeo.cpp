@@ -21,9 +21,9 @@ struct Columns {
   std::size_t rowSize = 0;  // bytes
 };
 
-class Reader {
+class BgeoReader {
  public:
-  explicit Reader(std::string_view bytes) : m_bytes(bytes, std::endian::big) {}
+  explicit BgeoReader(std::string_view bytes) : m_bytes(bytes, std::endian::big) {}
 
   Geometry read() {
     takeHeader();
@@ -173,7 +173,7 @@ class Reader {
 }  // namespace
 
 Geometry geometryOfBgeo(std::string_view bytes) {
-  return Reader(bytes).read();
+  return BgeoReader(bytes).read();
 }
 
 }  // namespace fluidtex::caches

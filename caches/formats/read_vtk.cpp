@@ -30,9 +30,9 @@ std::string decoded(std::string_view name) {
   return text;
 }
 
-class Reader {
+class VtkReader {
  public:
-  explicit Reader(std::string_view bytes) : m_arrays(bytes) {}
+  explicit VtkReader(std::string_view bytes) : m_arrays(bytes) {}
 
   Geometry read() {
     takeHeader();
@@ -213,7 +213,7 @@ class Reader {
 }  // namespace
 
 Geometry geometryOfVtk(std::string_view bytes) {
-  return Reader(bytes).read();
+  return VtkReader(bytes).read();
 }
 
 }  // namespace fluidtex::caches

@@ -1,6 +1,6 @@
 #include "caches/liquid/bulk.h"
 
-#include <openvdb/tools/Morphology.h>
+#include "sim/grid/dilate.h"
 
 #include <cmath>
 

@@ -19,7 +19,7 @@ using BlockNumbers = openvdb::tree::ValueAccessor<openvdb::Int32Tree>;
 
 constexpr std::uint32_t kNone = ~0u;
 // Each cell is nearer than one of its neighbours along the axes by that much at least: 1 / sqrt 3.
-constexpr double kStep = 0.577;
+constexpr double kReachStep = 0.577;
 
 // Whether any of a block's cells on the side towards direction 0..5 (as in sim::LeafTable::next) is set.
 bool touchesSide(const sim::LeafBits& bits, int direction) {
@@ -141,7 +141,7 @@ std::vector<ClosestTriangles::Found> ClosestTriangles::findAround(std::size_t bl
 
 void ClosestTriangles::extend(double reach) {
   while (m_reach < reach) {
-    const double next = std::min(m_reach + kStep, reach);
+    const double next = std::min(m_reach + kReachStep, reach);
     const auto square = float(next * next), lastSquare = float(m_lastReach * m_lastReach);
     addNeighbors();
     std::vector<std::vector<Found>> found(m_blocks.size());

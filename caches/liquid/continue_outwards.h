@@ -11,6 +11,9 @@
 
 namespace fluidtex::caches {
 
+// Layers that values which end at the surface are continued by.
+inline constexpr int kContinuedLayers = 3;
+
 // `layers` more layers of active voxels around those there are, each with the mean of its active neighbours
 // of the layers before (across faces): for values that end at the surface. Grid: of floats, or of vectors.
 template <class Grid>

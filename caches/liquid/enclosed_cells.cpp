@@ -20,9 +20,6 @@ using openvdb::CoordBBox;
 using sim::kLeafSize;
 using sim::LeafBits;
 
-constexpr int kSide = sim::kLeafDim;
-constexpr int kStride[3] = {64, 8, 1};
-
 // In units of blocks.
 Coord blockOf(const Coord& origin) {
   return Coord(origin[0] >> 3, origin[1] >> 3, origin[2] >> 3);
@@ -143,9 +140,9 @@ class Division {
       for (int gap = 1; gap < column.last - column.first; ++gap) {
         const auto [low, high] = extent(column, gap);
         if (low > high || isOutside(column.firstGap + std::uint32_t(gap))) continue;
-        const Coord first(kSide * column.x, kSide * column.y, kSide * int(low));
-        result.boxes.emplace_back(first,
-                                  first + Coord(kSide - 1, kSide - 1, kSide * int(high - low + 1) - 1));
+        const Coord first(sim::kLeafDim * column.x, sim::kLeafDim * column.y, sim::kLeafDim * int(low));
+        result.boxes.emplace_back(first, first + Coord(sim::kLeafDim - 1, sim::kLeafDim - 1,
+                                                       sim::kLeafDim * int(high - low + 1) - 1));
       }
     return result;
   }
@@ -173,12 +170,13 @@ class Division {
     const Parts& parts = m_parts[std::size_t(n)];
     const LeafBits& lines = m_crossed[m_blocks[std::size_t(n)]][std::size_t(axis)];
     std::uint32_t lastHere = ~0u, lastThere = ~0u;
-    for (int p = 0; p < kSide; ++p)
-      for (int q = 0; q < kSide; ++q) {
-        const int cell = kStride[u] * p + kStride[v] * q + (upper ? kStride[axis] * (kSide - 1) : 0);
+    for (int p = 0; p < sim::kLeafDim; ++p)
+      for (int q = 0; q < sim::kLeafDim; ++q) {
+        const int cell = sim::kLeafStride[u] * p + sim::kLeafStride[v] * q +
+                         (upper ? sim::kLeafStride[axis] * (sim::kLeafDim - 1) : 0);
         if (upper && (lines[std::size_t(cell >> 6)] >> (cell & 63) & 1) != 0) continue;
         const std::uint32_t here = m_firstPart[std::size_t(n)] + parts.of[std::size_t(cell)];
-        const std::uint32_t there = partOther(kStride[u] * p + kStride[v] * q);
+        const std::uint32_t there = partOther(sim::kLeafStride[u] * p + sim::kLeafStride[v] * q);
         if (here == lastHere && there == lastThere) continue;
         m_connected.join(here, there);
         lastHere = here;

@@ -16,13 +16,13 @@ namespace fluidtex::caches {
 namespace {
 
 constexpr std::size_t kPoints = 2000;
-constexpr std::size_t kFewest = 30;
+constexpr std::size_t kFewestPoints = 30;
 constexpr double kMoved = 0.25;  // cells
 // What a weight other than 1/2 has to explain more: below that it is no more than chance.
 constexpr double kBetter = 0.005;
 constexpr int kMostSteps = 64;
 constexpr double kMostCells = 1e4;  // that a point moves in a frame: nothing lies farther
-constexpr double kStep = 0.5;       // cells
+constexpr double kPathStep = 0.5;   // cells
 constexpr double kShort = 1e-3;     // of a frame: in that, paths are straight
 
 using Accessor = openvdb::FloatGrid::ConstAccessor;
@@ -126,7 +126,8 @@ std::vector<Vec3d> displacements(const std::vector<Vec3d>& points, const sim::Fa
                       const Flow flow(begin, end, meanWeight, kMostCells * h / seconds);
                       for (std::size_t n = range.begin(); n != range.end(); ++n) {
                         const double cells = flow.at(points[n], 0.5).length() * seconds / h;
-                        const int steps = int(std::clamp(std::ceil(cells / kStep), 1.0, double(kMostSteps)));
+                        const int steps =
+                            int(std::clamp(std::ceil(cells / kPathStep), 1.0, double(kMostSteps)));
                         Vec3d x = points[n];
                         for (int step = 0; step < steps; ++step) {
                           const double t = double(step) / steps, dt = seconds / steps;
@@ -152,7 +153,7 @@ std::optional<double> explainedShare(const std::vector<Vec3d>& points, const std
     all += before[n] * before[n];
     ++count;
   }
-  if (count < kFewest) return std::nullopt;
+  if (count < kFewestPoints) return std::nullopt;
   return 1.0 - left / all;
 }
 
@@ -176,7 +177,7 @@ std::optional<VelocityFactor> bestFactor(const openvdb::FloatGrid& last, const o
                                          double meanWeight, double seconds) {
   std::vector<Vec3d> points = surfacePoints(last, kPoints);
   keepMoved(phi, points);
-  if (points.size() < kFewest) return std::nullopt;
+  if (points.size() < kFewestPoints) return std::nullopt;
   const auto traced = [&](double factor) {
     return mean(distances(points, displacements(points, begin, end, meanWeight, factor * seconds), 1.0, phi));
   };

@@ -28,7 +28,6 @@ constexpr int kWidth = 1, kTimes = 2;
 constexpr double kLeastSlope = 0.01;
 // Cells around the surface from which motion is taken: farther away both level sets may be cut off.
 constexpr double kNear = 3.0;
-constexpr int kLayers = 3;
 
 // Products of d = (grad phi, dphi/dt): xx, xy, xz, yy, yz, zz, xt, yt, zt.
 constexpr std::array<std::array<int, 2>, 9> kProducts{
@@ -108,7 +107,7 @@ sim::FaceGrids fittedVelocity(const FloatGrid& last, const FloatGrid& phi, doubl
     }
   });
   std::vector<FloatGrid::Ptr> components(products.begin(), products.begin() + 3);
-  for (const FloatGrid::Ptr& component : components) continueOutwards(*component, kLayers);
+  for (const FloatGrid::Ptr& component : components) continueOutwards(*component, kContinuedLayers);
   return velocityGrids(components);
 }
 

@@ -20,10 +20,10 @@ namespace {
 using Fields = std::map<std::string, sim::FloatGrid::ConstPtr>;
 
 // Cells around the surface in which attributes of a mesh are known, and layers that grids are continued by.
-constexpr int kReach = 6, kLayers = 3;
+constexpr int kFieldReach = 6;
 
 sim::FloatGrid::ConstPtr placed(const Cache& cache, openvdb::FloatGrid& grid) {
-  continueOutwards(grid, kLayers);
+  continueOutwards(grid, kContinuedLayers);
   grid.transform().postMult(worldFromFile(cache.options));
   return sim::fromOpenVdb(grid);
 }
@@ -84,7 +84,7 @@ void fromPoints(const Cache& cache, const Field& field, const Geometry& geometry
   if (found == geometry.attributes.end() || found->second.components != components) return;
   const std::vector<std::string> names = scalarNames(field);
   if (cache.layout.surfaceKind == SurfaceKind::mesh) {
-    const auto grids = continuedOff(closest, found->second.values, components, kReach);
+    const auto grids = continuedOff(closest, found->second.values, components, kFieldReach);
     for (std::size_t c = 0; c < names.size(); ++c) fields[names[c]] = sim::fromOpenVdb(*grids[c]);
     return;
   }

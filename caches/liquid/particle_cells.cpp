@@ -16,7 +16,7 @@ using openvdb::Vec3f;
 
 // Cells along an axis: the last ones hold all that lies farther.
 constexpr int kBits = 21;
-constexpr double kMostCells = double(1 << kBits) - 2.0;
+constexpr double kLastCell = double(1 << kBits) - 2.0;
 
 std::uint64_t keyOf(int i, int j, int k) {
   return (std::uint64_t(i) << (2 * kBits)) + (std::uint64_t(j) << kBits) + std::uint64_t(k);
@@ -47,7 +47,7 @@ ParticleCells::ParticleCells(const std::vector<Vec3f>& points, double reach) : m
 Coord ParticleCells::cellOf(const Vec3d& x) const {
   Coord cell;
   for (int axis = 0; axis < 3; ++axis)
-    cell[axis] = int(std::clamp(std::floor((x[axis] - m_origin[axis]) / m_reach), -1.0, kMostCells));
+    cell[axis] = int(std::clamp(std::floor((x[axis] - m_origin[axis]) / m_reach), -1.0, kLastCell));
   return cell;
 }
 

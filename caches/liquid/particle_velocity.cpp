@@ -2,8 +2,8 @@
 
 #include "caches/liquid/continue_outwards.h"
 #include "caches/liquid/particle_cells.h"
+#include "sim/grid/dilate.h"
 
-#include <openvdb/tools/Morphology.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -21,14 +21,14 @@ using openvdb::Vec3f;
 // Radius in which particles count, in spacings; the weight below which nothing is known; and what is added to
 // the spread of the particles, as a share of it and at least, so that those of a plane or a line give a slope
 // along it.
-constexpr double kReach = 4.0, kLeastWeight = 1e-3, kSpreadShare = 1e-6, kLeastSpread = 1e-12;
+constexpr double kFitReach = 4.0, kLeastWeight = 1e-3, kSpreadShare = 1e-6, kLeastSpread = 1e-12;
 // That radius where too few particles are within the other, and how many voxels beyond the particles it
 // serves.
 constexpr double kWideReach = 6.0;
-constexpr int kBeyond = 3, kLayers = 3;
+constexpr int kBeyond = 3;
 // Particles of equal weight that it takes to know a slope and what it leaves: twice those that a linear field
 // fits without error.
-constexpr double kFewest = 8.0;
+constexpr double kFewestParticles = 8.0;
 // With fewer than this many, those in the wide radius are asked.
 constexpr double kMany = 12.0;
 // Power of the share of the velocities' spread that the fit explains, by which it may be faster than all
@@ -160,7 +160,7 @@ struct Around {
 // The fit's value at the place itself.
 Vec3d valueOf(const Around& around) {
   const double count = around.count();
-  if (count <= kFewest || around.squaredSpeed == 0.0) return around.mean;
+  if (count <= kFewestParticles || around.squaredSpeed == 0.0) return around.mean;
   const Mat3d inverse = around.squares.inverse();
   const Mat3d slope = around.both * inverse;
   const Vec3d off = slope * around.middle;
@@ -169,7 +169,7 @@ Vec3d valueOf(const Around& around) {
   double fitted = 0.0;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) fitted += slope[i][j] * around.both[i][j];
-  const double left = std::max(around.squaredSpeed - fitted, 0.0) / (count - kFewest);
+  const double left = std::max(around.squaredSpeed - fitted, 0.0) / (count - kFewestParticles);
   const double chance = left * around.middle.dot(inverse * around.middle), all = off.lengthSqr();
   if (all <= chance) return around.mean;
   const Vec3d value = around.mean - (1.0 - chance / all) * off;
@@ -223,7 +223,7 @@ openvdb::Vec3SGrid::Ptr velocityOfParticles(const std::vector<Vec3f>& points,
   std::vector<openvdb::Vec3STree::LeafNodeType*> leaves;
   grid->tree().getNodes(leaves);
   const std::vector<float> weights = likeness(points, velocity, spacing);
-  const MovingParticles near(points, velocity, weights, kReach * spacing),
+  const MovingParticles near(points, velocity, weights, kFitReach * spacing),
       wide(points, velocity, weights, kWideReach * spacing);
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     const Coord origin = leaves[n]->origin();
@@ -242,7 +242,7 @@ openvdb::Vec3SGrid::Ptr velocityOfParticles(const std::vector<Vec3f>& points,
       voxel.setValue(Vec3f(valueOf(around)));
     }
   });
-  continueOutwards(*grid, kLayers);
+  continueOutwards(*grid, kContinuedLayers);
   return grid;
 }
 

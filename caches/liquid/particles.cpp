@@ -19,14 +19,14 @@ using openvdb::Vec3f;
 using Leaf = openvdb::FloatTree::LeafNodeType;
 
 // In particle spacings: side of the voxels, and how far particles count for the mean place around.
-constexpr double kVoxel = 1.0, kReach = 2.5;
+constexpr double kVoxel = 1.0, kSurfaceReach = 2.5;
 // How far the mean place of a half-space is from its flat end, in reaches, with weights (1 - r^2)^3 (the two
 // integrals are 1/40 and 16/315), and so what of that is taken off.
 constexpr double kMeanPlace = 0.5 * (1.0 / 40.0) / (16.0 / 315.0);
 // Between two bodies the mean place is near, too: liquid has a particle within so many spacings.
 constexpr double kNearest = 1.25;
 // Where the field is below this share of the lowest, all around is liquid, or nearly.
-constexpr double kDeep = 0.6;
+constexpr double kDeepShare = 0.6;
 
 // Density of particles: radius in which they count, in spacings; how many are asked, and what share of these
 // has neighbours to all sides at least; how often the radius is set anew.
@@ -55,7 +55,7 @@ double fieldAt(const Vec3d& x, const ParticleCells::Window& around, double spaci
     nearest = std::min(nearest, d.lengthSqr());
   });
   if (weights <= 0.0) return outside;
-  const double off = sum.length() / weights - kMeanPlace * kReach * spacing;
+  const double off = sum.length() / weights - kMeanPlace * kSurfaceReach * spacing;
   return std::max(off, std::sqrt(nearest) - kNearest * spacing);
 }
 
@@ -110,7 +110,7 @@ double particleSpacing(const std::vector<Vec3f>& points) {
 
 SurfaceTriangles surfaceOfParticles(const std::vector<Vec3f>& points, double spacing) {
   if (points.empty() || !(spacing > 0.0)) return {};
-  const double voxel = kVoxel * spacing, reach = kReach * spacing, outside = reach;
+  const double voxel = kVoxel * spacing, reach = kSurfaceReach * spacing, outside = reach;
   const double deepest = -kMeanPlace * reach;
   const ParticleCells cells(points, reach);
   openvdb::FloatGrid phi{float(outside)};
@@ -125,7 +125,7 @@ SurfaceTriangles surfaceOfParticles(const std::vector<Vec3f>& points, double spa
     const auto field = [&](const Coord& at) {
       return fieldAt(at.asVec3d() * voxel, around, spacing, outside);
     };
-    if (isDeep(origin, kDeep * deepest, field)) {
+    if (isDeep(origin, kDeepShare * deepest, field)) {
       leaves[n]->fill(float(deepest), false);
       return;
     }

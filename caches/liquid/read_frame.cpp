@@ -32,8 +32,6 @@ using openvdb::Mat4d;
 using openvdb::Vec3d;
 using openvdb::Vec3f;
 
-// Cells around the surface in which velocities are looked for at least, and used at most.
-constexpr int kLeastReach = 6, kMostReach = 24;
 // Level of densities where nothing is said: this share of the largest.
 constexpr float kIsoShare = 0.5f;
 

@@ -16,9 +16,8 @@ using openvdb::Vec3d;
 using openvdb::Vec3f;
 using openvdb::Vec3I;
 
-constexpr int kLeastReach = 6, kMostReach = 24;
 // How far off the surface velocities are linear, cells.
-constexpr double kReach = 2.0;
+constexpr double kLinearReach = 2.0;
 
 Vec3d velocityOf(const std::vector<float>& velocity, std::uint32_t point) {
   const float* v = velocity.data() + 3 * std::size_t(point);
@@ -105,7 +104,7 @@ sim::FaceGrids velocityOffSurface(ClosestTriangles& closest, const std::vector<f
   const double h = closest.cellSize();
   const auto valuesAt = [&](const Vec3I& corners, const TrianglePoint& point, double* values) {
     Vec3d off = -h * point.offset;  // from the surface to the cell
-    off *= std::min(1.0, kReach * h / std::max(off.length(), 1e-30));
+    off *= std::min(1.0, kLinearReach * h / std::max(off.length(), 1e-30));
     Vec3d u(0.0);
     for (int corner = 0; corner < 3; ++corner) {
       const std::uint32_t p = corners[corner];

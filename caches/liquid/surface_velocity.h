@@ -8,9 +8,12 @@
 
 namespace fluidtex::caches {
 
-// Cells of side h around a surface that a frame's motion may lead through, 6 to 24: what `band` below has to
-// be. velocity: of its points, #P x 3; the fastest hundredth, which are stray drops, do not count. seconds:
-// of the frame.
+// Cells around the surface in which velocities are looked for at least, and used at most.
+inline constexpr int kLeastReach = 6, kMostReach = 24;
+
+// Cells of side h around a surface that a frame's motion may lead through, within these bounds: what `band`
+// below has to be. velocity: of its points, #P x 3; the fastest hundredth, which are stray drops, do not
+// count. seconds: of the frame.
 int reachInCells(const std::vector<float>& velocity, double seconds, double h);
 
 // Velocity in the cells within `band` cells of the surface, m/s, at their centres. velocity: of the points,

@@ -15,7 +15,6 @@ using openvdb::CoordBBox;
 using openvdb::Vec3d;
 using openvdb::Vec3I;
 
-constexpr int kSide = sim::kLeafDim;
 constexpr std::size_t kTogether = 4096;  // triangles
 constexpr std::uint64_t kFewBlocks = 8;
 
@@ -25,14 +24,15 @@ struct Entry {
 };
 
 int blockOf(double cell) {
-  return int(std::floor(cell / kSide));
+  return int(std::floor(cell / sim::kLeafDim));
 }
 
 // Long triangles come near few of the blocks in the box around them: parts of the box from which they are too
 // far are left out.
 void addNear(const CellTriangles& surface, std::uint32_t triangle, const CoordBBox& box, double reach,
              std::vector<Entry>& entries) {
-  const Vec3d low = kSide * box.min().asVec3d(), high = kSide * box.max().asVec3d() + Vec3d(kSide - 1);
+  const Vec3d low = sim::kLeafDim * box.min().asVec3d(),
+              high = sim::kLeafDim * box.max().asVec3d() + Vec3d(sim::kLeafDim - 1);
   const double farthest = 0.5 * (high - low).length() + reach;
   if (closestPoint(surface, triangle, 0.5 * (low + high)).square > farthest * farthest) return;
   const Coord count = box.dim();

@@ -144,7 +144,6 @@ void rasterCrossings(const BlockTriangle& corners, CrossedLines& crossed) {
     if (highest(corners, axis) < -kTouch || lowest(corners, axis) > sim::kLeafDim + kTouch) return;
   const Vec3d edge[3] = {corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]};
   const Vec3d normal = edge[0].cross(corners[2] - corners[0]);
-  constexpr int kStride[3] = {64, 8, 1};
   for (int axis = 0; axis < 3; ++axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     const double bottom = lowest(corners, axis), top = highest(corners, axis);
@@ -173,7 +172,8 @@ void rasterCrossings(const BlockTriangle& corners, CrossedLines& crossed) {
         const int first = int(std::floor(std::clamp(low - kTouch, -1.0, double(sim::kLeafDim)))),
                   last = int(std::floor(std::clamp(high + kTouch, -1.0, double(sim::kLeafDim))));
         for (int k = std::max(first, 0); k <= std::min(last, kLast); ++k)
-          sim::setBit(crossed[std::size_t(axis)], kStride[axis] * k + kStride[u] * p + kStride[v] * q);
+          sim::setBit(crossed[std::size_t(axis)],
+                      sim::kLeafStride[axis] * k + sim::kLeafStride[u] * p + sim::kLeafStride[v] * q);
       }
   }
 }

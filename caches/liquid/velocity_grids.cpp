@@ -1,7 +1,8 @@
 #include "caches/liquid/velocity_grids.h"
 
+#include "sim/grid/dilate.h"
+
 #include <openvdb/tools/Interpolation.h>
-#include <openvdb/tools/Morphology.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>

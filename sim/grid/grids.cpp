@@ -38,7 +38,4 @@ FloatGrid::Ptr fromOpenVdb(const openvdb::FloatGrid& grid) {
 
 }  // namespace fluidtex::sim
 
-template class openvdb::Grid<fluidtex::sim::FloatTree>;
-template class openvdb::tree::Tree<fluidtex::sim::FloatTree::RootNodeType>;
-template class openvdb::Grid<fluidtex::sim::MaskTree>;
-template class openvdb::tree::Tree<fluidtex::sim::MaskTree::RootNodeType>;
+FLUIDTEX_GRID(, fluidtex::sim::FloatTree)

@@ -3,6 +3,8 @@
 // needs eight nodes of 262 kB. A solver with forty grids has no use for nodes of 4096 cells.
 #pragma once
 
+#include "sim/grid/compile_once.h"
+
 #include <openvdb/openvdb.h>
 
 namespace fluidtex::sim {
@@ -13,6 +15,7 @@ using TreeOf = typename openvdb::tree::Tree4<Value, 3, 2, 3>::Type;
 
 using FloatTree = TreeOf<float>;
 using FloatGrid = openvdb::Grid<FloatTree>;
+using IndexTree = TreeOf<std::int32_t>;
 using MaskTree = TreeOf<openvdb::ValueMask>;
 using MaskGrid = openvdb::Grid<MaskTree>;
 
@@ -23,8 +26,6 @@ FloatGrid::Ptr fromOpenVdb(const openvdb::FloatGrid& grid);
 
 }  // namespace fluidtex::sim
 
-// Their non-inline members are compiled in grids.cpp only, since they take longer than most files' own code.
-extern template class openvdb::Grid<fluidtex::sim::FloatTree>;
-extern template class openvdb::tree::Tree<fluidtex::sim::FloatTree::RootNodeType>;
-extern template class openvdb::Grid<fluidtex::sim::MaskTree>;
-extern template class openvdb::tree::Tree<fluidtex::sim::MaskTree::RootNodeType>;
+FLUIDTEX_GRID(extern, fluidtex::sim::FloatTree)
+FLUIDTEX_GRID(extern, fluidtex::sim::IndexTree)
+FLUIDTEX_GRID(extern, fluidtex::sim::MaskTree)

@@ -23,6 +23,7 @@ using FloatLeaf = FloatTree::LeafNodeType;
 
 inline constexpr int kLeafDim = FloatLeaf::DIM;    // 8
 inline constexpr int kLeafSize = FloatLeaf::SIZE;  // 512, z fastest: offset = 64 i + 8 j + k
+inline constexpr int kLeafStride[3] = {64, 8, 1};
 
 // The farthest that anything is traced along the velocity in one step, in cells: a leaf and its neighbours
 // hold the samples needed.

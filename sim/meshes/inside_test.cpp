@@ -16,14 +16,14 @@ namespace {
 constexpr double kLatticeSize = 536870912.0;  // 2^29: products of differences then fit 64 bits
 
 // Across the line.
-using Place = std::array<std::int64_t, 2>;
+using LatticePlace = std::array<std::int64_t, 2>;
 
-std::int64_t area(const Place& a, const Place& b, const Place& p) {
+std::int64_t area(const LatticePlace& a, const LatticePlace& b, const LatticePlace& p) {
   return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
 }
 
 // On which side of the line from a to b the moved point lies: 1 left, -1 right, 0 where a is b.
-int side(std::int64_t area, const Place& a, const Place& b) {
+int side(std::int64_t area, const LatticePlace& a, const LatticePlace& b) {
   if (area != 0) return area > 0 ? 1 : -1;
   if (a[1] != b[1]) return a[1] > b[1] ? 1 : -1;
   return a[0] == b[0] ? 0 : (a[0] < b[0] ? 1 : -1);
@@ -59,15 +59,15 @@ void InsideTest::forCrossings(const Vec3d& x, int axis, const Body& body) const 
   Vec3d within = x;
   within[axis] = low[axis];
   const auto across = [&](const Lattice& place) {
-    return Place{place[std::size_t(s)], place[std::size_t(t)]};
+    return LatticePlace{place[std::size_t(s)], place[std::size_t(t)]};
   };
-  const Place p = across(onLattice(within));
+  const LatticePlace p = across(onLattice(within));
   const TriangleMesh& mesh = m_surface->mesh();
   // What a box holds lies within a step of where it is on the lattice.
   m_surface->forBeyond(x, axis, 2.0 * m_step, [&](int triangle) {
     const openvdb::Vec3I& corners = mesh.triangles[triangle];
-    const Place a = across(m_places[corners[0]]), b = across(m_places[corners[1]]),
-                c = across(m_places[corners[2]]);
+    const LatticePlace a = across(m_places[corners[0]]), b = across(m_places[corners[1]]),
+                       c = across(m_places[corners[2]]);
     const std::int64_t ofC = area(a, b, p), ofA = area(b, c, p), ofB = area(c, a, p);
     const int step = side(ofC, a, b);
     if (step == 0 || side(ofA, b, c) != step || side(ofB, c, a) != step) return;

@@ -13,7 +13,7 @@ namespace {
 
 using openvdb::Vec3f;
 using openvdb::Vec3I;
-using Polygon = std::vector<std::size_t>;
+using Corners = std::vector<std::size_t>;
 
 [[noreturn]] void failDifferent(const std::filesystem::path& file, const std::filesystem::path& first,
                                 const std::string& how) {
@@ -73,7 +73,7 @@ std::vector<std::size_t> joined(const std::vector<MeshSoup>& files) {
 }
 
 // Its corners by their joined vertices, without those that are the same as the one before.
-Polygon cleaned(Polygon polygon, const std::vector<std::size_t>& vertexOf) {
+Corners cleaned(Corners polygon, const std::vector<std::size_t>& vertexOf) {
   for (std::size_t& corner : polygon) corner = vertexOf[corner];
   return withoutRepeats(polygon);
 }
@@ -92,9 +92,9 @@ MovingMesh::MovingMesh(const MeshSequence& sequence, int begin, int end) : m_beg
   const std::vector<MeshSoup> files = readFiles(sequence, begin, end);
   const std::vector<Vec3d>& points = files.front().points;
   const std::vector<std::size_t> vertexOf = joined(files);
-  std::vector<Polygon> polygons;
-  for (const Polygon& polygon : files.front().polygons) {
-    Polygon corners = cleaned(polygon, vertexOf);
+  std::vector<Corners> polygons;
+  for (const Corners& polygon : files.front().polygons) {
+    Corners corners = cleaned(polygon, vertexOf);
     if (corners.size() >= 3) polygons.push_back(std::move(corners));
   }
   const std::filesystem::path name = sequence.fileOf(begin);
@@ -102,7 +102,7 @@ MovingMesh::MovingMesh(const MeshSequence& sequence, int begin, int end) : m_beg
   polygons = withoutTwins(polygons);
   checkClosed(name, polygons);
 
-  for (const Polygon& polygon : polygons) {
+  for (const Corners& polygon : polygons) {
     std::vector<Vec3d> x;
     for (const std::size_t corner : polygon) x.push_back(points[corner]);
     const std::size_t start = bestFan(x).start, n = polygon.size();

@@ -24,12 +24,12 @@ using Range = tbb::blocked_range<std::size_t>;
 using MaskAccessor = openvdb::tree::ValueAccessor<const MaskGrid::TreeType>;
 
 using Block = LeafBlock<1>;
-constexpr auto& kStride = Block::kStride;
+constexpr auto& kBlockStride = Block::kStride;
 
 // Component `other` at a face normal to `axis`: the mean of the four faces around it.
 float across(const float* other, int axis, int otherAxis) {
-  const float* low = other - kStride[axis];
-  return 0.25f * (other[0] + other[kStride[otherAxis]] + low[0] + low[kStride[otherAxis]]);
+  const float* low = other - kBlockStride[axis];
+  return 0.25f * (other[0] + other[kBlockStride[otherAxis]] + low[0] + low[kBlockStride[otherAxis]]);
 }
 
 Coord shifted(Coord c, int axis, int by) {
@@ -111,19 +111,18 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
           const int offset = static_cast<int>(it.pos()), at = Block::index(offset);
           const Coord c = origin + Coord(offset >> 6, (offset >> 3) & 7, offset & 7);
           if (beyondOpening(solid, c, axis)) continue;
-          const float *here = distance.data() + at, *below = here - kStride[axis];
+          const float *here = distance.data() + at, *below = here - kBlockStride[axis];
           openvdb::Vec3f normal(0.0f), velocity(0.0f);
           for (int a = 0; a < 3; ++a) {
-            normal[a] =
-                a == axis
-                    ? here[0] - below[0]
-                    : 0.25f * (here[kStride[a]] - here[-kStride[a]] + below[kStride[a]] - below[-kStride[a]]);
+            normal[a] = a == axis ? here[0] - below[0]
+                                  : 0.25f * (here[kBlockStride[a]] - here[-kBlockStride[a]] +
+                                             below[kBlockStride[a]] - below[-kBlockStride[a]]);
             velocity[a] = a == axis ? speed[a][at] : across(speed[a].data() + at, axis, a);
             if (moving) velocity[a] -= a == axis ? push[a][at] : across(push[a].data() + at, axis, a);
           }
           // In the middle of a thin wall both sides read the velocity. Deep inside a solid there is no
           // normal, and nothing reads it.
-          const bool within = *here < 0.0f && *below < 0.0f && here[kStride[axis]] > *here;
+          const bool within = *here < 0.0f && *below < 0.0f && here[kBlockStride[axis]] > *here;
           if (within && wall.getValue(shifted(c, axis, -2)) > *below) {
             changes[n].push_back({own[axis]->buffer().data() + offset, speed[axis][at] - velocity[axis]});
             continue;
@@ -133,7 +132,7 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
           normal /= length;
           const float outward = velocity.dot(normal);
           if (outward >= 0.0f) {
-            const bool wet = liquid[at] < 0.0f || liquid[at - kStride[axis]] < 0.0f;
+            const bool wet = liquid[at] < 0.0f || liquid[at - kBlockStride[axis]] < 0.0f;
             if (!wet || (anyLeaving && (leaving.isValueOn(c) || leaving.isValueOn(shifted(c, axis, -1)))))
               continue;
           }

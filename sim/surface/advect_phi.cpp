@@ -2,14 +2,14 @@
 // with minimum error bounds", 1962 (third-order trace).
 #include "sim/surface/advect_phi.h"
 
+#include "sim/grid/dilate.h"
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/local_reach.h"
 #include "sim/grid/velocity_window.h"
 #include "sim/solids/solid_layers.h"
 #include "sim/solids/trace_end.h"
+#include "sim/surface/extend_into_solids.h"
 #include "sim/surface/level_set.h"
-
-#include <openvdb/tools/Morphology.h>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -23,9 +23,9 @@
 namespace fluidtex::sim {
 namespace {
 
-// phi that rises towards a wall by more than kAlongWall cells per cell runs along it. Liquid there that moves
-// by more than kMoves cells in a step leaves the wall; liquid at rest does not.
-constexpr float kAlongWall = 0.55f, kMoves = 0.02f;
+// Liquid along a wall that moves by more than this in a step, in cells, leaves the wall; liquid at rest does
+// not.
+constexpr float kMoves = 0.02f;
 // Farther from the surface than this, in cells, phi is interpolated linearly: accuracy does not matter there.
 constexpr float kFar = 4.0f;
 

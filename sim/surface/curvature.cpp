@@ -2,6 +2,7 @@
 
 #include "sim/grid/leaf_block.h"
 #include "sim/grid/trilinear.h"
+#include "sim/surface/surface_distance.h"
 
 #include <tbb/parallel_for.h>
 
@@ -12,19 +13,13 @@
 namespace fluidtex::sim {
 namespace {
 
-constexpr int kHalo = 1;
-using Block = LeafBlock<kHalo>;
-constexpr int kSide = Block::kSide;
-constexpr auto& kStride = Block::kStride;
+using CurvatureBlock = LeafBlock<1>;
 
 // Depth in solids, in cells, that deeper cells are taken to have; mirror images then lie within kWideHalo of
 // a leaf.
 constexpr float kDeepest = 1.5f;
 constexpr int kWideHalo = 4, kWideSide = kLeafDim + 2 * kWideHalo;
 constexpr int kSolidHalo = 2, kSolidSide = kLeafDim + 2 * kSolidHalo;
-
-// Second differences above this share of the slope mark corners, or the middle of a film or a gap.
-constexpr double kSharp = 0.7;
 
 // Largest curvature, in units of 1/h: that of a drop of two cells' radius.
 constexpr double kMost = 1.0;
@@ -43,7 +38,8 @@ struct Bend {
 Bend bendAt(const float* p) {
   double slope[3] = {}, second[3] = {}, mixed[3] = {};  // mixed: yz, xz, xy
   for (int a = 0; a < 3; ++a) {
-    const int d = kStride[a], e = kStride[(a + 1) % 3], f = kStride[(a + 2) % 3];
+    const int d = CurvatureBlock::kStride[a], e = CurvatureBlock::kStride[(a + 1) % 3],
+              f = CurvatureBlock::kStride[(a + 2) % 3];
     for (int i = -1; i <= 1; ++i) {
       for (int j = -1; j <= 1; ++j) {
         const float* q = p + i * e + j * f;
@@ -72,17 +68,17 @@ Bend bendAt(const float* p) {
   const double depth = std::clamp<double>(p[0], -1.0, 1.0);
   const double shrink = 1.0 - depth * sum + depth * depth * gauss;
   const double atSurface = shrink > 0.25 ? (sum - 2.0 * depth * gauss) / shrink : sum;
-  return {std::clamp(atSurface, -kMost, kMost), largest < kSharp * length};
+  return {std::clamp(atSurface, -kMost, kMost), largest < kSharpSlope * length};
 }
 
 bool besideSurface(const float* p) {
   const bool inside = p[0] < 0.0f;
-  return std::any_of(kStride, kStride + 3,
+  return std::any_of(CurvatureBlock::kStride, CurvatureBlock::kStride + 3,
                      [&](int d) { return (p[d] < 0.0f) != inside || (p[-d] < 0.0f) != inside; });
 }
 
 // Sets cells in solids to the values of phi at their mirror images across the solid's surface. block: phi
-// around a leaf, kSide cells wide.
+// around a leaf, CurvatureBlock::kSide cells wide.
 void mirrorInSolids(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord& origin, float* block) {
   float solid[kSolidSide * kSolidSide * kSolidSide], wide[kWideSide * kWideSide * kWideSide];
   gather(solidPhi.constTree(), origin, kSolidHalo, solid);
@@ -90,8 +86,9 @@ void mirrorInSolids(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord
   gather(phi.constTree(), origin, kWideHalo, wide);
   constexpr int kStep[3] = {kSolidSide * kSolidSide, kSolidSide, 1};
   const auto h = static_cast<float>(phi.voxelSize()[0]);
-  for (int n = 0; n < kSide * kSide * kSide; ++n) {
-    const int cell[3] = {n / kStride[0], n / kStride[1] % kSide, n % kSide};
+  for (int n = 0; n < CurvatureBlock::kSide * CurvatureBlock::kSide * CurvatureBlock::kSide; ++n) {
+    const int cell[3] = {n / CurvatureBlock::kStride[0],
+                         n / CurvatureBlock::kStride[1] % CurvatureBlock::kSide, n % CurvatureBlock::kSide};
     const float* s = solid + (cell[0] + 1) * kStep[0] + (cell[1] + 1) * kStep[1] + (cell[2] + 1);
     if (*s >= 0.0f) continue;
     float normal[3];
@@ -103,7 +100,8 @@ void mirrorInSolids(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord
     int low[3];
     float part[3];
     for (int a = 0; a < 3; ++a) {
-      const float at = static_cast<float>(cell[a] - kHalo + kWideHalo) + way * normal[a] / length;
+      const float at =
+          static_cast<float>(cell[a] - CurvatureBlock::kHalo + kWideHalo) + way * normal[a] / length;
       low[a] = std::clamp(static_cast<int>(std::floor(at)), 0, kWideSide - 2);
       part[a] = std::clamp(at - static_cast<float>(low[a]), 0.0f, 1.0f);
     }
@@ -119,7 +117,8 @@ void mirrorUnseen(const float* block, int at, const VisibleCells& visible, doubl
                   float* seen) {
   for (int n = 0; n < 27; ++n) {
     const int i = n / 9 - 1, j = n / 3 % 3 - 1, k = n % 3 - 1;
-    const int offset = i * kStride[0] + j * kStride[1] + k * kStride[2];
+    const int offset =
+        i * CurvatureBlock::kStride[0] + j * CurvatureBlock::kStride[1] + k * CurvatureBlock::kStride[2];
     const int bit = VisibleCells::kMiddle + i * VisibleCells::kStride[0] + j * VisibleCells::kStride[1] +
                     k * VisibleCells::kStride[2];
     if (visible.sees(bit)) {
@@ -142,7 +141,7 @@ void mirrorUnseen(const float* block, int at, const VisibleCells& visible, doubl
       for (int a = 0; a < 3; ++a) {
         const int up = corner >> a & 1;
         weight *= up != 0 ? part[a] : 1.0 - part[a];
-        to += (low[a] + up) * kStride[a];
+        to += (low[a] + up) * CurvatureBlock::kStride[a];
         seenAt += (low[a] + up) * VisibleCells::kStride[a];
       }
       if (!visible.sees(seenAt)) continue;
@@ -174,15 +173,15 @@ FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi,
   const auto leaves = leavesOf(phi.constTree());
   std::vector<std::unique_ptr<FloatLeaf>> made(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    static thread_local float block[Block::kCount], seen[Block::kCount];
+    static thread_local float block[CurvatureBlock::kCount], seen[CurvatureBlock::kCount];
     const Coord origin = leaves[n]->origin();
-    gather(phi.constTree(), origin, kHalo, block);
+    gather(phi.constTree(), origin, CurvatureBlock::kHalo, block);
     const auto [low, high] = std::minmax_element(std::begin(block), std::end(block));
     if (!(*low < 0.0f) || *high < 0.0f) return;
     mirrorInSolids(phi, solidPhi, origin, block);
     for (float& value : block) value /= h;
     for (int c = 0; c < kLeafSize; ++c) {
-      const int at = Block::index(c);
+      const int at = CurvatureBlock::index(c);
       const Coord cell = leaves[n]->offsetToGlobalCoord(static_cast<openvdb::Index>(c));
       const VisibleCells* visible = visibility != nullptr ? visibility->around(cell) : nullptr;
       const float* values = block;

@@ -21,10 +21,6 @@ namespace {
 
 using Vec3 = openvdb::Vec3f;
 
-// Where more than this share of phi's slope is normal to the wall, the surface runs along the wall: there is
-// a gap or a film, and not a surface that the wall cuts.
-constexpr float kAlongWall = 0.55f;
-
 struct Extension {
   const LeafTable& table;
   const GapRules& rules;

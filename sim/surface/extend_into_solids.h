@@ -9,6 +9,10 @@
 
 namespace fluidtex::sim {
 
+// Where more than this share of phi's slope is normal to the wall, the surface runs along the wall: there is
+// a gap or a film, and not a surface that the wall cuts.
+inline constexpr float kAlongWall = 0.55f;
+
 // Rules for a gap between the surface and a solid that it runs along. Both are asked of cells outside solids,
 // beside the solid.
 struct GapRules {

@@ -1,9 +1,8 @@
 #include "sim/surface/open_gaps.h"
 
+#include "sim/grid/dilate.h"
 #include "sim/solids/solid_layers.h"
 #include "sim/surface/extend_into_solids.h"
-
-#include <openvdb/tools/Morphology.h>
 
 namespace fluidtex::sim {
 namespace {

@@ -22,11 +22,8 @@
 namespace fluidtex::sim {
 namespace {
 
-constexpr int kHalo = 2;
-using Block = LeafBlock<kHalo>;
-constexpr int kSide = Block::kSide;  // 12
-constexpr int kBlock = Block::kCount;
-constexpr auto& kStride = Block::kStride;
+using FluxBlock = LeafBlock<2>;
+constexpr int kBlock = FluxBlock::kCount;
 constexpr float kCourant = kRedistanceReach;
 
 // Cells beside the surface whose error is less than this share of a cell keep their value: a surface at rest
@@ -62,7 +59,7 @@ struct NearCell {
 // The values around a cell along each axis, as they are stored.
 struct StoredValues {
   const float* p;
-  float operator()(int axis, int steps) const { return p[steps * kStride[axis]]; }
+  float operator()(int axis, int steps) const { return p[steps * FluxBlock::kStride[axis]]; }
 };
 
 // The same, with only the cell's side of thin walls.
@@ -76,7 +73,7 @@ struct OneSidedValues {
         return visible.sees(VisibleCells::kMiddle + steps * VisibleCells::kStride[axis]);
       };
       auto& v = value[axis];
-      for (int steps = -2; steps <= 2; ++steps) v[steps + 2] = p[steps * kStride[axis]];
+      for (int steps = -2; steps <= 2; ++steps) v[steps + 2] = p[steps * FluxBlock::kStride[axis]];
       // Neither a surface nor a slope is taken from behind the wall.
       if (!sees(-1)) v[1] = v[2];
       if (!sees(1)) v[3] = v[2];
@@ -115,7 +112,7 @@ bool findSurface(const Values& at, NearCell& cell) {
 std::vector<NearCell> nearCells(const float* block, const Visibility::Leaf* visibility) {
   std::vector<NearCell> cells;
   for (int offset = 0; offset < kLeafSize; ++offset) {
-    const float* p = block + Block::index(offset);
+    const float* p = block + FluxBlock::index(offset);
     NearCell cell{offset, {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f}};
     if (visibility != nullptr && !(*visibility)[offset].seesAll()) cell.visible = &(*visibility)[offset];
     if (cell.visible != nullptr ? findSurface(OneSidedValues(p, *cell.visible), cell)
@@ -135,7 +132,9 @@ inline float upwindSquare(float minus, float plus, float side) {
 [[gnu::noinline]] void addSlopes(const float* __restrict block, int stride, float* __restrict square) {
   for (int i = 0; i < kLeafDim; ++i) {
     for (int j = 0; j < kLeafDim; ++j) {
-      const float* p = block + ((i + kHalo) * kSide + j + kHalo) * kSide + kHalo;
+      const float* p = block +
+                       ((i + FluxBlock::kHalo) * FluxBlock::kSide + j + FluxBlock::kHalo) * FluxBlock::kSide +
+                       FluxBlock::kHalo;
       float* out = square + 64 * i + 8 * j;
       for (int k = 0; k < kLeafDim; ++k) {
         const float m2 = p[k - 2 * stride], m1 = p[k - stride], c = p[k];
@@ -187,7 +186,7 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
     return plan;
   }
   static thread_local float block[kBlock];  // 0 where nothing is gathered
-  gather(phi, origin, kHalo, block, true);
+  gather(phi, origin, FluxBlock::kHalo, block, true);
   plan.near = nearCells(block, visibility);
   for (const NearCell& cell : plan.near) {
     if (*std::min_element(cell.reach.begin(), cell.reach.end()) < kClosest) held[cell.offset] = true;
@@ -198,7 +197,8 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
   }
   for (const CellDistance& cell : surfaceDistances(phi, origin, h, notAsked)) {
     held[cell.offset] = true;
-    if (std::abs(block[Block::index(cell.offset)] / h - cell.phi) > kRightEnough) plan.moved.push_back(cell);
+    if (std::abs(block[FluxBlock::index(cell.offset)] / h - cell.phi) > kRightEnough)
+      plan.moved.push_back(cell);
   }
   std::erase_if(plan.near, [&](const NearCell& cell) { return held[cell.offset]; });
   for (std::int16_t i = 0; i < kLeafSize; ++i) {
@@ -218,15 +218,15 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
 void eulerStep(const FloatTree& from, FloatLeaf& to, const LeafPlan& plan, float h, float background) {
   if (plan.rests()) return;
   static thread_local float block[kBlock];  // 0 where nothing is gathered
-  gather(from, to.origin(), kHalo, block, true);
+  gather(from, to.origin(), FluxBlock::kHalo, block, true);
   const float inverse = 1.0f / h;
   for (float& value : block) value *= inverse;
   float square[kLeafSize] = {};
-  for (int axis = 0; axis < 3; ++axis) addSlopes(block, kStride[axis], square);
+  for (int axis = 0; axis < 3; ++axis) addSlopes(block, FluxBlock::kStride[axis], square);
   float step[kLeafSize];
   std::fill_n(step, kLeafSize, kCourant);
   const auto slope = [&](const NearCell& cell) {
-    const float* p = block + Block::index(cell.offset);
+    const float* p = block + FluxBlock::index(cell.offset);
     return cell.visible != nullptr ? slopeAt(OneSidedValues(p, *cell.visible), cell)
                                    : slopeAt(StoredValues{p}, cell);
   };
@@ -240,7 +240,9 @@ void eulerStep(const FloatTree& from, FloatLeaf& to, const LeafPlan& plan, float
   for (std::size_t n = 0; n < plan.held.size(); ++n) kept[n] = out[plan.held[n]];
   for (int i = 0; i < kLeafDim; ++i) {
     for (int j = 0; j < kLeafDim; ++j) {
-      const float* p = block + ((i + kHalo) * kSide + j + kHalo) * kSide + kHalo;
+      const float* p = block +
+                       ((i + FluxBlock::kHalo) * FluxBlock::kSide + j + FluxBlock::kHalo) * FluxBlock::kSide +
+                       FluxBlock::kHalo;
       const int row = 64 * i + 8 * j;
       for (int k = 0; k < kLeafDim; ++k) {
         const float now = p[k];

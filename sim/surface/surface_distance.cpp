@@ -12,16 +12,10 @@
 namespace fluidtex::sim {
 namespace {
 
-constexpr int kReach = 3;                       // cells: largest distance of the surface along an axis
-constexpr int kHalo = kReach + 3;               // and more for the interpolation's stencil there
-constexpr int kSide = LeafBlock<kHalo>::kSide;  // 20
-constexpr auto& kStride = LeafBlock<kHalo>::kStride;
+constexpr int kSearched = 3;                // cells: largest distance of the surface along an axis
+constexpr int kSearchHalo = kSearched + 3;  // and more for the interpolation's stencil there
 constexpr int kMaxIterations = 12;
 constexpr double kTolerance = 1e-3;  // cells: of the last step
-// Second differences above this share of the slope mark corners, or the middle of a film or a gap.
-constexpr double kSharp = 0.7;
-
-using Vec3 = openvdb::Vec3d;
 
 // For each axis the cubic Lagrange weights of the values at -1, 0, 1, 2 for a place t in [0, 1], and their
 // derivatives.
@@ -50,24 +44,24 @@ struct Weights {
 };
 
 // phi / h around one leaf; positions in cells from the leaf's first cell centre.
-struct Block : LeafBlock<kHalo> {
+struct SearchBlock : LeafBlock<kSearchHalo> {
   const float* cell(int offset) const { return data() + index(offset); }
 
   // The lower corner of the cube of cell centres around x; null where the stencil would leave the block.
-  const float* corner(const Vec3& x, double* t) const {
+  const float* corner(const Vec3d& x, double* t) const {
     int at[3];
     for (int a = 0; a < 3; ++a) {
-      const double shifted = x[a] + kHalo;
+      const double shifted = x[a] + kSearchHalo;
       if (!(shifted >= 1.0 && shifted < kSide - 2)) return nullptr;
       at[a] = static_cast<int>(shifted);
       t[a] = shifted - at[a];
     }
-    return value.data() + at[0] * kStride[0] + at[1] * kStride[1] + at[2];
+    return value.data() + at[0] * SearchBlock::kStride[0] + at[1] * SearchBlock::kStride[1] + at[2];
   }
 
   // Gradient of the interpolation at x, and its value in the fourth place. False where the stencil would
   // leave the block.
-  bool evaluate(const Vec3& x, double* result) const {
+  bool evaluate(const Vec3d& x, double* result) const {
     double t[4] = {};
     const float* at = corner(x, t);
     if (at == nullptr) return false;
@@ -77,8 +71,8 @@ struct Block : LeafBlock<kHalo> {
     for (int i = 0; i < 4; ++i) {
       __m256d plane = _mm256_setzero_pd(), planeY = plane;
       for (int j = 0; j < 4; ++j) {
-        const __m256d row =
-            _mm256_cvtps_pd(_mm_loadu_ps(at + (i - 1) * kStride[0] + (j - 1) * kStride[1] - 1));
+        const __m256d row = _mm256_cvtps_pd(
+            _mm_loadu_ps(at + (i - 1) * SearchBlock::kStride[0] + (j - 1) * SearchBlock::kStride[1] - 1));
         plane += _mm256_set1_pd(w.value[1][j]) * row;
         planeY += _mm256_set1_pd(w.slope[1][j]) * row;
       }
@@ -96,7 +90,7 @@ struct Block : LeafBlock<kHalo> {
   }
 
   // Whether phi bends smoothly on the stencil around x, where its slope is `slope`.
-  bool smooth(const Vec3& x, double slope) const {
+  bool smooth(const Vec3d& x, double slope) const {
     double t[3];
     const float* at = corner(x, t);
     if (at == nullptr) return false;
@@ -106,12 +100,13 @@ struct Block : LeafBlock<kHalo> {
     const auto bend = [&](__m128 a, __m128 b, __m128 c) {
       largest = _mm_max_ps(largest, _mm_andnot_ps(sign, a - two * b + c));
     };
-    const float* first = at - kStride[0] - kStride[1] - 1;
+    const float* first = at - SearchBlock::kStride[0] - SearchBlock::kStride[1] - 1;
     for (int j = 0; j < 4; ++j) {
       __m128 alongX[4], alongY[4], alongZ[4];
       for (int k = 0; k < 4; ++k) {
-        alongX[k] = _mm_loadu_ps(first + k * kStride[0] + j * kStride[1]);
-        alongY[k] = alongZ[k] = _mm_loadu_ps(first + j * kStride[0] + k * kStride[1]);
+        alongX[k] = _mm_loadu_ps(first + k * SearchBlock::kStride[0] + j * SearchBlock::kStride[1]);
+        alongY[k] = alongZ[k] =
+            _mm_loadu_ps(first + j * SearchBlock::kStride[0] + k * SearchBlock::kStride[1]);
       }
       _MM_TRANSPOSE4_PS(alongZ[0], alongZ[1], alongZ[2], alongZ[3]);
       for (const auto* line : {alongX, alongY, alongZ}) {
@@ -119,10 +114,10 @@ struct Block : LeafBlock<kHalo> {
         bend(line[1], line[2], line[3]);
       }
     }
-    return _mm_movemask_ps(_mm_cmpgt_ps(largest, _mm_set1_ps(static_cast<float>(kSharp * slope)))) == 0;
+    return _mm_movemask_ps(_mm_cmpgt_ps(largest, _mm_set1_ps(static_cast<float>(kSharpSlope * slope)))) == 0;
   }
 
-  // By row along z, bit k: whether the sign changes at most kReach cells from cell k. False where it never
+  // By row along z, bit k: whether the sign changes at most kSearched cells from cell k. False where it never
   // does.
   bool nearCells(std::array<std::uint8_t, 64>& near) const {
     // Bit k: whether the value at z = k is negative.
@@ -138,27 +133,27 @@ struct Block : LeafBlock<kHalo> {
     if (!any || all) return false;
     bool found = false;
     for (int row = 0; row < 64; ++row) {
-      const std::uint32_t* own = inside.data() + ((row >> 3) + kHalo) * kSide + (row & 7) + kHalo;
+      const std::uint32_t* own = inside.data() + ((row >> 3) + kSearchHalo) * kSide + (row & 7) + kSearchHalo;
       std::uint32_t changes = 0;
-      for (int n = 1; n <= kReach; ++n) {
+      for (int n = 1; n <= kSearched; ++n) {
         changes |= (*own ^ *own >> n) | (*own ^ *own << n);
         changes |= (*own ^ own[n]) | (*own ^ own[-n]) | (*own ^ own[n * kSide]) | (*own ^ own[-n * kSide]);
       }
-      near[row] = static_cast<std::uint8_t>(changes >> kHalo);
+      near[row] = static_cast<std::uint8_t>(changes >> kSearchHalo);
       found = found || near[row] != 0;
     }
     return found;
   }
 
-  // The nearest change of sign along an axis, linear between cell centres; there is one at most kReach cells
-  // away.
-  Vec3 crossing(int offset) const {
+  // The nearest change of sign along an axis, linear between cell centres; there is one at most kSearched
+  // cells away.
+  Vec3d crossing(int offset) const {
     const float* p = cell(offset);
-    double best = kReach + 1.0;
+    double best = kSearched + 1.0;
     int bestAxis = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      for (const int d : {-kStride[axis], kStride[axis]}) {
-        for (int n = 0; n < kReach; ++n) {
+      for (const int d : {-SearchBlock::kStride[axis], SearchBlock::kStride[axis]}) {
+        for (int n = 0; n < kSearched; ++n) {
           const float here = p[n * d], there = p[(n + 1) * d];
           if ((here < 0.0f) == (there < 0.0f)) continue;
           const double far = n + static_cast<double>(here) / (static_cast<double>(here) - there);
@@ -170,25 +165,26 @@ struct Block : LeafBlock<kHalo> {
         }
       }
     }
-    Vec3 x(offset >> 6, (offset >> 3) & 7, offset & 7);
+    Vec3d x(offset >> 6, (offset >> 3) & 7, offset & 7);
     x[bestAxis] += best;
     return x;
   }
 
   // Where the surface would be if phi were already a distance; `crossing` where that is too far.
-  Vec3 guess(int offset, const Vec3& crossing) const {
+  Vec3d guess(int offset, const Vec3d& crossing) const {
     const float* p = cell(offset);
-    const Vec3 slope(0.5 * (p[kStride[0]] - p[-kStride[0]]), 0.5 * (p[kStride[1]] - p[-kStride[1]]),
-                     0.5 * (p[kStride[2]] - p[-kStride[2]]));
+    const Vec3d slope(0.5 * (p[SearchBlock::kStride[0]] - p[-SearchBlock::kStride[0]]),
+                      0.5 * (p[SearchBlock::kStride[1]] - p[-SearchBlock::kStride[1]]),
+                      0.5 * (p[SearchBlock::kStride[2]] - p[-SearchBlock::kStride[2]]));
     const double square = slope.lengthSqr();
-    if (square < 0.5 || square > 2.0 || std::abs(p[0]) > kReach) return crossing;
-    return Vec3(offset >> 6, (offset >> 3) & 7, offset & 7) - p[0] / square * slope;
+    if (square < 0.5 || square > 2.0 || std::abs(p[0]) > kSearched) return crossing;
+    return Vec3d(offset >> 6, (offset >> 3) & 7, offset & 7) - p[0] / square * slope;
   }
 };
 
 // The search for the point of the surface that is closest to a cell.
 struct Search {
-  Vec3 cell, point;
+  Vec3d cell, point;
   double phi[4];  // gradient and value at the point
   std::int16_t offset;
   bool inBlock;
@@ -196,16 +192,16 @@ struct Search {
 
 // One step of Newton's method, to the closest point of the tangent plane. True when the search has ended;
 // `distance` is then that to the surface, or infinite where the search failed.
-bool advance(Search& search, const Block& block, double& distance) {
+bool advance(Search& search, const SearchBlock& block, double& distance) {
   distance = std::numeric_limits<double>::infinity();
   if (!search.inBlock) return true;
   const double phi = search.phi[3];
-  const Vec3 gradient(search.phi[0], search.phi[1], search.phi[2]);
+  const Vec3d gradient(search.phi[0], search.phi[1], search.phi[2]);
   const double square = gradient.lengthSqr();
   if (square < 1e-12) return true;
-  const Vec3 away = search.cell - search.point;
+  const Vec3d away = search.cell - search.point;
   const double height = away.dot(gradient);
-  Vec3 step = away - (phi + height) / square * gradient;
+  Vec3d step = away - (phi + height) / square * gradient;
   const double length = step.lengthSqr();
   if (length < kTolerance * kTolerance) {
     const double slope = std::sqrt(square);
@@ -223,7 +219,7 @@ bool advance(Search& search, const Block& block, double& distance) {
 
 std::vector<CellDistance> surfaceDistances(const FloatTree& phi, const Coord& origin, float h,
                                            const std::array<bool, kLeafSize>& notAsked) {
-  thread_local Block block;
+  thread_local SearchBlock block;
   thread_local std::vector<Search> searches;
   block.load(phi, origin);
   std::array<std::uint8_t, 64> near;
@@ -234,7 +230,7 @@ std::vector<CellDistance> surfaceDistances(const FloatTree& phi, const Coord& or
   searches.clear();
   for (std::int16_t offset = 0; offset < kLeafSize; ++offset) {
     if ((near[std::size_t(offset >> 3)] >> (offset & 7) & 1) == 0 || notAsked[offset]) continue;
-    const Vec3 cell(offset >> 6, (offset >> 3) & 7, offset & 7);
+    const Vec3d cell(offset >> 6, (offset >> 3) & 7, offset & 7);
     searches.push_back({cell, block.guess(offset, block.crossing(offset)), {}, offset, true});
   }
   // All cells take their steps together, so that their evaluations overlap.
@@ -245,7 +241,7 @@ std::vector<CellDistance> surfaceDistances(const FloatTree& phi, const Coord& or
       if (!advance(search, block, distance)) return false;
       // Never 0: the sign is the cell's side.
       const float away = std::max(static_cast<float>(distance), 1e-6f);
-      if (distance <= kReach)
+      if (distance <= kSearched)
         distances.push_back({search.offset, *block.cell(search.offset) < 0.0f ? -away : away});
       return true;
     });

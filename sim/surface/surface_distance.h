@@ -9,6 +9,9 @@
 
 namespace fluidtex::sim {
 
+// Second differences of phi above this share of its slope mark corners, or the middle of a film or a gap.
+inline constexpr double kSharpSlope = 0.7;
+
 // A cell of a leaf, by its offset, and its new phi in units of h.
 struct CellDistance {
   std::int16_t offset;

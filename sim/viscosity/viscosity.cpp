@@ -14,14 +14,13 @@ namespace fluidtex::sim {
 namespace {
 
 using Range = IndexRange;
-constexpr std::int32_t kGrain = kIndicesAtOnce;
 
 // The gradient of the viscous energy: stress gets the weighted strains of x, and out the sum at each face.
 // whole: with the offsets, else only the part that is linear in x.
 void viscousForce(const ViscousSystem& system, const std::vector<double>& x, bool whole,
                   std::vector<double>& stress, std::vector<double>& out) {
   const auto samples = static_cast<std::int32_t>(system.samples.size());
-  tbb::parallel_for(Range(0, samples, kGrain), [&](const Range& range) {
+  tbb::parallel_for(Range(0, samples, kIndicesAtOnce), [&](const Range& range) {
     for (std::int32_t s = range.begin(); s < range.end(); ++s) {
       const StrainSample& sample = system.samples[s];
       const auto& f = sample.face;
@@ -32,7 +31,7 @@ void viscousForce(const ViscousSystem& system, const std::vector<double>& x, boo
     }
   });
   for (int c = 0; c < 3; ++c) {
-    tbb::parallel_for(Range(system.start[c].front(), system.start[c].back(), kGrain),
+    tbb::parallel_for(Range(system.start[c].front(), system.start[c].back(), kIndicesAtOnce),
                       [&](const Range& range) {
                         for (std::int32_t i = range.begin(); i < range.end(); ++i) {
                           double force = 0.0;

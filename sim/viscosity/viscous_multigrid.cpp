@@ -14,10 +14,17 @@
 #include <unordered_map>
 
 namespace fluidtex::sim {
+
+// Interpolation weights between a level's faces and the next coarser one's.
+struct FaceTransfer {
+  std::vector<std::array<std::int32_t, 8>> parent;  // the coarse level's nowhere() for none
+  std::vector<std::array<float, 8>> weight;
+};
+
 namespace {
 
 using Range = tbb::blocked_range<std::int32_t>;
-constexpr std::int32_t kGrain = 4096;
+constexpr std::int32_t kFacesAtOnce = 4096;
 // A level of at most this many faces is factored instead of coarsened.
 constexpr std::int32_t kSmall = 1500;
 // Coarsening stops where a level would keep more than this share of the faces, as with scattered drops.
@@ -82,12 +89,6 @@ class VoxelFinder {
   std::int32_t m_leaf = kUnset;
 };
 
-// Interpolation weights between a level's faces and the next coarser one's.
-struct Transfer {
-  std::vector<std::array<std::int32_t, 8>> parent;  // the coarse level's nowhere() for none
-  std::vector<std::array<float, 8>> weight;
-};
-
 int componentOf(const ViscousSystem& system, std::int32_t face) {
   return face < system.start[0].back() ? 0 : (face < system.start[1].back() ? 1 : 2);
 }
@@ -106,7 +107,7 @@ std::vector<float> anchors(const ViscousSystem& system) {
   return anchor;
 }
 
-ViscousSystem coarsen(const ViscousSystem& fine, Transfer& transfer) {
+ViscousSystem coarsen(const ViscousSystem& fine, FaceTransfer& transfer) {
   ViscousSystem coarse;
   FloatTree topology(0.0f);
   for (const Coord& origin : fine.table.origins) {
@@ -217,7 +218,7 @@ ViscousSystem coarsen(const ViscousSystem& fine, Transfer& transfer) {
 struct ViscousMultigrid::Level {
   ViscousSystem own;            // of coarse levels
   const ViscousSystem& system;  // `own`, or the caller's
-  Transfer transfer;            // to the next level
+  FaceTransfer transfer;        // to the next level
   std::vector<float> inverseDiagonal;
   std::vector<float> x, b;                // faces + 1 values, those that are not unknown 0
   std::vector<float> strain;              // samples + 1 values
@@ -229,7 +230,7 @@ struct ViscousMultigrid::Level {
 
   void prepare() {
     inverseDiagonal.resize(system.unknowns);
-    tbb::parallel_for(Range(0, system.unknowns, kGrain), [&](const Range& range) {
+    tbb::parallel_for(Range(0, system.unknowns, kFacesAtOnce), [&](const Range& range) {
       for (std::int32_t i = range.begin(); i < range.end(); ++i) {
         const int c = componentOf(system, i);
         float diagonal = system.mass[i];
@@ -282,7 +283,7 @@ struct ViscousMultigrid::Level {
   }
 
   void updateStrain() {
-    tbb::parallel_for(Range(0, sampleCount(), kGrain), [&](const Range& range) {
+    tbb::parallel_for(Range(0, sampleCount(), kFacesAtOnce), [&](const Range& range) {
       for (std::int32_t s = range.begin(); s < range.end(); ++s) {
         const StrainSample& sample = system.samples[s];
         strain[s] = sample.a * (x[sample.face[1]] - x[sample.face[0]]) +
@@ -363,7 +364,7 @@ void ViscousMultigrid::cycle(std::size_t number) {
       }
     });
     cycle(number + 1);
-    tbb::parallel_for(Range(0, unknowns, kGrain), [&](const Range& range) {
+    tbb::parallel_for(Range(0, unknowns, kFacesAtOnce), [&](const Range& range) {
       for (std::int32_t i = range.begin(); i < range.end(); ++i) {
         for (int n = 0; n < 8; ++n)
           level.x[i] += level.transfer.weight[i][n] * coarse.x[level.transfer.parent[i][n]];

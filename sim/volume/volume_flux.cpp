@@ -20,8 +20,7 @@ constexpr float kBeyond = 1e6f;
 // Fluxes below this share of a cell count as 0.
 constexpr float kLeastFlow = 1e-6f;
 
-// Strides from a face to the next one along the axis, and to those of the next row of cells along x and y.
-constexpr int kNextFace[3] = {64, 8, 1};
+// Strides from a face to those of the next row of cells along x and y.
 constexpr int kFaceRowX[3] = {64, 72, 72}, kFaceRowY[3] = {8, 8, 9};
 
 // The lower face of the cell at an offset of the leaf.
@@ -33,7 +32,7 @@ float netOutflow(const LeafFaces& flux, int offset) {
   float sum = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
     const float* face = flux[axis].data() + faceIndex(offset, axis);
-    sum += face[kNextFace[axis]] - face[0];
+    sum += face[kLeafStride[axis]] - face[0];
   }
   return sum;
 }
@@ -118,7 +117,7 @@ std::vector<float> carriedAlong(const VolumeFlux& all, bool last, const std::vec
       for (int k = 0; k < kLeafDim; ++k) net[k] = last ? netOutflow(all.flux[n], row + k) : 0.0f;
       for (int k = 0; k < kLeafDim; ++k) {
         const int at = patchIndex(row) + k;
-        const float expands = through[k + kNextFace[kAxis]] - through[k];
+        const float expands = through[k + kLeafStride[kAxis]] - through[k];
         gain[k] = liquid[at] - liquid[at + kStride];
         gain[k] = isFull[k] != 0 ? gain[k] + expands - net[k] : gain[k];
       }
@@ -168,7 +167,7 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
       for (int i = 0; i < kLeafSize; ++i) {
         const int at = patchIndex(i), face = faceIndex(i, axis), above = at + kPatchStride[axis];
         flux[face] = step * share[axis][at] * speed[at];
-        flux[face + kNextFace[axis]] = step * share[axis][above] * speed[above];
+        flux[face + kLeafStride[axis]] = step * share[axis][above] * speed[above];
       }
     }
     const bool within = solid.domain.isInside(openvdb::CoordBBox::createCube(origin, kLeafDim));
@@ -181,9 +180,9 @@ VolumeFlux volumeFlux(LeafTable table, const FloatGrid& before, const FloatGrid&
       for (int axis = 0; axis < 3; ++axis) {
         const float* flux = result.flux[n][axis].data() + faceIndex(i, axis);
         const int above = at + kPatchStride[axis];
-        out += std::max(0.0f, -flux[0]) + std::max(0.0f, flux[kNextFace[axis]]);
-        in += std::max(0.0f, flux[0]) + std::max(0.0f, -flux[kNextFace[axis]]);
-        throughFace = std::max({throughFace, -flux[0], flux[kNextFace[axis]]});
+        out += std::max(0.0f, -flux[0]) + std::max(0.0f, flux[kLeafStride[axis]]);
+        in += std::max(0.0f, flux[0]) + std::max(0.0f, -flux[kLeafStride[axis]]);
+        throughFace = std::max({throughFace, -flux[0], flux[kLeafStride[axis]]});
         if (moving) {
           swept += step * ((1.0f - share[axis][at]) * pushed[axis][at] -
                            (1.0f - share[axis][above]) * pushed[axis][above]);

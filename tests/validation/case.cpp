@@ -23,6 +23,11 @@ bool Row::ok() const {
   return atLeast ? value >= *must : std::abs(value) <= *must;
 }
 
+Row row(const std::string& test, int resolution, const std::string& measure, double value,
+        std::optional<double> must, std::optional<double> goal) {
+  return {test, resolution, measure, value, must, goal, false, {}, 0.0};
+}
+
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> list;

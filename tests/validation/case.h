@@ -15,6 +15,8 @@
 
 namespace fluidtex::validation {
 
+inline constexpr double kGravity = 9.81;  // m/s2
+
 struct Published {
   double value = 0.0;
   std::string source;  // code or paper, and the scheme
@@ -34,6 +36,10 @@ struct Row {
 
   bool ok() const;
 };
+
+// A row that no other work has published.
+Row row(const std::string& test, int resolution, const std::string& measure, double value,
+        std::optional<double> must, std::optional<double> goal);
 
 struct Curve {
   std::string label;

@@ -80,7 +80,7 @@ double valueAt(const std::vector<std::array<double, 2>>& curve, double x) {
 
 // `resolution`: cells to the column's base.
 Result martinMoyce(int resolution, const Progress& progress) {
-  constexpr double kBase = 0.146, kGravity = 9.81, kLongest = 3.6, kLength = 6.0;
+  constexpr double kBase = 0.146, kLongest = 3.6, kLength = 6.0;
   constexpr int kFrames = 72;
   const double h = kBase / resolution, unit = std::sqrt(kBase / (2.0 * kGravity));
   sim::Options options;

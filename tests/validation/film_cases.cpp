@@ -19,7 +19,7 @@ using sim::Vec3d;
 // from the ground. It starts as it should stay; each layer of cells comes in with its own mean speed.
 // `resolution`: cells to the depth.
 Result film(int resolution, const Progress& progress) {
-  constexpr double kGravity = 9.81, kLength = 16.0, kSource = 0.5, kTime = 12.0;
+  constexpr double kLength = 16.0, kSource = 0.5, kTime = 12.0;
   const double h = 1.0 / resolution, angle = std::numbers::pi / 6.0, along = kGravity * std::sin(angle);
   const double viscosity = std::sqrt(along / 3.0), flux = along / (3.0 * viscosity);
   const auto speed = [=](double z) { return along / (2.0 * viscosity) * (2.0 * z - z * z); };

@@ -38,7 +38,7 @@ constexpr double kPressure[][2] = {
 // Water is 1 cm high at x = 0.992 m at this time, s; highest again at x = 2.638 m at that one.
 constexpr double kArrival = 0.358, kSecondWave = 3.84;
 
-constexpr double kLength = 3.22, kBoxFront = 0.8245;
+constexpr double kTankLength = 3.22, kBoxFront = 0.8245;
 
 // The pressure in a state, by what the next millisecond does to its velocity.
 double pressureAt(const sim::State& state, const sim::SolidField& solid, const sim::Options& options,
@@ -67,7 +67,7 @@ Result marin(int resolution, const Progress& progress) {
   constexpr int kRate = 100;
   constexpr double kTime = 5.0;
   sim::Options options;
-  options.size = Vec3d(kLength, 1.0, 1.0);
+  options.size = Vec3d(kTankLength, 1.0, 1.0);
   options.resolution = resolution;
   options.viscosity = 0.0;
   options.frameRate = kRate;

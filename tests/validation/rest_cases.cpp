@@ -16,8 +16,6 @@ namespace {
 using sim::Coord;
 using sim::Vec3d;
 
-constexpr double kGravity = 9.81;
-
 // A pool at rest in a box of 1 m below a plane square to gravity, for 10 sqrt(L / g); with solids in it the
 // surface is no longer compared with the plane.
 Result pool(const std::string& test, const Vec3d& up, const Vec3d& point,
@@ -55,7 +53,7 @@ Result pool(const std::string& test, const Vec3d& up, const Vec3d& point,
   return result;
 }
 
-Result level(int resolution, const Progress& progress) {
+Result levelPool(int resolution, const Progress& progress) {
   return pool("rest_level", Vec3d(0.0, 0.0, 1.0), Vec3d(0.5, 0.5, 0.437), {}, resolution, progress);
 }
 
@@ -166,7 +164,7 @@ Result fallAslant(int resolution, const Progress& progress) {
 
 std::vector<Case> restCases() {
   return {
-      {"rest_level", "fluid", "A level pool at rest", {32, 64}, {32}, level, {}},
+      {"rest_level", "fluid", "A level pool at rest", {32, 64}, {32}, levelPool, {}},
       {"rest_tilted", "fluid", "A pool at rest under gravity tilted by 30 degrees", {32, 64}, {}, tilted, {}},
       {"rest_bowl", "fluid", "A pool at rest in a round bowl", {32, 64}, {}, bowl, {}},
       {"rest_ball", "fluid", "A pool at rest around a solid ball", {32, 64}, {}, aroundBall, {}},

@@ -15,10 +15,9 @@ namespace {
 
 using sim::Vec3d;
 
-constexpr double kGravity = 9.81;
 const double kWave = std::sqrt(kGravity);  // m/s, of long waves on water 1 m deep
 
-sim::Options channel(double length, double height, int resolution) {
+sim::Options slabChannel(double length, double height, int resolution) {
   sim::Options options;
   options.size = Vec3d(length, 8.0 / resolution, height);
   options.resolution = static_cast<int>(std::lround(length * resolution));
@@ -27,16 +26,11 @@ sim::Options channel(double length, double height, int resolution) {
   return options;
 }
 
-Row row(const std::string& test, int resolution, const std::string& measure, double value,
-        std::optional<double> must, std::optional<double> goal) {
-  return {test, resolution, measure, value, must, goal, false, {}, 0.0};
-}
-
 // A reservoir 1 m deep is let go at once; `resolution`: cells to its depth.
 Result ritter(int resolution, const Progress& progress) {
   constexpr double kDam = 9.0, kLength = 26.0, kFrom = 4.0, kTo = 8.0;
   constexpr int kPerUnit = 5;
-  sim::Options options = channel(kLength, 1.25, resolution);
+  sim::Options options = slabChannel(kLength, 1.25, resolution);
   options.frameRate = kPerUnit * kWave;
   options.liquid = {{{sim::Box{Vec3d(-1.0), Vec3d(kDam, 100.0, 1.0)}}}};
   sim::Solver solver(options);
@@ -93,7 +87,7 @@ Result jump(int resolution, const Progress& progress) {
   // In the frame of the jump the stream has the Froude number; liquid behind it is at rest.
   const double speed = kFroude * kWave * (1.0 - 1.0 / ratio), back = speed / (ratio - 1.0);
   constexpr int kFrames = 240;
-  sim::Options options = channel(kLength, kHeight, resolution);
+  sim::Options options = slabChannel(kLength, kHeight, resolution);
   options.viscosity = kEddies * speed * options.density;
   options.frameRate = kFrames / (kReach / back);
   options.liquid = {{{sim::Box{Vec3d(-1.0), Vec3d(100.0, 100.0, 1.0)}}, Vec3d(speed, 0.0, 0.0)}};

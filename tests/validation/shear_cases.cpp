@@ -79,13 +79,13 @@ class Basin {
   sim::FloatGrid::Ptr m_phi;
 };
 
-constexpr double kLength = 3.0;
+constexpr double kChannelLength = 3.0;
 
-// Walls at y = 0 and 1, ends at x = 0 and kLength.
+// Walls at y = 0 and 1, ends at x = 0 and kChannelLength.
 sim::Options channel(int resolution) {
   sim::Options options;
-  options.resolution = static_cast<int>(kLength) * resolution;
-  options.size = Vec3d(kLength, 1.0, 8.0 / resolution);
+  options.resolution = static_cast<int>(kChannelLength) * resolution;
+  options.size = Vec3d(kChannelLength, 1.0, 8.0 / resolution);
   using sim::DomainFace;
   for (const DomainFace face : {DomainFace::xLow, DomainFace::xHigh, DomainFace::yLow, DomainFace::yHigh})
     options.walls.push_back({face, {.kind = sim::WallKind::noSlip}});
@@ -96,7 +96,7 @@ sim::Options channel(int resolution) {
 double errorInMiddle(const Basin& basin, const std::function<double(double)>& profile) {
   double largest = 0.0;
   basin.visit([&](const Vec3d& x, int axis, double value) {
-    if (axis == 0 && std::abs(x[0] - 0.5 * kLength) < 0.05 * kLength)
+    if (axis == 0 && std::abs(x[0] - 0.5 * kChannelLength) < 0.05 * kChannelLength)
       largest = std::max(largest, std::abs(value - profile(x[1])));
   });
   return largest;
@@ -153,7 +153,7 @@ Result couetteStart(int resolution, const Progress& progress) {
   }
   double middle = 0.0, distance = 1.0;
   basin.visit([&](const Vec3d& x, int axis, double value) {
-    if (axis != 0 || std::abs(x[0] - 0.5 * kLength) > 0.05) return;
+    if (axis != 0 || std::abs(x[0] - 0.5 * kChannelLength) > 0.05) return;
     const double off = std::abs(x[1] - 0.5);
     if (off >= distance) return;
     distance = off;

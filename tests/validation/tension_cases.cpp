@@ -22,7 +22,7 @@ using sim::Coord;
 using sim::Vec3d;
 using std::numbers::pi;
 
-constexpr double kTension = 1.0, kDensity = 1.0, kRadius = 0.25;
+constexpr double kTension = 1.0, kDropDensity = 1.0, kDropRadius = 0.25;
 
 // Layers of a slab between two sides of symmetry, of which the middle one is measured. Near its sides the
 // surface is a little off: with half as many the middle feels it.
@@ -35,7 +35,7 @@ sim::Options dropOptions(int resolution, bool flat, double viscosity) {
   options.resolution = resolution;
   if (flat) options.sides[4] = options.sides[5] = sim::Side::symmetry;
   options.gravity = Vec3d(0.0);
-  options.density = kDensity;
+  options.density = kDropDensity;
   options.viscosity = viscosity;
   options.surfaceTension = kTension;
   options.cfl = 1.0;
@@ -50,9 +50,9 @@ sim::Solver shaped(const sim::Options& options, bool flat,
   const Vec3d middle = 0.5 * options.size;
   if (flat) {
     within.liquid = {
-        {{sim::Cylinder{middle - Vec3d(0.0, 0.0, 1.0), middle + Vec3d(0.0, 0.0, 1.0), kRadius}}}};
+        {{sim::Cylinder{middle - Vec3d(0.0, 0.0, 1.0), middle + Vec3d(0.0, 0.0, 1.0), kDropRadius}}}};
   } else {
-    within.liquid = {{{sim::Sphere{middle, kRadius}}}};
+    within.liquid = {{{sim::Sphere{middle, kDropRadius}}}};
   }
   sim::Solver start(within);
   start.next();
@@ -84,14 +84,14 @@ Result laplace(int resolution, const Progress&) {
   const auto solid = sim::Solids(options).at(0.0);
   const sim::FloatGrid::Ptr phi = sim::makePhi(h, 4.0 * h);
   sim::unite(
-      *phi, [&](const Vec3d& x) { return (x - middle).length() - kRadius; },
+      *phi, [&](const Vec3d& x) { return (x - middle).length() - kDropRadius; },
       sim::grown(solid->domain, sim::kLeafDim));
   sim::Velocity velocity = sim::makeVelocity(h, phi->constTree());
   auto& [u, v, w] = velocity.component;
   sim::PressureOptions pressure;
   pressure.surfaceTension = kTension;
   pressure.keepPressure = true;
-  const sim::Projection projection = sim::project(*u, *v, *w, *phi, *solid, dt, kDensity, pressure);
+  const sim::Projection projection = sim::project(*u, *v, *w, *phi, *solid, dt, kDropDensity, pressure);
   double sum = 0.0, count = 0.0, most = 0.0;
   for (auto it = projection.pressure->cbeginValueOn(); it; ++it) {
     sum += *it;
@@ -105,9 +105,9 @@ Result laplace(int resolution, const Progress&) {
       most = std::max<double>(most, std::abs(velocity.component[axis]->tree().getValue(it.getCoord())));
     }
   }
-  const double jump = 2.0 * kTension / kRadius;
+  const double jump = 2.0 * kTension / kDropRadius;
   // The velocity that the whole jump over one cell would give.
-  const double unit = jump * dt / (kDensity * h);
+  const double unit = jump * dt / (kDropDensity * h);
   const std::string test = "laplace";
   const std::optional<double> fine = resolution < 32 ? std::nullopt : std::optional(1e-2);
   return {
@@ -119,13 +119,13 @@ Result laplace(int resolution, const Progress&) {
 // A drop that should be at rest, for one of its slow periods.
 Result staticDrop(int resolution, const Progress& progress) {
   const double laplaceNumber = 12000.0,
-               viscosity = std::sqrt(kTension * kDensity * 2.0 * kRadius / laplaceNumber);
+               viscosity = std::sqrt(kTension * kDropDensity * 2.0 * kDropRadius / laplaceNumber);
   sim::Options options = dropOptions(resolution, false, viscosity);
-  const double slow = std::sqrt(kDensity * std::pow(2.0 * kRadius, 3) / kTension);
+  const double slow = std::sqrt(kDropDensity * std::pow(2.0 * kDropRadius, 3) / kTension);
   constexpr int kFrames = 20;
   options.frameRate = kFrames / slow;
   const Vec3d middle = 0.5 * options.size;
-  options.liquid = {{{sim::Sphere{middle, kRadius}}}};
+  options.liquid = {{{sim::Sphere{middle, kDropRadius}}}};
   sim::Solver solver(options);
   const double before = solver.next().stats.volume;
   double most = 0.0, after = 0.0, last = 0.0;
@@ -166,7 +166,8 @@ double stretch(const sim::State& state, int resolution, bool flat) {
 Result swingingDrop(bool flat, int resolution, const Progress& progress) {
   constexpr double kAmplitude = 0.05;
   sim::Options options = dropOptions(resolution, flat, 0.0);
-  const double square = (flat ? 6.0 : 8.0) * kTension / (kDensity * kRadius * kRadius * kRadius);
+  const double square =
+      (flat ? 6.0 : 8.0) * kTension / (kDropDensity * kDropRadius * kDropRadius * kDropRadius);
   const double period = 2.0 * pi / std::sqrt(square);
   constexpr int kPerPeriod = 40, kPeriods = 3;
   options.frameRate = kPerPeriod / period;
@@ -175,10 +176,10 @@ Result swingingDrop(bool flat, int resolution, const Progress& progress) {
     const Vec3d from = x - middle;
     if (flat) {
       const double r = std::hypot(from[0], from[1]), c = r > 0.0 ? from[0] / r : 0.0;
-      return r - kRadius * (1.0 + kAmplitude * (2.0 * c * c - 1.0) - 0.25 * kAmplitude * kAmplitude);
+      return r - kDropRadius * (1.0 + kAmplitude * (2.0 * c * c - 1.0) - 0.25 * kAmplitude * kAmplitude);
     }
     const double r = from.length(), c = r > 0.0 ? from[2] / r : 0.0;
-    return r - kRadius * (1.0 + kAmplitude * 0.5 * (3.0 * c * c - 1.0) - 0.2 * kAmplitude * kAmplitude);
+    return r - kDropRadius * (1.0 + kAmplitude * 0.5 * (3.0 * c * c - 1.0) - 0.2 * kAmplitude * kAmplitude);
   });
   const auto moment = [&] { return stretch(solver.state(), resolution, flat); };
   Curve curve{fmt::format("{} cells", resolution), {}, Curve::Style::line};

@@ -19,8 +19,6 @@ using sim::Coord;
 using sim::Vec3d;
 using std::numbers::pi;
 
-constexpr double kGravity = 9.81;
-
 // Taylor and Green's vortices without viscosity in a box with free slip, which they meet when moved by a
 // quarter of a period: they should stay as they are.
 Result taylorGreen(int resolution, const Progress& progress) {

@@ -12,7 +12,7 @@ constexpr float kBlockSize = 64.0f;
 // Coarser levels decide the layout and are cheap: they iterate longer.
 constexpr int kCoarseIterations = 3;
 // Weight of the data term: difference of the labels' colours from the last average.
-constexpr float kData = 0.15f;
+constexpr float kFirstData = 0.15f;
 
 }  // namespace
 
@@ -50,7 +50,8 @@ State synthesizeFromNothing(Synthesizer& synthesizer, const Surface& surface, in
     done += share;
     if (synthesizer.options.method == Method::coordinates) {
       const SeamModel seams = seamModel(synthesizer, level.view, index);
-      joinLabels(seams, state, kData, level.wanted, nullptr, keyOf(synthesizer, frame, l, 1), state.labels);
+      joinLabels(seams, state, kFirstData, level.wanted, nullptr, keyOf(synthesizer, frame, l, 1),
+                 state.labels);
       closeSlips(seams, level.wanted, state.labels);
     }
   }

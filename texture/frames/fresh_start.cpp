@@ -20,7 +20,6 @@ constexpr int kCompared = 64;       // of these, the least used
 constexpr int kUsageCells = 12;     // along the shorter side of the exemplar
 constexpr float kGuided = 4.0f;     // a guidance level off by 0.25 costs as much as a correlation of 1
 constexpr std::size_t kStride = 3;  // every third vertex is compared
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 // A block of the exemplar.
 struct Block {

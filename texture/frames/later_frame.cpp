@@ -23,7 +23,7 @@ constexpr int kRim = 5;
 // them.
 constexpr double kDiscsOfAll = 0.65;
 // Weight of the data term: difference of the labels' colours from the last average.
-constexpr float kData = 0.4f;
+constexpr float kLaterData = 0.4f;
 // Upper bound on the compression of new texture (log), besides kMostAhead: beyond it, flattening would take
 // the strained surface for a folded one.
 constexpr double kMostStrain = 0.45;
@@ -133,7 +133,7 @@ Labels layAnew(const Job& job, Renewal renewal, const std::vector<float>& trust,
   runPasses(synthesizer, level,
             {0, frame, options.laterIterations, 1, false, windows > 1 ? std::size_t(1) : 0}, state, stats,
             progress);
-  joinLabels(seams, state, kData, level.wanted, &before, keyOf(synthesizer, frame, 0, 1), state.labels);
+  joinLabels(seams, state, kLaterData, level.wanted, &before, keyOf(synthesizer, frame, 0, 1), state.labels);
   return std::move(state.labels);
 }
 

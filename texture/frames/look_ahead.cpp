@@ -11,7 +11,7 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr int kBlurSweeps = 24;
+constexpr int kStrainSweeps = 24;
 // Edges whose length changes by more than this in a frame (log) are taken for connections of unrelated
 // points.
 constexpr float kMostPerFrame = 1.0f;
@@ -57,7 +57,7 @@ std::vector<Weighted> blurred(const MeshView& view, std::vector<Weighted> value)
   const std::vector<Complexf>& rotation = view.connection.rotation;
   std::vector<Complexf> turn(rotation.size());  // rotation of a deviator
   forEachIndex(turn.size(), [&](std::uint32_t h) { turn[h] = product(rotation[h], rotation[h]); });
-  return averaged(view.graph, std::move(value), kBlurSweeps, [&](const Weighted& w, std::uint32_t h) {
+  return averaged(view.graph, std::move(value), kStrainSweeps, [&](const Weighted& w, std::uint32_t h) {
     const float re = turn[h].real(), im = turn[h].imag();
     return w * Weighted{1.0f, 1.0f, re, re} +
            Weighted{0.0f, 0.0f, w[kDeviatorImag], w[kDeviatorReal]} * Weighted{0.0f, 0.0f, -im, im};

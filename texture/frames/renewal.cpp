@@ -20,7 +20,7 @@ constexpr float kLostStretch = 4.0f;
 constexpr float kSameTexel = 0.7f;     // texels: a proposal this close to the transported label is the same
 constexpr float kSlipStretch = 1.15f;  // stretch that closing slips leaves: no reason to renew the same texel
 constexpr float kLeastGain = 0.05f;    // least mean decrease of badness for which a piece is accepted
-constexpr int kBlurSweeps = 16;        // of the averaging of badness (averaged.h)
+constexpr int kBadnessSweeps = 16;     // of the averaging of badness (averaged.h)
 constexpr double kDiscsApart = 2.0 * kDiscShare;  // centres, over the nominal radius
 constexpr float kMostYoung = 0.35f;               // share of a disc that may be in a cross-fade
 constexpr float kTooYoung =
@@ -129,7 +129,7 @@ Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<
   forEachIndex(labels.size(), [&](std::uint32_t v) {
     both[v] = {bad[v], lost(model.image, labels[v], trust[v]) ? 0.0f : std::log(stretch(labels[v]))};
   });
-  both = averaged(model.view.graph, std::move(both), kBlurSweeps,
+  both = averaged(model.view.graph, std::move(both), kBadnessSweeps,
                   [](const Vec2f& value, std::uint32_t) { return value; });
   Wear wear{std::vector<float>(labels.size()), std::vector<float>(labels.size())};
   forEachIndex(labels.size(),

@@ -11,7 +11,6 @@ Former formerPlaces(const TexturedSurface& surface) {
   const Fading& fading = surface.fading;
   if (fading.weight.empty()) return result;
   // The vertex that each one's former coordinate comes from.
-  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> source(surface.positions.size(), kNone);
   for (const Vec3I& corner : surface.triangles) {
     for (int k = 0; k < 3; ++k) {

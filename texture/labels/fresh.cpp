@@ -10,8 +10,6 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
 // #V: edges to the nearest vertex outside the mask; kNone where there is none.
 std::vector<std::uint32_t> depths(const VertexGraph& graph, const std::vector<std::uint8_t>& mask) {
   std::vector<std::uint32_t> depth(mask.size(), kNone), queue;

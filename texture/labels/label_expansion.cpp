@@ -31,7 +31,6 @@ constexpr float kSame = 0.5f;            // texels: labels this close are the sa
 constexpr float kLeastGain = 0.9f;    // per cut, in units of the difference of random texels
 constexpr float kMostStretch = 1.2f;  // labels stretched more are offered unstretched
 constexpr std::size_t kChunk = 2048;  // discs flattened at once
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 // A proposed label, at the disc's centre and in its axes.
 struct Proposal {

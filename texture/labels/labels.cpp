@@ -14,7 +14,6 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint64_t kGuidedPlaces =
     32;  // random places tried per block until its centre has the wanted level
 constexpr std::uint64_t kWayOfBlock = 1ull << 40;  // keys apart from those of the places

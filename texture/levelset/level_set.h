@@ -17,7 +17,6 @@ class LevelSet {
  public:
   static constexpr int kSide = 8;     // cells along a block's edge; block origins are multiples of it
   static constexpr int kPadded = 11;  // values along its edge: local coordinates -1..9
-  static constexpr std::uint32_t kNone = ~std::uint32_t(0);
 
   explicit LevelSet(const openvdb::FloatGrid& phi);
 

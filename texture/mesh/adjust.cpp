@@ -9,8 +9,6 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr std::uint32_t kNone = EditableMesh::kNone;
-
 // Size of the gap that an edge crosses: its length, or the larger circumcircle of its triangles. Independent
 // of the diagonal chosen between four corners of a rectangle.
 float gap(const EditableMesh& mesh, std::uint32_t h, float ownLength) {

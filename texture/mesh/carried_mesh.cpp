@@ -11,8 +11,6 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr std::uint32_t kNone = EditableMesh::kNone;
-
 // For each component of the mesh the component of the iso-surface that it lies on, found by the iso-surface's
 // triangles in the cells around its first vertex; kNone without any.
 std::vector<std::uint32_t> partsUnder(const EditableMesh& mesh, const Components& meshParts,

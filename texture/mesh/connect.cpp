@@ -15,8 +15,6 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr std::uint32_t kNone = EditableMesh::kNone;
-
 // Nearest vertex within half a cell; vertices are sorted into hashed cells.
 class VertexGrid {
  public:

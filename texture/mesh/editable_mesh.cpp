@@ -246,9 +246,9 @@ EditableMesh makeEditableMesh(std::vector<Vec3f> positions, const std::vector<Ve
   mesh.position = std::move(positions);
   const std::size_t vertices = mesh.position.size(), halfEdges = 3 * triangles.size();
   mesh.normal.assign(vertices, Vec3f(0.0f));
-  mesh.outgoing.assign(vertices, EditableMesh::kNone);
+  mesh.outgoing.assign(vertices, kNone);
   mesh.origin.resize(halfEdges);
-  mesh.twin.assign(halfEdges, EditableMesh::kNone);
+  mesh.twin.assign(halfEdges, kNone);
   std::vector<std::uint32_t> first(vertices + 1, 0), starting(halfEdges);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (int k = 0; k < 3; ++k) {
@@ -268,7 +268,7 @@ EditableMesh makeEditableMesh(std::vector<Vec3f> positions, const std::vector<Ve
     for (std::uint32_t k = first[b]; k < first[b + 1]; ++k) {
       if (mesh.target(starting[k]) == a) mesh.twin[h] = starting[k];
     }
-    assert(mesh.twin[h] != EditableMesh::kNone);
+    assert(mesh.twin[h] != kNone);
   });
   return mesh;
 }

@@ -9,8 +9,6 @@ namespace fluidtex::texture {
 // neighbouring triangle. Every operation keeps the mesh closed, oriented and manifold, and its topology. None
 // checks geometry.
 struct EditableMesh {
-  static constexpr std::uint32_t kNone = ~std::uint32_t(0);
-
   std::vector<Vec3f> position;          // #V
   std::vector<Vec3f> normal;            // #V, unit, or zero where unknown
   std::vector<float> scale;             // #V: factor on edge lengths; empty: 1

@@ -16,8 +16,6 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr std::uint32_t kNone = EditableMesh::kNone;
-
 // Relative error of the number of points that is tolerated if they were even in the last frame.
 constexpr double kSettledSlack = 0.015;
 

@@ -13,8 +13,6 @@ namespace {
 
 using openvdb::Vec3d;
 
-constexpr std::uint32_t kNone = EditableMesh::kNone;
-
 // Targets beyond the limits, so that faults stay within these when their neighbours move.
 constexpr double kOpen = 0.12, kBlunt = 0.42;
 

@@ -11,8 +11,6 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr std::uint32_t kNone = EditableMesh::kNone;
-
 struct Mender {
   EditableMesh& mesh;
   const LevelSet& phi;

@@ -9,8 +9,6 @@ namespace {
 
 using openvdb::Vec3d;
 
-constexpr std::uint32_t kNone = EditableMesh::kNone;
-
 // Twice the area long.
 Vec3d areaNormal(const EditableMesh& mesh, std::uint32_t h) {
   const Vec3d a(mesh.position[mesh.origin[h]]);

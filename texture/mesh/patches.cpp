@@ -11,7 +11,6 @@ namespace fluidtex::texture {
 
 namespace {
 
-constexpr std::uint32_t kNone = EditableMesh::kNone;
 constexpr std::uint64_t kGone = ~std::uint64_t(0);
 
 std::uint64_t cubeAt(const Vec3f& place, float side, const Vec3f& corner) {

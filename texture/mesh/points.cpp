@@ -51,7 +51,6 @@ class GrowingGrid {
   }
 
  private:
-  static constexpr std::uint32_t kNone = ~std::uint32_t(0);
   struct Item {
     Vec3f position;
     std::uint32_t index, next;

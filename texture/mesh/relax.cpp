@@ -13,7 +13,7 @@ namespace fluidtex::texture {
 namespace {
 
 // One-ring of a vertex, in order.
-struct Ring {
+struct RingLanes {
   static constexpr int kMost = 16;
   int size = 0;
   std::uint32_t vertex[kMost];
@@ -56,7 +56,7 @@ Float8 squareRoot8(const Float8& v) {
 }
 
 // Displacement of the centre by its ring, for a step length of 1. range: at scale 1.
-Vec3f push(const Ring& ring, const Vec3f& at, float ownScale, float range) {
+Vec3f push(const RingLanes& ring, const Vec3f& at, float ownScale, float range) {
   Float8 sx{}, sy{}, sz{};
   for (int k = 0; k < ring.size; k += 8) {
     const Float8 dx = at.x() - load8(ring.x + k), dy = at.y() - load8(ring.y + k),
@@ -77,7 +77,7 @@ Vec3f push(const Ring& ring, const Vec3f& at, float ownScale, float range) {
 struct Fan {
   bool outward = true;  // all of them
   // Cotangents of the k-th triangle's angles at ring vertices k + 1 and k.
-  alignas(32) float next[Ring::kMost], own[Ring::kMost];
+  alignas(32) float next[RingLanes::kMost], own[RingLanes::kMost];
 
   // Whether opposite angles at each edge from the centre sum to at most pi.
   bool delaunay(int size) const {
@@ -91,7 +91,7 @@ struct Fan {
   }
 };
 
-void look(const Ring& ring, const Vec3f& p, const Vec3f& n, Fan& fan) {
+void look(const RingLanes& ring, const Vec3f& p, const Vec3f& n, Fan& fan) {
   fan.outward = true;
   for (int k = 0; k < ring.size; k += 8) {
     const Float8 ux = load8(ring.x + k) - p.x(), uy = load8(ring.y + k) - p.y(),
@@ -129,7 +129,7 @@ void relax(EditableMesh& mesh, const LevelSet& phi, const Patches& patches, floa
   constexpr float kStep = 0.5f;
   constexpr float kStill = 0.005f;  // mean edge lengths: shorter moves are dropped
   forEachPatch(patches, [&](std::uint32_t patch) {
-    Ring ring;
+    RingLanes ring;
     Fan fan;
     std::vector<std::uint32_t> stack;
     const auto move = [&](std::uint32_t v) {

@@ -10,8 +10,6 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr std::uint32_t kNone = EditableMesh::kNone;
-
 // Whether the angles opposite to an edge sum to more than pi, with a tolerance for rounding.
 bool violatesDelaunay(const EditableMesh& mesh, std::uint32_t h) {
   constexpr float kSlack = 1e-4f;

@@ -26,11 +26,11 @@ inline bool mayFace(float now, float before) {
 bool facesOutward(const EditableMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
 // Smallest facing() of the triangles around v, without those that also touch `except`.
-float worstFacing(const EditableMesh& mesh, std::uint32_t v, std::uint32_t except = EditableMesh::kNone);
+float worstFacing(const EditableMesh& mesh, std::uint32_t v, std::uint32_t except = kNone);
 
 // The same if v were at `at`.
 float worstFacingAt(const EditableMesh& mesh, std::uint32_t v, const Vec3f& at, const Vec3f& atNormal,
-                    std::uint32_t except = EditableMesh::kNone);
+                    std::uint32_t except = kNone);
 
 // Flips edges until opposite angles sum to at most pi (Delaunay), where that folds nothing. Starts from the
 // edges around the vertices in `dirty`, or from all edges if it is null.

@@ -56,7 +56,7 @@ bool roundOffDrops(EditableMesh& mesh, const LevelSet& phi, const std::vector<st
   const EditableMesh unit = unitBall();
   bool any = false;
   for (std::uint32_t start : among) {
-    if (mesh.outgoing[start] == EditableMesh::kNone) continue;
+    if (mesh.outgoing[start] == kNone) continue;
     const std::vector<std::uint32_t> drop = smallComponent(mesh, start);
     if (drop.empty() || hasHandle(mesh, drop)) continue;
     const auto count = double(drop.size());

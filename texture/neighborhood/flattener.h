@@ -56,7 +56,6 @@ class Flattener {
   static constexpr double kAreaSlack = 0.02;
   // Spacings: a neighbourhood has at least its one-ring.
   static constexpr double kLeastReach = 1.5;
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
   static double chebyshev(const Complexd& l) { return std::max(std::abs(l.real()), std::abs(l.imag())); }
 

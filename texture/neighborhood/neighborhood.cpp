@@ -19,7 +19,6 @@ namespace {
 
 // Pixels: reach of the small neighbourhoods that fill gaps between shrunk ones.
 constexpr double kFillerReach = 4.5;
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 void append(Neighborhoods& to, const Neighborhoods& more) {
   const std::uint32_t base = to.first.back();

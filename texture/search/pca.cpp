@@ -20,7 +20,7 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr int kSamples = 1536;
+constexpr int kRowsSampled = 1536;
 constexpr int kOversampling = 8;  // extra columns, as advised there
 constexpr int kIterations = 3;
 constexpr int kRowsAtOnce = 128;  // rows of a product per task
@@ -42,7 +42,7 @@ void overRows(Index rows, const Body& body) {
 // The sampled windows, one per row, unweighted, with their mean.
 RowMatrix sampleWindows(const Image& image, int window, std::uint64_t seed) {
   const Index columns = image.width - window + 1, all = columns * (image.height - window + 1);
-  const Index count = std::min<Index>(kSamples, all);
+  const Index count = std::min<Index>(kRowsSampled, all);
   const Index rowSize = Index(window) * image.channels;
   RowMatrix windows(count, rowSize * window);
   overRows(count, [&](Index first, Index n) {

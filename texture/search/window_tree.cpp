@@ -16,7 +16,7 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr std::size_t kSamples = 4096;  // largest sample
+constexpr std::size_t kMeansSampled = 4096;  // largest sample
 constexpr int kSweeps = 8;
 constexpr float kFar = 1e15f;  // fills unused lanes; its square is still finite
 constexpr float kNoBound = std::numeric_limits<float>::infinity();
@@ -91,7 +91,7 @@ MeanBlocks starts(std::span<const float> descriptors, const Indices& sample, int
 
 MeanBlocks kMeans(std::span<const float> descriptors, const Indices& members, int count, std::uint64_t seed) {
   Indices sample;
-  const std::size_t size = std::min(kSamples, members.size());
+  const std::size_t size = std::min(kMeansSampled, members.size());
   for (std::size_t s = 0; s < size; ++s) sample.push_back(members[s * members.size() / size]);
   MeanBlocks means = starts(descriptors, sample, count, seed);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
@@ -166,7 +166,7 @@ void appendLeaf(WindowTree& tree, std::span<const float> descriptors, const Indi
 // of each group of windows.
 std::int16_t coarseBound(const std::vector<Short16>& distance, std::size_t count) {
   constexpr std::size_t kGroups = 16;  // per lane
-  constexpr int kMost = 32767;
+  constexpr int kLargestCode = 32767;
   const std::size_t each = std::max<std::size_t>(1, (distance.size() + kGroups - 1) / kGroups);
   std::array<Short16, kGroups> nearest;
   std::size_t groups = 0;
@@ -176,8 +176,8 @@ std::int16_t coarseBound(const std::vector<Short16>& distance, std::size_t count
       least = distance[i] < least ? distance[i] : least;
     nearest[groups++] = least;
   }
-  if (groups * kCodeBlock < count) return kMost;
-  int below = -1, enough = kMost;
+  if (groups * kCodeBlock < count) return kLargestCode;
+  int below = -1, enough = kLargestCode;
   while (enough - below > 1) {
     const int middle = (below + enough) / 2;
     Short16 tally{};

@@ -12,7 +12,7 @@ constexpr double kBytesProgram = 250e6;
 // with all four then.
 constexpr double kBytesPerCutPoint = 100.0, kBytesPerBlendedPoint = 400.0;
 // Three floats, three bytes, and those again packed.
-constexpr double kBytesPerPixel = 18.0;
+constexpr double kRenderBytesPerPixel = 18.0;
 
 double exportBytesPerPoint(const std::vector<Format>& formats, JointsAs joints) {
   bool cut = false, blended = false;
@@ -38,7 +38,7 @@ double plannedMemory(const scenes::Scene& scene, const pipeline::LiquidPlan& liq
                      JointsAs joints) {
   return kBytesProgram + kBytesPerLiquidCell * static_cast<double>(liquid.cells) +
          (kBytesPerPoint + exportBytesPerPoint(formats, joints)) * points.value_or(0.0) +
-         kBytesPerPixel * scene.render.width * scene.render.height;
+         kRenderBytesPerPixel * scene.render.width * scene.render.height;
 }
 
 }  // namespace fluidtex::tools

@@ -12,12 +12,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Figure = std::optional<double> Compared::*;
 
-struct Column {
+struct TableColumn {
   const char* key;
   const char* title;
   Figure figure;
 };
-const Column kColumns[] = {{"likeness", "likeness", &Compared::likeness},
+const TableColumn kColumns[] = {{"likeness", "likeness", &Compared::likeness},
                            {"sharpness", "sharpness", &Compared::sharpness},
                            {"change_along_flow", "change along the flow", &Compared::alongFlow},
                            {"pop", "pops", &Compared::pop},
@@ -77,7 +77,7 @@ std::string toJson(const std::vector<Compared>& rows) {
   Json json = Json::array();
   for (const Compared& row : rows) {
     Json object{{"variant", row.label}};
-    for (const Column& column : kColumns) {
+    for (const TableColumn& column : kColumns) {
       const std::optional<double>& value = row.*column.figure;
       object[column.key] = value ? Json(*value) : Json(nullptr);
     }
@@ -88,13 +88,13 @@ std::string toJson(const std::vector<Compared>& rows) {
 
 std::string toMarkdown(const std::vector<Compared>& rows) {
   std::string head = "| variant |", line = "|---|", body;
-  for (const Column& column : kColumns) {
+  for (const TableColumn& column : kColumns) {
     head += fmt::format(" {} |", column.title);
     line += "---|";
   }
   for (const Compared& row : rows) {
     body += fmt::format("| {} |", row.label);
-    for (const Column& column : kColumns) {
+    for (const TableColumn& column : kColumns) {
       const std::optional<double>& value = row.*column.figure;
       body += value ? fmt::format(" {:.3g} |", *value) : " - |";
     }

@@ -27,18 +27,6 @@ Clip moving(int frames = 4) {
   return clip;
 }
 
-Cache cacheOf(const Options& options, const Clip& clip) {
-  return {options, recognize(options), clip.h, clip.frameRate};
-}
-
-std::vector<sim::Frame> framesOf(const Options& options, const Clip& clip) {
-  CachedFlow flow(cacheOf(options, clip));
-  std::vector<sim::Frame> frames;
-  for (int n = 0; n < flow.state().frame + clip.frames && int(frames.size()) < clip.frames; ++n)
-    frames.push_back(flow.next());
-  return frames;
-}
-
 // The sentence that a run ends with; empty where it does not. All else that is thrown is a fault.
 std::string endOf(const Options& options, const Clip& clip) {
   std::string sentence;

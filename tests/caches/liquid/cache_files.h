@@ -1,6 +1,8 @@
 // Caches of flows in closed form, in each way that programs write them: OpenVDB, and all else byte by byte.
 #pragma once
 
+#include "caches/liquid/cached_flow.h"
+#include "caches/liquid/survey.h"
 #include "caches/options.h"
 #include "tests/caches/formats/written_bytes.h"
 #include "tests/caches/liquid/flows.h"
@@ -67,5 +69,16 @@ struct Clip {
 CacheFiles writeCache(Way way, const Clip& clip, const std::filesystem::path& folder);
 
 void writeBytes(const std::filesystem::path& file, const std::string& bytes);
+
+inline Cache cacheOf(const Options& options, const Clip& clip) {
+  return {options, recognize(options), clip.h, clip.frameRate};
+}
+
+inline std::vector<sim::Frame> framesOf(const Options& options, const Clip& clip) {
+  CachedFlow flow(cacheOf(options, clip));
+  std::vector<sim::Frame> frames;
+  for (int n = 0; n < clip.frames; ++n) frames.push_back(flow.next());
+  return frames;
+}
 
 }  // namespace fluidtex::caches

@@ -13,17 +13,6 @@ using openvdb::Vec3f;
 
 namespace {
 
-Cache cacheOf(const Options& options, const Clip& clip) {
-  return {options, recognize(options), clip.h, clip.frameRate};
-}
-
-std::vector<sim::Frame> framesOf(const Options& options, const Clip& clip) {
-  CachedFlow flow(cacheOf(options, clip));
-  std::vector<sim::Frame> frames;
-  for (int n = 0; n < clip.frames; ++n) frames.push_back(flow.next());
-  return frames;
-}
-
 // Mean distance between the surface and the ball's, cells.
 double surfaceError(const openvdb::FloatGrid& phi, const Ball& ball) {
   const double h = phi.voxelSize()[0];

@@ -31,7 +31,7 @@ TEST_CASE("level set: blocks hold the grid's values, in voxels, those at the sur
         }
     if (block < phi.surfaceBlockCount()) CHECK(crossed);
   }
-  CHECK(phi.find(openvdb::Coord(8000, 0, 0)) == LevelSet::kNone);
+  CHECK(phi.find(openvdb::Coord(8000, 0, 0)) == kNone);
 }
 
 TEST_CASE("level set: value and gradient of a smooth distance, nothing where it is not known") {

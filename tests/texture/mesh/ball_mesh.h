@@ -22,7 +22,7 @@ struct BallMesh {
 // Vertices that are left.
 inline std::size_t aliveIn(const EditableMesh& mesh) {
   std::size_t count = 0;
-  for (const std::uint32_t h : mesh.outgoing) count += h != EditableMesh::kNone;
+  for (const std::uint32_t h : mesh.outgoing) count += h != kNone;
   return count;
 }
 

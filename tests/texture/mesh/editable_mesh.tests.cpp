@@ -17,7 +17,7 @@ bool sound(EditableMesh mesh) {
     if (mesh.twin[mesh.twin[h]] != h || mesh.origin[mesh.twin[h]] != mesh.target(h)) return false;
   }
   for (std::uint32_t v = 0; v < mesh.vertexCount(); ++v) {
-    if (mesh.outgoing[v] != EditableMesh::kNone && mesh.origin[mesh.outgoing[v]] != v) return false;
+    if (mesh.outgoing[v] != kNone && mesh.origin[mesh.outgoing[v]] != v) return false;
   }
   mesh.compact(12);
   return isClosedManifold(mesh.vertexCount(), trianglesOf(mesh));

@@ -31,7 +31,7 @@ TEST_CASE("mend: vertices pushed over their neighbours and off the surface come 
   mend(mesh, phi, 1.0f);
   const std::size_t before = mesh.vertexCount();
   for (std::uint32_t v = 0; v < before; v += 40) {
-    if (mesh.outgoing[v] == EditableMesh::kNone) continue;
+    if (mesh.outgoing[v] == kNone) continue;
     const Vec3f u = mesh.position[mesh.target(mesh.outgoing[v])];
     mesh.position[v] += (u - mesh.position[v]) * 2.0f + mesh.normal[v] * 0.8f;
   }

@@ -54,7 +54,7 @@ TEST_CASE("patches: a ring is owned only as a whole, removed vertices by none") 
   const std::uint32_t gone = mesh.origin[0];
   REQUIRE(mesh.canCollapse(0));
   mesh.collapse(0);
-  CHECK(patchesOf(mesh, 100.0f, Vec3f(-50.0f)).of[gone] == EditableMesh::kNone);
+  CHECK(patchesOf(mesh, 100.0f, Vec3f(-50.0f)).of[gone] == kNone);
 }
 
 TEST_CASE("patches: each is called once") {

@@ -91,5 +91,5 @@ TEST_CASE("remesh: no collapse turns a triangle over") {
   for (std::uint32_t h = 0; h < mesh.halfEdgeCount(); ++h)
     if (mesh.alive(h)) tryCollapse(mesh, h);
   for (std::uint32_t v = 0; v < 12; ++v)
-    if (mesh.outgoing[v] != EditableMesh::kNone) CHECK(worstFacing(mesh, v) >= kFacing);
+    if (mesh.outgoing[v] != kNone) CHECK(worstFacing(mesh, v) >= kFacing);
 }

@@ -1,0 +1,3 @@
+#include "cmake/openvdb/grids.h"
+
+FLUIDTEX_GRID(, openvdb::Vec3STree)

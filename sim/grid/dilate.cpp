@@ -1,0 +1,4 @@
+#include "sim/grid/dilate.h"
+
+FLUIDTEX_DILATE(, fluidtex::sim::FloatTree)
+FLUIDTEX_DILATE(, fluidtex::sim::MaskTree)

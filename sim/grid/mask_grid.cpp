@@ -1,0 +1,3 @@
+#include "sim/grid/grids.h"
+
+FLUIDTEX_GRID(, fluidtex::sim::MaskTree)
