@@ -2,6 +2,7 @@
 
 #include "pipeline/foreseen_surface.h"
 #include "pipeline/liquid_values.h"
+#include "pipeline/stopwatch.h"
 #include "texture/frames/renewal.h"
 #include "texture/labels/fresh.h"
 #include "texture/mesh/prepare.h"
@@ -9,7 +10,6 @@
 #include "transport/carry.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace fluidtex::pipeline {
 namespace {
@@ -19,26 +19,6 @@ using texture::LaterFrames;
 using texture::Method;
 using texture::Surface;
 using texture::TexturedSurface;
-
-double wallSeconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-// Adds its lifetime to a stage.
-class StageWatch {
- public:
-  StageWatch(const Watch& watch, double& seconds) : m_watch(watch), m_seconds(seconds), m_start(now()) {}
-  ~StageWatch() { m_seconds += now() - m_start; }
-  StageWatch(const StageWatch&) = delete;
-  StageWatch& operator=(const StageWatch&) = delete;
-
- private:
-  double now() const { return m_watch.seconds ? m_watch.seconds() : wallSeconds(); }
-
-  const Watch& m_watch;
-  double& m_seconds;
-  double m_start;
-};
 
 texture::Seeds seedsFor(const TexturedSurface& last, const sim::Frame& frame,
                         const texture::SurfaceOptions& options) {
@@ -132,7 +112,7 @@ TexturedFrame textureFrame(Texturing& texturing, const TexturedSurface& last, co
   Surface surface;
   {
     begin(Stage::prepare);
-    const StageWatch stage(watch, seconds.prepare);
+    const Stopwatch stage(seconds.prepare, watch.seconds);
     // What is followed is known where there is liquid.
     const bool liquid = frame.surfacePhi->tree().leafCount() > 0;
     const texture::PointScale scale = liquid ? scaleIn(texturing.scale, frame) : texture::PointScale{};
@@ -153,11 +133,11 @@ TexturedFrame textureFrame(Texturing& texturing, const TexturedSurface& last, co
   Carried carried;
   {
     begin(Stage::transport);
-    const StageWatch stage(watch, seconds.transport);
+    const Stopwatch stage(seconds.transport, watch.seconds);
     carried = transport::carry(last, frame, surface.levels[0], symmetry, scene.transport);
   }
   {
-    const StageWatch stage(watch, seconds.prepare);
+    const Stopwatch stage(seconds.prepare, watch.seconds);
     const std::vector<int>& windows = scene.texture.synthesis.windows;
     const texture::VertexGraph graph = texture::buildVertexGraph(surface.levels[0]);
     addLevelsForFresh(texturing, frame, carried, graph, surface);
@@ -171,14 +151,14 @@ TexturedFrame textureFrame(Texturing& texturing, const TexturedSurface& last, co
   }
   {
     begin(Stage::synthesize);
-    const StageWatch stage(watch, seconds.synthesize);
+    const Stopwatch stage(seconds.synthesize, watch.seconds);
     std::function<void(double)> progress;
     if (watch.progress) progress = [&](double part) { watch.progress(Stage::synthesize, part); };
     result.surface =
         textured(texturing, std::move(surface), carried, frame.index, result.synthesis, progress);
   }
   {
-    const StageWatch stage(watch, seconds.transport);
+    const Stopwatch stage(seconds.transport, watch.seconds);
     result.surface.velocity = transport::velocityAt(result.surface.positions, frame);
     result.surface.contact = transport::contactAt(result.surface.positions, frame);
     addLiquidValues(frame, result.surface);

@@ -15,6 +15,7 @@
 #include "tools/frames/picture_notes.h"
 #include "tools/frames/progress.h"
 #include "tools/frames/visible_solids.h"
+#include "tools/frames/write_video.h"
 #include "tools/output/ply.h"
 #include "tools/output/read_ply.h"
 #include "tools/report/write_report.h"
@@ -195,18 +196,6 @@ class Drawing {
   std::chrono::steady_clock::time_point m_begun = std::chrono::steady_clock::now();
 };
 
-void writeVideo(const scenes::Scene& scene, const Frames& frames, const fs::path& out, const fs::path& video,
-                const std::atomic<bool>& stop) {
-  try {
-    writeAtomically(video, [&](const fs::path& file) {
-      render::writeVideo(out / "frames", frames.first, frames.last, scene.sim.frameRate, file);
-    });
-  } catch (const std::runtime_error&) {
-    if (stop) throw Interrupted(kOnward);  // Ctrl-C reaches the encoder too, which then fails
-    throw;
-  }
-}
-
 void renderSurfaces(const RenderOptions& wanted) {
   const CommonOptions& options = wanted.common;
   const fs::path& from = wanted.from;
@@ -229,9 +218,8 @@ void renderSurfaces(const RenderOptions& wanted) {
       std::size_t(options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency()));
   Drawing(wanted, scene, frames, out, stop).run();
   if (wanted.part) return;
-  const fs::path video = out / (scene.name + ".mp4");
-  writeVideo(scene, frames, out, video, stop);
-  if (!options.quiet) say("done: {}\n", video.string());
+  writeVideo(scene, out, frames.first, frames.last, stop, kOnward);
+  if (!options.quiet) say("done: {}\n", videoFile(scene, out).string());
   // Surfaces alone, without a run's figures, have no page.
   if (options.noReport || !fs::exists(from / "run.json")) return;
   writeReport({from, out});

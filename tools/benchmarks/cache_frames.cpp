@@ -4,8 +4,8 @@
 #include "caches/liquid/level_set.h"
 #include "caches/liquid/read_frame.h"
 #include "caches/liquid/survey.h"
+#include "tests/scratch.h"
 #include "tools/benchmarks/measure.h"
-#include "tools/benchmarks/temporary_folder.h"
 
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
@@ -129,7 +129,7 @@ caches::Cache cacheIn(const fs::path& folder, int triangles) {
 // On all threads.
 void frame(benchmark::State& state, int triangles) {
   openvdb::initialize();
-  const TemporaryFolder folder;
+  const Scratch folder;
   const caches::Cache cache = cacheIn(folder.path, triangles);
   for ([[maybe_unused]] auto _ : state) {
     caches::CachedFlow flow(cache);

@@ -3,11 +3,11 @@
 // bytes alone.
 #include "pipeline/texture_frame.h"
 #include "sim/motion/motion.h"
+#include "tests/scratch.h"
 #include "texture/joints/cut.h"
 #include "texture/joints/joints.h"
 #include "tools/base/atomic_file.h"
 #include "tools/benchmarks/measure.h"
-#include "tools/benchmarks/temporary_folder.h"
 #include "tools/benchmarks/textured_samples.h"
 #include "tools/formats/exports.h"
 #include "tools/output/ply.h"
@@ -110,7 +110,7 @@ void countBytes(benchmark::State& state, double bytes) {
 }
 
 void output(benchmark::State& state, const std::string& row, Format format) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   joints();
   fs::path file;
   for ([[maybe_unused]] auto _ : state) measure(state, row, [&] { file = write(format, folder.path); });
@@ -119,7 +119,7 @@ void output(benchmark::State& state, const std::string& row, Format format) {
 
 // The same bytes out of memory, to the same disk.
 void bytesAlone(benchmark::State& state, const std::string& row, Format format) {
-  const TemporaryFolder folder;
+  const Scratch folder;
   const fs::path file = write(format, folder.path);
   std::ifstream in(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};

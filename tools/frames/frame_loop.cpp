@@ -1,6 +1,7 @@
 #include "tools/frames/frame_loop.h"
 
 #include "pipeline/motion.h"
+#include "pipeline/stopwatch.h"
 #include "pipeline/texture_frame.h"
 #include "render/frame_name.h"
 #include "render/render.h"
@@ -22,6 +23,7 @@
 #include "tools/frames/progress.h"
 #include "tools/frames/time_plan.h"
 #include "tools/frames/visible_solids.h"
+#include "tools/frames/write_video.h"
 #include "tools/output/ply.h"
 #include "tools/output/read_ply.h"
 #include "tools/run_folder/cache_folder.h"
@@ -48,21 +50,6 @@ namespace {
 
 // Between two looks for files that are waited for.
 constexpr std::chrono::milliseconds kPoll{250};
-
-// Adds the wall time of its own life to a stage.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : m_seconds(seconds) {}
-  ~Stopwatch() {
-    m_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - m_start).count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& m_seconds;
-  std::chrono::steady_clock::time_point m_start = std::chrono::steady_clock::now();
-};
 
 // A finished frame: the motion, the surface that came out, what it took.
 struct FrameResult {
@@ -191,7 +178,7 @@ class FrameLoop {
     if (motion.index >= m_options.firstFrame) writeResults(motion.index, motion.time, seconds);
     nowAt(kOnFrameFiles, motion.index);
     {
-      Stopwatch watch(seconds.write);
+      pipeline::Stopwatch watch(seconds.write);
       recordCost(record, seconds);
       saveState(pipeline::stateOf(*m_motion), m_surface, toJson(reportOf(record)), m_options.out / "state");
     }
@@ -234,7 +221,7 @@ class FrameLoop {
     StageSeconds& seconds = result.seconds;
     m_frame = pipeline::stateOf(*m_motion).frame + 1;
     {
-      Stopwatch watch(seconds.simulate);
+      pipeline::Stopwatch watch(seconds.simulate);
       nowAt(kOnMotion, m_frame);
       waitForFiles();
       result.motion = pipeline::nextFrame(*m_motion, reporter("simulate"));
@@ -264,13 +251,13 @@ class FrameLoop {
     const fs::path surfaceFile = m_options.out / "surface" / (name + ".ply");
     nowAt(kOnFrameFiles, frame);
     {
-      Stopwatch watch(seconds.write);
+      pipeline::Stopwatch watch(seconds.write);
       const texture::Joints joints = jointsOf(m_scene.texture, m_surface);
       writeAtomically(surfaceFile, [&](const fs::path& file) { writePly(m_surface, joints, file); });
     }
     if (m_options.render) writePicture(frame, time, surfaceFile, seconds);
     nowAt(kOnFrameFiles, frame);
-    Stopwatch watch(seconds.write);
+    pipeline::Stopwatch watch(seconds.write);
     const bool putsOnto = scenes::putsOnto(m_scene);
     if (putsOnto) {
       const texture::TexturedSurface other = onto(frame);
@@ -290,7 +277,7 @@ class FrameLoop {
     nowAt(kOnPicture, frame);
     render::Picture picture;
     {
-      Stopwatch watch(seconds.render);
+      pipeline::Stopwatch watch(seconds.render);
       texture::TexturedSurface surface =
           readPly(surfaceFile, m_surface.exemplarWidth, m_surface.exemplarHeight);
       surface.spacing = m_surface.spacing;
@@ -301,7 +288,7 @@ class FrameLoop {
                                 m_detail && m_detail->seeThrough, m_scene.domainOrigin},
                                reporter("render"));
     }
-    Stopwatch watch(seconds.write);
+    pipeline::Stopwatch watch(seconds.write);
     writeAtomically(m_options.out / "frames" / (render::frameName(frame) + ".png"),
                     [&](const fs::path& file) { writePng(picture, file, pictureNotes(m_scene, frame)); });
   }
@@ -332,23 +319,9 @@ class FrameLoop {
   void finish() {
     m_reportFile.write(m_report);
     const bool rendered = m_options.render && m_last >= m_options.firstFrame;
-    if (rendered) writeVideo();
-    if (!m_options.quiet) say("done: {}\n", (rendered ? videoFile() : m_options.out / "surface").string());
-  }
-
-  fs::path videoFile() const { return m_options.out / (m_scene.name + ".mp4"); }
-
-  void writeVideo() {
-    try {
-      writeAtomically(videoFile(), [&](const fs::path& file) {
-        render::writeVideo(m_options.out / "frames", m_options.firstFrame, m_last, m_scene.sim.frameRate,
-                           file);
-      });
-    } catch (const std::runtime_error&) {
-      // Ctrl-C reaches the encoder too, which then fails.
-      if (m_stop) throw Interrupted();
-      throw;
-    }
+    if (rendered) writeVideo(m_scene, m_options.out, m_options.firstFrame, m_last, m_stop, "--resume");
+    const fs::path made = rendered ? videoFile(m_scene, m_options.out) : m_options.out / "surface";
+    if (!m_options.quiet) say("done: {}\n", made.string());
   }
 
   // False where there is nothing to go on from.
