@@ -3,13 +3,13 @@
 # included. Editors and tools that go by file want FLUIDTEX_UNITY=OFF, as the presets debug and fuzz have it.
 option(FLUIDTEX_UNITY "Compile the sources of a folder a few at a time as one file" ON)
 
-# fluidtex_in_batches(TARGET [ALONE SOURCES...] [SIZE N]): of at most N sources, evenly, in the order in which the target names
-# them. ALONE: sources that are compiled alone, because they take long or define what their neighbours must not see.
+# The most that keeps a change of one source below 15 s.
+set(batch_size 6)
+
+# fluidtex_in_batches(TARGET [ALONE SOURCES...]): in the order in which the target names them. ALONE: sources that are
+# compiled alone, because they take long or use a name for themselves that others in their folder have.
 function(fluidtex_in_batches target)
-  cmake_parse_arguments(batch "" "SIZE" "ALONE" ${ARGN})
-  if(NOT batch_SIZE)
-    set(batch_SIZE 6)
-  endif()
+  cmake_parse_arguments(batch "" "" "ALONE" ${ARGN})
   if(NOT FLUIDTEX_UNITY)
     return()
   endif()
@@ -29,7 +29,7 @@ function(fluidtex_in_batches target)
   list(REMOVE_DUPLICATES folders)
   foreach(folder ${folders})
     list(LENGTH ${folder} count)
-    math(EXPR batches "(${count} + ${batch_SIZE} - 1) / ${batch_SIZE}")
+    math(EXPR batches "(${count} + ${batch_size} - 1) / ${batch_size}")
     set(number 0)
     foreach(source ${${folder}})
       math(EXPR batch "${number} * ${batches} / ${count}")
