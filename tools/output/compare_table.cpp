@@ -18,12 +18,12 @@ struct TableColumn {
   Figure figure;
 };
 const TableColumn kColumns[] = {{"likeness", "likeness", &Compared::likeness},
-                           {"sharpness", "sharpness", &Compared::sharpness},
-                           {"change_along_flow", "change along the flow", &Compared::alongFlow},
-                           {"pop", "pops", &Compared::pop},
-                           {"shape", "stretch", &Compared::shape},
-                           {"renewed", "renewed", &Compared::renewed},
-                           {"seconds", "transport and synthesis, s a frame", &Compared::seconds}};
+                                {"sharpness", "sharpness", &Compared::sharpness},
+                                {"change_along_flow", "change along the flow", &Compared::alongFlow},
+                                {"pop", "pops", &Compared::pop},
+                                {"shape", "stretch", &Compared::shape},
+                                {"renewed", "renewed", &Compared::renewed},
+                                {"seconds", "transport and synthesis, s a frame", &Compared::seconds}};
 
 Json readReport(const std::filesystem::path& file) {
   std::ifstream stream(file);
