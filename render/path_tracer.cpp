@@ -103,7 +103,7 @@ class TileTracer {
     }
   }
 
-  // PixelLight that a path brings back when its ray leaves the scene. The camera does not see the sun's disc.
+  // Light that a path brings back when its ray leaves the scene. The camera does not see the sun's disc.
   Vec3f escaped(const Vec3f& direction, const Path& path) const {
     const Sky& sky = m_world.sky;
     Vec3f radiance = sky.radiance(direction);

@@ -20,7 +20,7 @@ namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
 
-using Document = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
@@ -38,19 +38,19 @@ fs::path blender() {
 }
 
 // What render.py is asked for; it says there what is what.
-Document asked(const scenes::Scene& scene, const fs::path& run, const CyclesOptions& options) {
-  Document maps = Document::object();
+Json asked(const scenes::Scene& scene, const fs::path& run, const CyclesOptions& options) {
+  Json maps = Json::object();
   for (const auto& [kind, file] : options.maps) maps[kind] = fs::absolute(file).string();
   const auto& origin = scene.domainOrigin;
   return {{"run", fs::absolute(run).string()},
-          {"scene", Document::parse(scene.resolved)},
+          {"scene", Json::parse(scene.resolved)},
           {"origin", {origin.x(), origin.y(), origin.z()}},
-          {"frames", Document::array()},
+          {"frames", Json::array()},
           {"pictures", nullptr},
           {"shutter", options.shutter},
           {"shader", options.shader},
           {"maps", maps},
-          {"height", options.height ? Document(*options.height) : Document(nullptr)},
+          {"height", options.height ? Json(*options.height) : Json(nullptr)},
           {"blend", nullptr}};
 }
 
@@ -86,7 +86,7 @@ void tellWarning(const std::string& line) {
 }
 
 // temporary: where Blender puts what it makes for itself.
-void runBlender(const Document& asked, int threads, const fs::path& temporary,
+void runBlender(const Json& asked, int threads, const fs::path& temporary,
                 const render::Meanwhile& meanwhile) {
   // It goes when this program is killed. Debian's Blender takes the Python that comes first, which has to be
   // Debian's.
@@ -120,7 +120,7 @@ fs::path blenderScripts() {
 void drawByCycles(const scenes::Scene& scene, const fs::path& run, const std::vector<int>& frames,
                   const CyclesOptions& options, int threads, const fs::path& scratch,
                   const CyclesReceiver& receiver) {
-  Document wish = asked(scene, run, options);
+  Json wish = asked(scene, run, options);
   wish["frames"] = frames;
   wish["pictures"] = fs::absolute(scratch).string();
   std::size_t done = 0;
@@ -142,7 +142,7 @@ void drawByCycles(const scenes::Scene& scene, const fs::path& run, const std::ve
 void saveForBlender(const scenes::Scene& scene, const fs::path& run, const CyclesOptions& options,
                     const fs::path& blend) {
   writeAtomically(fs::absolute(blend), [&](const fs::path& file) {
-    Document wish = asked(scene, run, options);
+    Json wish = asked(scene, run, options);
     wish["blend"] = file.string();
     runBlender(wish, 0, fs::temp_directory_path(), {tellWarning, {}});
   });

@@ -78,7 +78,7 @@ bool besideSurface(const float* p) {
 }
 
 // Sets cells in solids to the values of phi at their mirror images across the solid's surface. block: phi
-// around a leaf, CurvatureBlock::kSide cells wide.
+// around a leaf, as wide as a CurvatureBlock.
 void mirrorInSolids(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord& origin, float* block) {
   float solid[kSolidSide * kSolidSide * kSolidSide], wide[kWideSide * kWideSide * kWideSide];
   gather(solidPhi.constTree(), origin, kSolidHalo, solid);

@@ -13,7 +13,7 @@ namespace fluidtex::texture {
 // differ in sign, x slowest. values: as LevelSet::values.
 template <typename Body>
 void forCrossedCells(const float* values, const Body& body) {
-  constexpr int kSide = LevelSet::kSide, kPadded = LevelSet::kPadded;
+  constexpr int kSide = kBlockSide, kPadded = kBlockPadded;
   const auto row = [&](int x, int y) { return values + ((x + 1) * kPadded + y + 1) * kPadded + 1; };
   // One bit per value, one row along z at a time.
   std::array<std::array<unsigned, kSide + 1>, kSide + 1> inside;

@@ -21,7 +21,7 @@ namespace {
 
 using openvdb::Coord;
 
-constexpr int kBlockCells = LevelSet::kSide * LevelSet::kSide * LevelSet::kSide;
+constexpr int kBlockCells = kBlockSide * kBlockSide * kBlockSide;
 constexpr std::size_t kTermsAtOnce = 4096;  // of a sum
 constexpr int kCentre = 12;                 // in the table: the extra vertex at the centre
 
@@ -208,7 +208,7 @@ const std::array<Case, 256>& cases() {
   return table;
 }
 
-constexpr std::array<int, 3> kValueStep{LevelSet::kPadded * LevelSet::kPadded, LevelSet::kPadded, 1};
+constexpr std::array<int, 3> kValueStep{kBlockPadded * kBlockPadded, kBlockPadded, 1};
 
 unsigned cellMask(const float* corner) {
   unsigned mask = 0;
@@ -265,7 +265,7 @@ IsoSurface isoSurface(const LevelSet& phi) {
         if ((v[0] < 0.0f) == (v1 < 0.0f)) continue;
         Vec3f p = base;
         p[axis] += std::clamp(v[0] / (v[0] - v1), kMargin, 1.0f - kMargin);
-        vertexOf[(b * kBlockCells + std::size_t((x * LevelSet::kSide + y) * LevelSet::kSide + z)) * 3 +
+        vertexOf[(b * kBlockCells + std::size_t((x * kBlockSide + y) * kBlockSide + z)) * 3 +
                  std::size_t(axis)] = next;
         surface.positions[next++] = p;
       }
@@ -278,9 +278,9 @@ IsoSurface isoSurface(const LevelSet& phi) {
         neighbor;  // block that holds a cell of local coordinates up to 8, by which of them are 8
     for (int n = 0; n < 8; ++n) {
       neighbor[std::size_t(n)] =
-          n == 0 ? std::uint32_t(b)
-                 : phi.find(o.offsetBy(n & 1 ? LevelSet::kSide : 0, n & 2 ? LevelSet::kSide : 0,
-                                       n & 4 ? LevelSet::kSide : 0));
+          n == 0
+              ? std::uint32_t(b)
+              : phi.find(o.offsetBy(n & 1 ? kBlockSide : 0, n & 2 ? kBlockSide : 0, n & 4 ? kBlockSide : 0));
     }
     std::uint32_t triangle = firstTriangle[b];
     // Centres are numbered after the block's crossings.
@@ -298,7 +298,7 @@ IsoSurface isoSurface(const LevelSet& phi) {
         const int cx = x + (low & 1), cy = y + (low >> 1 & 1), cz = z + (low >> 2 & 1);
         const std::uint32_t block = neighbor[std::size_t((cx >> 3) | (cy >> 3) << 1 | (cz >> 3) << 2)];
         assert(block < blocks);
-        const int cell = ((cx & 7) * LevelSet::kSide + (cy & 7)) * LevelSet::kSide + (cz & 7);
+        const int cell = ((cx & 7) * kBlockSide + (cy & 7)) * kBlockSide + (cz & 7);
         return vertexOf[(std::size_t(block) * kBlockCells + std::size_t(cell)) * 3 + std::size_t(axis)];
       };
       for (const auto& t : c.triangles) {

@@ -24,14 +24,14 @@ using openvdb::FloatGrid;
 using Leaf = openvdb::FloatTree::LeafNodeType;
 using Float4 = float __attribute__((vector_size(16)));
 
-constexpr std::size_t kBlockValues = std::size_t(LevelSet::kPadded) * LevelSet::kPadded * LevelSet::kPadded;
-static_assert(Leaf::DIM == LevelSet::kSide);
+constexpr std::size_t kBlockValues = std::size_t(kBlockPadded) * kBlockPadded * kBlockPadded;
+static_assert(Leaf::DIM == kBlockSide);
 
 // Values farther from the surface carry no information; the bound keeps products finite.
 constexpr float kFarthest = 8.0f;
 
 std::uint64_t morton(const Coord& origin) {
-  return mortonCode(origin.x() / LevelSet::kSide, origin.y() / LevelSet::kSide, origin.z() / LevelSet::kSide);
+  return mortonCode(origin.x() / kBlockSide, origin.y() / kBlockSide, origin.z() / kBlockSide);
 }
 
 std::size_t hashOf(const Coord& origin) {
@@ -66,20 +66,19 @@ std::vector<Coord> candidateBlocks(const FloatGrid& phi, const std::vector<const
   std::vector<Coord> blocks = gathered<Coord>(leaves.size(), [&](std::uint32_t i, std::vector<Coord>& found) {
     const Coord o = leaves[i]->origin();
     for (int n = 0; n < 8; ++n) {
-      const Coord b = o.offsetBy(n & 1 ? -LevelSet::kSide : 0, n & 2 ? -LevelSet::kSide : 0,
-                                 n & 4 ? -LevelSet::kSide : 0);
+      const Coord b = o.offsetBy(n & 1 ? -kBlockSide : 0, n & 2 ? -kBlockSide : 0, n & 4 ? -kBlockSide : 0);
       if (n == 0 || !phi.tree().probeConstLeaf(b)) found.push_back(b);
     }
   });
   auto acc = phi.getConstAccessor();
   const auto rim = [&](const Coord& o) {
     for (int n = 0; n < 27; ++n) {
-      const Coord b = o.offsetBy((n % 3 - 1) * LevelSet::kSide, (n / 3 % 3 - 1) * LevelSet::kSide,
-                                 (n / 9 - 1) * LevelSet::kSide);
+      const Coord b =
+          o.offsetBy((n % 3 - 1) * kBlockSide, (n / 3 % 3 - 1) * kBlockSide, (n / 9 - 1) * kBlockSide);
       if (acc.probeConstLeaf(b) || acc.getValue(b) < 0.0f) continue;
       for (int k = 0; k < 8; ++k) {
-        blocks.push_back(o.offsetBy(k & 1 ? -LevelSet::kSide : 0, k & 2 ? -LevelSet::kSide : 0,
-                                    k & 4 ? -LevelSet::kSide : 0));
+        blocks.push_back(
+            o.offsetBy(k & 1 ? -kBlockSide : 0, k & 2 ? -kBlockSide : 0, k & 4 ? -kBlockSide : 0));
       }
       return;
     }
@@ -89,12 +88,12 @@ std::vector<Coord> candidateBlocks(const FloatGrid& phi, const std::vector<const
   for (; tile; ++tile) {
     if (*tile >= 0.0f) continue;
     const openvdb::CoordBBox box = tile.getBoundingBox();
-    for (int x = box.min().x(); x < box.max().x(); x += LevelSet::kSide) {
-      const bool xRim = x == box.min().x() || x + LevelSet::kSide > box.max().x();
-      for (int y = box.min().y(); y < box.max().y(); y += LevelSet::kSide) {
-        const bool xyRim = xRim || y == box.min().y() || y + LevelSet::kSide > box.max().y();
-        const int last = box.max().z() + 1 - LevelSet::kSide;
-        const int step = xyRim || last == box.min().z() ? LevelSet::kSide : last - box.min().z();
+    for (int x = box.min().x(); x < box.max().x(); x += kBlockSide) {
+      const bool xRim = x == box.min().x() || x + kBlockSide > box.max().x();
+      for (int y = box.min().y(); y < box.max().y(); y += kBlockSide) {
+        const bool xyRim = xRim || y == box.min().y() || y + kBlockSide > box.max().y();
+        const int last = box.max().z() + 1 - kBlockSide;
+        const int step = xyRim || last == box.min().z() ? kBlockSide : last - box.min().z();
         for (int z = box.min().z(); z <= last; z += step) rim(Coord(x, y, z));
       }
     }
@@ -107,16 +106,14 @@ std::vector<Coord> candidateBlocks(const FloatGrid& phi, const std::vector<const
 bool maybeCrossed(const FloatGrid::ConstAccessor& acc, const Coord& origin) {
   bool inside = false, outside = false;
   for (int n = 0; n < 8; ++n) {
-    const Coord o = origin.offsetBy(n & 1 ? LevelSet::kSide : 0, n & 2 ? LevelSet::kSide : 0,
-                                    n & 4 ? LevelSet::kSide : 0);
+    const Coord o = origin.offsetBy(n & 1 ? kBlockSide : 0, n & 2 ? kBlockSide : 0, n & 4 ? kBlockSide : 0);
     const Leaf* leaf = acc.probeConstLeaf(o);
     if (!leaf) {
       (acc.getValue(o) < 0.0f ? inside : outside) = true;
     } else {
       // Of the blocks above, only the lowest layer, edge or corner belongs to the block.
       const float* v = leaf->buffer().data();
-      const int xs = n & 1 ? 1 : LevelSet::kSide, ys = n & 2 ? 1 : LevelSet::kSide,
-                zs = n & 4 ? 1 : LevelSet::kSide;
+      const int xs = n & 1 ? 1 : kBlockSide, ys = n & 2 ? 1 : kBlockSide, zs = n & 4 ? 1 : kBlockSide;
       for (int x = 0; x < xs; ++x)
         for (int y = 0; y < ys; ++y) {
           const unsigned below = below8(load8(v + x * 64 + y * 8), 0.0f) & ((1u << zs) - 1u);
@@ -136,15 +133,14 @@ void gather(const FloatGrid::ConstAccessor& acc, const Coord& origin, float scal
   for (int a = 0; a < 3; ++a) {
     for (int b = 0; b < 3; ++b) {
       for (int c = 0; c < 3; ++c) {
-        const Coord o =
-            origin.offsetBy((a - 1) * LevelSet::kSide, (b - 1) * LevelSet::kSide, (c - 1) * LevelSet::kSide);
+        const Coord o = origin.offsetBy((a - 1) * kBlockSide, (b - 1) * kBlockSide, (c - 1) * kBlockSide);
         leaf[a][b][c] = acc.probeConstLeaf(o);
         tile[a][b][c] = leaf[a][b][c] ? 0.0f : acc.getValue(o);
       }
     }
   }
   const auto clamped = [scale](float v) { return std::clamp(v * scale, -kFarthest, kFarthest); };
-  const auto part = [](int x) { return x < 0 ? 0 : x < LevelSet::kSide ? 1 : 2; };
+  const auto part = [](int x) { return x < 0 ? 0 : x < kBlockSide ? 1 : 2; };
   for (int x = -1; x <= 9; ++x) {
     for (int y = -1; y <= 9; ++y) {
       const auto& rowLeaf = leaf[part(x)][part(y)];
@@ -153,9 +149,9 @@ void gather(const FloatGrid::ConstAccessor& acc, const Coord& origin, float scal
       *out++ = clamped(rowLeaf[0] ? rowLeaf[0]->buffer().data()[row + 7] : rowTile[0]);
       if (rowLeaf[1]) {
         const float* v = rowLeaf[1]->buffer().data() + row;
-        for (int z = 0; z < LevelSet::kSide; ++z) *out++ = clamped(v[z]);
+        for (int z = 0; z < kBlockSide; ++z) *out++ = clamped(v[z]);
       } else {
-        for (int z = 0; z < LevelSet::kSide; ++z) *out++ = clamped(rowTile[1]);
+        for (int z = 0; z < kBlockSide; ++z) *out++ = clamped(rowTile[1]);
       }
       for (int z = 0; z < 2; ++z)
         *out++ = clamped(rowLeaf[2] ? rowLeaf[2]->buffer().data()[row + z] : rowTile[2]);
@@ -227,12 +223,12 @@ LevelSet::LevelSet(const FloatGrid& phi) {
       const std::array<int, 3> step{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
       bool near = n != 13;
       for (std::size_t k = 0; k < 3; ++k) {
-        near = near && !(step[k] < 0 && boxes[i].lo[k] > 0) &&
-               !(step[k] > 0 && boxes[i].hi[k] < LevelSet::kSide - 1);
+        near =
+            near && !(step[k] < 0 && boxes[i].lo[k] > 0) && !(step[k] > 0 && boxes[i].hi[k] < kBlockSide - 1);
       }
       if (near)
-        around.push_back(candidates[i].offsetBy(step[0] * LevelSet::kSide, step[1] * LevelSet::kSide,
-                                                step[2] * LevelSet::kSide));
+        around.push_back(
+            candidates[i].offsetBy(step[0] * kBlockSide, step[1] * kBlockSide, step[2] * kBlockSide));
     }
   }
   m_surfaceBlocks = m_origins.size();
@@ -288,13 +284,13 @@ LevelSet::Sample LevelSet::sample(const Vec3f& x) const {
   weights(x.y() - float(j), wy, dy);
   weights(x.z() - float(k), wz, dz);
 
-  const float* corner = values(block) + ((i & 7) * LevelSet::kPadded + (j & 7)) * LevelSet::kPadded + (k & 7);
+  const float* corner = values(block) + ((i & 7) * kBlockPadded + (j & 7)) * kBlockPadded + (k & 7);
   Float4 value{}, alongX{}, alongY{};
   for (int a = 0; a < 4; ++a) {
     Float4 sum{}, slope{};
     for (int b = 0; b < 4; ++b) {
       Float4 row;
-      std::memcpy(&row, corner + (a * LevelSet::kPadded + b) * LevelSet::kPadded, sizeof row);
+      std::memcpy(&row, corner + (a * kBlockPadded + b) * kBlockPadded, sizeof row);
       sum += wy[b] * row;
       slope += dy[b] * row;
     }

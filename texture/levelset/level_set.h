@@ -10,24 +10,24 @@
 
 namespace fluidtex::texture {
 
+inline constexpr int kBlockSide = 8;     // cells along a block's edge; block origins are multiples of it
+inline constexpr int kBlockPadded = 11;  // values along its edge: local coordinates -1..9
+
 // Index space (voxel = 1, voxel centres at integers); distances in voxels, whatever the grid's transform.
 // Only blocks near the zero set are kept. Throws std::invalid_argument if a value is not finite or voxels are
 // not cubes.
 class LevelSet {
  public:
-  static constexpr int kSide = 8;     // cells along a block's edge; block origins are multiples of it
-  static constexpr int kPadded = 11;  // values along its edge: local coordinates -1..9
-
   explicit LevelSet(const openvdb::FloatGrid& phi);
 
   // Blocks with a cell that the zero set crosses come first, along a space-filling curve, then their
   // surroundings.
   std::size_t surfaceBlockCount() const { return m_surfaceBlocks; }
   const openvdb::Coord& origin(std::size_t block) const { return m_origins[block]; }
-  // Values at local coordinates (x, y, z) of a block, each -1..9: values(b)[((x + 1) * kPadded + y + 1) *
-  // kPadded + z + 1].
+  // Values at local coordinates (x, y, z) of a block, each -1..9: values(b)[((x + 1) * kBlockPadded + y + 1)
+  // * kBlockPadded + z + 1].
   const float* values(std::size_t block) const {
-    return m_values.get() + block * kPadded * kPadded * kPadded;
+    return m_values.get() + block * kBlockPadded * kBlockPadded * kBlockPadded;
   }
   std::size_t blockCount() const { return m_origins.size(); }
   std::uint32_t find(const openvdb::Coord& origin) const;
@@ -36,7 +36,7 @@ class LevelSet {
   float scale(const Vec3f& x) const { return m_scale.empty() ? 1.0f : sampleScale(x); }
   bool scaled() const { return !m_scale.empty(); }
   // kScaled^3 values per block, at local coordinates 0..8, x slowest.
-  static constexpr int kScaled = kSide + 1;
+  static constexpr int kScaled = kBlockSide + 1;
   void setScale(std::vector<float> values) { m_scale = std::move(values); }
 
   struct Sample {

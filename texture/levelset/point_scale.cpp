@@ -12,7 +12,7 @@
 namespace fluidtex::texture {
 namespace {
 
-constexpr int kNodes = LevelSet::kSide * LevelSet::kSide * LevelSet::kSide;
+constexpr int kNodes = kBlockSide * kBlockSide * kBlockSide;
 
 using Neighbors = std::array<std::uint32_t, 27>;  // of a block, itself in the middle
 
@@ -21,18 +21,18 @@ std::vector<Neighbors> neighborsOf(const LevelSet& phi) {
   forEachIndex(result.size(), [&](std::uint32_t b) {
     for (int n = 0; n < 27; ++n)
       result[b][std::size_t(n)] = phi.find(phi.origin(b).offsetBy(
-          (n / 9 - 1) * LevelSet::kSide, (n / 3 % 3 - 1) * LevelSet::kSide, (n % 3 - 1) * LevelSet::kSide));
+          (n / 9 - 1) * kBlockSide, (n / 3 % 3 - 1) * kBlockSide, (n % 3 - 1) * kBlockSide));
   });
   return result;
 }
 
 int nodeAt(int x, int y, int z) {
-  return (x * LevelSet::kSide + y) * LevelSet::kSide + z;
+  return (x * kBlockSide + y) * kBlockSide + z;
 }
 
 // Local coordinates -1..8 of a block: index in Neighbors of the block that holds them.
 int neighborAt(int x, int y, int z) {
-  const auto part = [](int i) { return i < 0 ? 0 : i < LevelSet::kSide ? 1 : 2; };
+  const auto part = [](int i) { return i < 0 ? 0 : i < kBlockSide ? 1 : 2; };
   return part(x) * 9 + part(y) * 3 + part(z);
 }
 
@@ -84,25 +84,24 @@ class Limiter {
   float value(std::uint32_t b, int x, int y, int z) const {
     const std::uint32_t n = m_neighbors[b][std::size_t(neighborAt(x, y, z))];
     if (n != kNone) return m_nodes[std::size_t(n) * kNodes + std::size_t(nodeAt(x & 7, y & 7, z & 7))];
-    const auto inside = [](int i) { return std::clamp(i, 0, LevelSet::kSide - 1); };
+    const auto inside = [](int i) { return std::clamp(i, 0, kBlockSide - 1); };
     return m_nodes[std::size_t(b) * kNodes + std::size_t(nodeAt(inside(x), inside(y), inside(z)))];
   }
 
   // One forward and one backward pass over a block and the nodes around it. Returns whether anything fell.
   bool lower(std::uint32_t b, std::array<float, kNodes>& result) const {
-    constexpr int kWide = LevelSet::kSide + 2;
+    constexpr int kWide = kBlockSide + 2;
     std::array<float, kWide * kWide * kWide> v;
     const auto at = [](int x, int y, int z) { return ((x + 1) * kWide + y + 1) * kWide + z + 1; };
-    for (int x = -1; x <= LevelSet::kSide; ++x)
-      for (int y = -1; y <= LevelSet::kSide; ++y)
-        for (int z = -1; z <= LevelSet::kSide; ++z) v[std::size_t(at(x, y, z))] = value(b, x, y, z);
+    for (int x = -1; x <= kBlockSide; ++x)
+      for (int y = -1; y <= kBlockSide; ++y)
+        for (int z = -1; z <= kBlockSide; ++z) v[std::size_t(at(x, y, z))] = value(b, x, y, z);
     const std::array<float, 4> rise{0.0f, m_rise, m_rise * std::sqrt(2.0f), m_rise * std::sqrt(3.0f)};
     bool fell = false;
     for (const int way : {-1, 1}) {
       for (int node = 0; node < kNodes; ++node) {
         const int k = way < 0 ? node : kNodes - 1 - node;
-        const int here = at(k / (LevelSet::kSide * LevelSet::kSide), k / LevelSet::kSide % LevelSet::kSide,
-                            k % LevelSet::kSide);
+        const int here = at(k / (kBlockSide * kBlockSide), k / kBlockSide % kBlockSide, k % kBlockSide);
         float& own = v[std::size_t(here)];
         for (int n = 0; n < 13; ++n) {  // neighbours already visited
           const int dx = n / 9 - 1, dy = n / 3 % 3 - 1, dz = n % 3 - 1;
@@ -113,9 +112,8 @@ class Limiter {
       }
     }
     for (int node = 0; node < kNodes; ++node)
-      result[std::size_t(node)] =
-          v[std::size_t(at(node / (LevelSet::kSide * LevelSet::kSide),
-                           node / LevelSet::kSide % LevelSet::kSide, node % LevelSet::kSide))];
+      result[std::size_t(node)] = v[std::size_t(
+          at(node / (kBlockSide * kBlockSide), node / kBlockSide % kBlockSide, node % kBlockSide))];
     return fell;
   }
 
@@ -132,9 +130,8 @@ void layScale(LevelSet& phi, const openvdb::math::Transform& transform, const Po
   std::vector<Vec3f> places(count);
   forEachIndex(phi.blockCount(), [&](std::uint32_t b) {
     for (int node = 0; node < kNodes; ++node) {
-      const openvdb::Coord at =
-          phi.origin(b).offsetBy(node / (LevelSet::kSide * LevelSet::kSide),
-                                 node / LevelSet::kSide % LevelSet::kSide, node % LevelSet::kSide);
+      const openvdb::Coord at = phi.origin(b).offsetBy(node / (kBlockSide * kBlockSide),
+                                                       node / kBlockSide % kBlockSide, node % kBlockSide);
       places[std::size_t(b) * kNodes + std::size_t(node)] = Vec3f(transform.indexToWorld(at));
     }
   });

@@ -9,7 +9,7 @@
 using namespace fluidtex::texture;
 
 TEST_CASE("crossed cells: those whose corners differ in sign, x slowest, zero counts as outside") {
-  constexpr int kSide = LevelSet::kSide, kPadded = LevelSet::kPadded;
+  constexpr int kSide = kBlockSide, kPadded = kBlockPadded;
   std::mt19937 random(5);
   for (const int odds : {2, 40, 400}) {  // one negative value in so many
     std::vector<float> values(kPadded * kPadded * kPadded);

@@ -20,11 +20,11 @@ TEST_CASE("level set: blocks hold the grid's values, in voxels, those at the sur
     CHECK(phi.find(origin) == block);
     bool crossed = false;
     const auto at = [&](int x, int y, int z) {
-      return phi.values(block)[((x + 1) * LevelSet::kPadded + y + 1) * LevelSet::kPadded + z + 1];
+      return phi.values(block)[((x + 1) * kBlockPadded + y + 1) * kBlockPadded + z + 1];
     };
-    for (int x = 0; x <= LevelSet::kSide; ++x)
-      for (int y = 0; y <= LevelSet::kSide; ++y)
-        for (int z = 0; z <= LevelSet::kSide; ++z) {
+    for (int x = 0; x <= kBlockSide; ++x)
+      for (int y = 0; y <= kBlockSide; ++y)
+        for (int z = 0; z <= kBlockSide; ++z) {
           REQUIRE(at(x, y, z) ==
                   Approx(grid->tree().getValue(origin.offsetBy(x, y, z)) / voxel).margin(1e-5));
           crossed = crossed || (at(x, y, z) < 0.0f) != (at(0, 0, 0) < 0.0f);
