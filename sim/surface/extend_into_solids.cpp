@@ -21,6 +21,17 @@ namespace {
 
 using Vec3 = openvdb::Vec3f;
 
+// A distance's slope is 1. Differences across a kink are steeper, by more than this.
+constexpr float kKink = 0.01f;
+
+// Mean of two differences beside each other, at most twice the smaller of them in magnitude.
+// Source: van Leer, "Towards the ultimate conservative difference scheme III", 1977 (monotonized central).
+float limitedMean(const std::array<float, 2>& change) {
+  const auto [a, b] = change;
+  const float most = 2.0f * std::min(std::abs(a), std::abs(b));
+  return std::clamp(0.5f * (a + b), -most, most);
+}
+
 struct Extension {
   const LeafTable& table;
   const GapRules& rules;
@@ -41,20 +52,25 @@ struct Extension {
     return table.neighbor(cell, side);
   }
 
-  // Gradient of phi at a cell outside solids, from its known neighbours outside solids.
+  // Gradient of phi at a cell outside solids, from its known neighbours outside solids. Across a kink in air
+  // it is that of the smoother side: beside the rim of a wall, phi behind it is the distance round the rim.
   Vec3 openGradient(std::int64_t cell) const {
-    Vec3 slope(0.0f);
+    Vec3 slope(0.0f), limited(0.0f);
     for (int axis = 0; axis < 3; ++axis) {
-      float low = value[cell], high = value[cell];
-      int steps = 0;
+      std::array<float, 2> change;  // in a cell, on either side
+      int count = 0;
       for (int up = 0; up < 2; ++up) {
         const std::int64_t n = beside(cell, 2 * axis + up);
         if (n < 0 || depth[n] > deepest || !isSet(known, n)) continue;
-        (up != 0 ? high : low) = value[n];
-        ++steps;
+        change[count++] = (up != 0 ? value[n] - value[cell] : value[cell] - value[n]) / h;
       }
-      if (steps > 0) slope[axis] = (high - low) / (static_cast<float>(steps) * h);
+      if (count == 1) slope[axis] = limited[axis] = change[0];
+      if (count == 2) {
+        slope[axis] = 0.5f * (change[0] + change[1]);
+        limited[axis] = limitedMean(change);
+      }
     }
+    if (value[cell] > 0.0f && slope.length() > 1.0f + kKink) slope = limited;
     const float length = slope.length();
     return length > 1.0f ? slope / length : slope;
   }

@@ -19,6 +19,9 @@ constexpr double kParallel = 0.99;
 // Distances, in cells, at which a body's surface that is parallel to that of the solid it lies in is searched
 // for outside.
 constexpr double kAround[] = {2.0, 5.0, 12.0};
+// Cosine of the angle up to which it may have turned there. A sphere that stays within half a cell of its
+// tangent plane over two cells turns by 28 degrees; beyond an edge of the body the normal is another one.
+constexpr double kTurned = 0.88;
 // Bisection steps between two cells.
 constexpr int kHalvings = 40;
 
@@ -46,10 +49,20 @@ bool comesOut(const ShapeDistance& body, const Distance& solids, const Vec3d& pl
   for (const double cells : kAround) {
     for (const Vec3d& way : {one, -one, other, -other}) {
       const Vec3d there = place + cells * h * way;
-      if (std::abs(body(there)) < 0.5 * h && solids(there) > kTouching * h) return true;
+      if (std::abs(body(there)) < 0.5 * h && solids(there) > kTouching * h &&
+          normal.dot(normalAt(body, there, 0.01 * h)) > kTurned)
+        return true;
     }
   }
   return false;
+}
+
+// Whether the solids' surface is parallel to one with this normal: their distance changes by the length of
+// the step. On one side only in the middle of a wall, where their distance has no gradient.
+bool isParallel(const Distance& solids, const Vec3d& place, const Vec3d& normal, double h) {
+  const double step = 0.01 * h, here = solids(place);
+  return std::max(std::abs(solids(place + step * normal) - here),
+                  std::abs(solids(place - step * normal) - here)) >= kParallel * step;
 }
 
 // Whether a body ends at a solid at a place on its surface: there the two surfaces coincide, or the body
@@ -59,7 +72,7 @@ bool isAtSolid(const ShapeDistance& body, const Distance& solids, const Vec3d& p
   const double away = solids(place);
   if (away > apart) return false;
   const Vec3d normal = normalAt(body, place, 0.01 * h);
-  if (std::abs(normal.dot(normalAt(solids, place, 0.01 * h))) < kParallel) return false;
+  if (!isParallel(solids, place, normal, h)) return false;
   return away >= -apart || !comesOut(body, solids, place, normal, h);
 }
 

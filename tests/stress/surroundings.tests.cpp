@@ -57,6 +57,14 @@ TEST_CASE("surroundings: a pool is at rest, a column, a drop and a pool that mov
   CHECK_FALSE(Surroundings(open, {}).atRest());
 }
 
+TEST_CASE("surroundings: a column beside an unbounded side may splash to any height", "[stress]") {
+  sim::Options options = tank(box(Vec3d(0.0), Vec3d(0.5, 1.0, 0.43)));
+  options.sides[0] = sim::Side::unbounded;
+  const Surroundings falls(options, {});
+  CHECK_FALSE(falls.atRest());
+  CHECK(falls.reached(Coord(19, 10, 15)));
+}
+
 TEST_CASE("surroundings: no way leads through a wall of half a cell, unless it is known to leak",
           "[stress]") {
   const sim::Options options = shutBox();

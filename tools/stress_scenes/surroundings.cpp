@@ -100,8 +100,8 @@ Surroundings::Surroundings(const sim::Options& options, const std::vector<std::s
   const bool calm = !disturbs(options) && std::isfinite(top);
   const double weight = options.gravity.length();
   flood(open, ever, calm ? top + weight * options.voxelSize() : INFINITY);
-  if (!calm || m_unbounded) return;
-  m_atRest = true;
+  if (!calm) return;
+  m_atRest = !m_unbounded;
   for (std::size_t n = 0; n < ever.size() && m_atRest; ++n) {
     if (m_reached[n] == 0 || -options.gravity.dot(place(n)) > top - 1.01 * weight * m_step) continue;
     m_atRest = ever[n] < 0.5 * m_step;

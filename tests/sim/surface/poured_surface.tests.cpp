@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace fluidtex::sim;
@@ -97,4 +98,51 @@ TEST_CASE("poured surface: a pool stays level round a ball that dips into it") {
       CHECK(fastest < 0.02 * std::sqrt(options.gravity.length() * h));
     }
   }
+}
+
+namespace {
+
+// Of liquid in a bath, reaching into its walls as far as to their middle: the fastest in a cell outside
+// solids, in sqrt(g h), over some frames. Cells are of one metre.
+double fastestInBath(const Vec3d& size, const Box& outside, const Box& inside, double level, int frames) {
+  Options options = tank(static_cast<int>(*std::max_element(size.asPointer(), size.asPointer() + 3)), {});
+  options.size = size;
+  options.frameRate = 5.0;
+  const Box room{inside.min, inside.max + Vec3d(0.0, 0.0, 10.0)};
+  options.solids.resize(1);
+  options.solids[0].shape = {Difference{{{outside}, {room}}}};
+  Box filled{0.5 * (outside.min + inside.min), 0.5 * (outside.max + inside.max)};
+  filled.min[2] = inside.min[2] - 0.4;
+  filled.max[2] = level;
+  options.liquid = {{Shape{filled}}};
+  Solver solver(options);
+  const Solids solids(options);
+  double fastest = 0.0;
+  for (int n = 0; n < frames; ++n) {
+    solver.next();
+    const State& state = solver.state();
+    for (auto it = state.phi->cbeginValueOn(); it; ++it) {
+      const Coord cell = it.getCoord();
+      if (*it >= 0.0f || solids.distance(state.phi->indexToWorld(cell), 0.0) <= 0.0) continue;
+      for (const auto& component : state.velocity.component)
+        fastest = std::max(fastest, static_cast<double>(std::abs(component->tree().getValue(cell))));
+    }
+  }
+  return fastest / std::sqrt(options.gravity.length());
+}
+
+}  // namespace
+
+TEST_CASE("poured surface: liquid that ends in the middle of a bath's thin walls is level") {
+  // Two thirds of a cell thick. Beyond the edge of the liquid there is air in the plane of its end.
+  const Box outside{Vec3d(3.63, 3.94, -1.0), Vec3d(17.85, 13.44, 18.4)};
+  const Box inside{Vec3d(4.37, 4.68, 4.16), Vec3d(17.1, 12.7, 18.4)};
+  CHECK(fastestInBath(Vec3d(18, 27, 24), outside, inside, 14.35, 4) < 0.02);
+}
+
+TEST_CASE("poured surface: liquid stays level a cell below the rim of a bath") {
+  // One and a half cells thick; no cell lies deep in them.
+  const Box outside{Vec3d(6.7124, 5.77665, 5.9897), Vec3d(12.79775, 23.61335, 13.6472)};
+  const Box inside{Vec3d(8.2337, 7.29805, 7.51105), Vec3d(11.2764, 22.092, 13.6472)};
+  CHECK(fastestInBath(Vec3d(13, 25, 18), outside, inside, 12.53065, 12) < 0.02);
 }
