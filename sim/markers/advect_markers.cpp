@@ -2,6 +2,7 @@
 #include "sim/grid/local_reach.h"
 #include "sim/grid/require.h"
 #include "sim/markers/marker_sight.h"
+#include "sim/solids/own_side_trace.h"
 
 #include <tbb/parallel_for.h>
 
@@ -71,6 +72,13 @@ struct Motion {
     }
   }
 
+  // A component at a place in cells from the block's lower corner.
+  float at(int axis, const Vec3f& place) const {
+    Vec3f x = place - Vec3f(0.5f);
+    x[axis] += 0.5f;
+    return speed[axis].at(x[0], x[1], x[2]);
+  }
+
   // Two at a time, since one alone waits for each of its three velocities.
   void trace(Marker& m, Marker& other) const {
     const StaggeredBlocks blocks{{speed[0].value.data(), speed[1].value.data(), speed[2].value.data()},
@@ -85,6 +93,13 @@ struct Motion {
     other.x += lane0(b), other.y += lane1(b), other.z += lane2(b);
   }
 };
+
+// Moves a marker from where it was. Markers are measured from the centre of the block's first cell.
+template <class Trace>
+void traceOnOwnSide(const Trace& trace, const Marker& was, Marker& m) {
+  const Vec3f to = trace(Vec3f(was.x, was.y, was.z) + Vec3f(0.5f)) - Vec3f(0.5f);
+  m.x = to[0], m.y = to[1], m.z = to[2];
+}
 
 }  // namespace
 
@@ -123,12 +138,17 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt, cons
     const Sight sight(visibility, markers[n].origin);
     before.clear();
     if (sight.any()) before = here;
+    const auto speed = [&](int axis, const Vec3f& place) { return motion.at(axis, place); };
     Marker none{};
     for (std::size_t m = 0; m < here.size(); m += 2)
       motion.trace(here[m], m + 1 < here.size() ? here[m + 1] : none);
     for (std::size_t number = 0; number < here.size(); ++number) {
       Marker& m = here[number];
-      if (sight.any() && sight.parts(before[number], m)) continue;
+      if (sight.any()) {
+        if (sight.at(before[number]) != nullptr || sight.at(m) != nullptr)
+          traceOnOwnSide(OwnSideTrace(*visibility, markers[n].origin, speed), before[number], m);
+        if (sight.parts(before[number], m)) continue;
+      }
       const int di = wrap(m.x), dj = wrap(m.y), dk = wrap(m.z), to = neighborNumber(di, dj, dk);
       if (to == kHere) {
         stay.push_back(m);

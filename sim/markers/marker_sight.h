@@ -5,7 +5,6 @@
 #include "sim/solids/visibility.h"
 
 #include <cmath>
-#include <cstdlib>
 
 namespace fluidtex::sim {
 
@@ -31,15 +30,8 @@ class Sight {
   // Whether a thin wall separates two places of a marker. False for places more than two cells apart, where
   // nothing is known.
   bool parts(const Marker& from, const Marker& to) const {
-    const Coord way = nearestTo(to) - nearestTo(from);
-    int at = VisibleCells::kMiddle;
-    for (int a = 0; a < 3; ++a) {
-      if (std::abs(way[a]) > VisibleCells::kReach) return false;
-      at += way[a] * VisibleCells::kStride[a];
-    }
-    if (at == VisibleCells::kMiddle) return false;
-    const VisibleCells* visible = this->at(from);
-    return visible != nullptr && !visible->sees(at);
+    return m_visibility != nullptr &&
+           m_visibility->hides(m_origin + nearestTo(from), m_origin + nearestTo(to));
   }
 
  private:

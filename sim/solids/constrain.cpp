@@ -7,6 +7,7 @@
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/mac_grid.h"
 #include "sim/solids/solids.h"
+#include "sim/solids/visibility.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -45,6 +46,11 @@ bool beyondOpening(const SolidField& solid, const Coord& face, int axis) {
     if (face[a] > last && !isClosed(solid.sides[2 * a + 1])) return true;
   }
   return false;
+}
+
+// Whether a thin wall separates the two cells of a face.
+bool isInThinWall(const SolidField& solid, const Coord& face, int axis) {
+  return solid.visibility != nullptr && solid.visibility->hides(face, shifted(face, axis, -1));
 }
 
 // A leaf's active faces that are closed, or almost closed, and not known.
@@ -123,7 +129,7 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
           // In the middle of a thin wall both sides read the velocity. Deep inside a solid there is no
           // normal, and nothing reads it.
           const bool within = *here < 0.0f && *below < 0.0f && here[kBlockStride[axis]] > *here;
-          if (within && wall.getValue(shifted(c, axis, -2)) > *below) {
+          if (isInThinWall(solid, c, axis) || (within && wall.getValue(shifted(c, axis, -2)) > *below)) {
             changes[n].push_back({own[axis]->buffer().data() + offset, speed[axis][at] - velocity[axis]});
             continue;
           }

@@ -25,12 +25,6 @@ float valueAt(const FloatGrid::ConstUnsafeAccessor& field, const Coord& origin, 
   return trilinear(corners, 4, 2, t[0], t[1], t[2]);
 }
 
-bool sees(const VisibleCells& visible, const Coord& offset) {
-  int at = VisibleCells::kMiddle;
-  for (int a = 0; a < 3; ++a) at += offset[a] * VisibleCells::kStride[a];
-  return visible.sees(at);
-}
-
 }  // namespace
 
 TraceEnd::TraceEnd(const FloatGrid& solidPhi, const Visibility* visibility)
@@ -65,8 +59,7 @@ TraceEnd::End TraceEnd::walk(const Vec3f& start, const Vec3f& aim) const {
     const Vec3f x = gone < length ? start + way * (gone / length) : aim;
     const Coord next = cellAt(x);
     if (next != cell) {
-      const VisibleCells* visible = m_nearThinWalls ? m_visibility->around(cell) : nullptr;
-      if (visible != nullptr && !sees(*visible, next - cell)) {
+      if (m_nearThinWalls && m_visibility->hides(cell, next)) {
         const float farthest = std::min(length, gone + 1.0f);
         return {start + way * (farthest / length), cell};
       }
@@ -79,30 +72,11 @@ TraceEnd::End TraceEnd::walk(const Vec3f& start, const Vec3f& aim) const {
 
 Vec3f TraceEnd::onOwnSide(int offset, const Vec3f& start, const Vec3f& aim, int axis) const {
   if (isClear(offset, start, aim)) return aim;
-  auto [place, cell] = walk(start, aim);
+  const auto [place, cell] = walk(start, aim);
   const VisibleCells* visible = m_nearThinWalls ? m_visibility->around(cell) : nullptr;
   if (visible == nullptr) return place;
-  Vec3f middle;
-  for (int a = 0; a < 3; ++a) middle[a] = static_cast<float>(cell[a] - m_origin[a]) + 0.5f;
-  if (axis >= 0) place[axis] = std::clamp(place[axis], middle[axis] - 0.5f, middle[axis] + 0.5f);
-  // The neighbours on the place's side of the cell's centre, along one axis or several.
-  for (int n = 1; n < 8;) {
-    Coord beside(0);
-    int farthest = -1;
-    for (int a = 0; a < 3; ++a) {
-      const float away = place[a] - middle[a];
-      if ((n >> a & 1) == 0 || a == axis || away == 0.0f) continue;
-      beside[a] = away < 0.0f ? -1 : 1;
-      if (farthest < 0 || std::abs(away) > std::abs(place[farthest] - middle[farthest])) farthest = a;
-    }
-    if (sees(*visible, beside)) {
-      ++n;
-      continue;
-    }
-    place[farthest] = middle[farthest];
-    n = 1;
-  }
-  return place;
+  const Vec3f middle = (cell - m_origin).asVec3s() + Vec3f(0.5f);
+  return middle + sim::onOwnSide(*visible, place - middle, axis);
 }
 
 }  // namespace fluidtex::sim

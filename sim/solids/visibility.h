@@ -30,6 +30,11 @@ void extrapolateBehind(Stencil& values, const VisibleCells& visible,
 // along the axes that the wall blocks.
 void riseBehind(Stencil& values, const VisibleCells& visible, float step);
 
+// The place in or at a cell nearest to `place` of which all samples around are in visible cells. Places: from
+// the cell's centre, in cells. axis: of the samples at faces normal to it, which lie on the cell's own faces;
+// -1 for samples at cell centres.
+openvdb::Vec3f onOwnSide(const VisibleCells& visible, openvdb::Vec3f place, int axis = -1);
+
 class Visibility {
  public:
   using Leaf = std::array<VisibleCells, kLeafSize>;
@@ -42,6 +47,9 @@ class Visibility {
   }
   // Of one cell; null where all around it is visible.
   const VisibleCells* around(const Coord& cell) const;
+  // Whether a thin wall hides a cell from another. False for cells more than VisibleCells::kReach apart, of
+  // which nothing is known.
+  bool hides(const Coord& from, const Coord& cell) const;
   // Whether a cell of the box may have hidden cells around it.
   bool touches(const openvdb::CoordBBox& box) const;
 

@@ -79,7 +79,7 @@ void extrapolateAll(Liquid& liquid, Projection& projection, const SolidField& so
     limitTo(projection.expansion, static_cast<float>(kMostExpansion * voxelSize(liquid) / dt));
     fields.push_back({projection.expansion, valid});
   }
-  extrapolate(fields, *liquid.phi, *solid.phi);
+  extrapolate(fields, *liquid.phi, *solid.phi, solid.visibility.get());
   if (!expands) return;
   const auto& [u, v, w] = projection.expansion.component;
   constrainToSolids(*u, *v, *w, *liquid.phi, atRest(solid), valid, *projection.separating);
@@ -131,7 +131,7 @@ bool applyPressure(Liquid& liquid, const SolidField& solid, double dt, double ki
   }
   if (pressure.keepBefore) arrived = std::move(projection.before);
   extrapolateAll(liquid, projection, solid, dt, driven, std::move(arrived));
-  balanceAirLayers(liquid.velocity, projection.valid, *liquid.phi, *solid.phi);
+  balanceAirLayers(liquid.velocity, projection.valid, *liquid.phi, *solid.phi, solid.visibility.get());
   constrainToSolids(*u, *v, *w, *liquid.phi, solid, projection.valid, *projection.separating);
   if (viscous) stickToWalls(liquid.velocity, solid, projection.valid);
   const bool lets = driven && !projection.separating->empty();

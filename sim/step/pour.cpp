@@ -3,6 +3,7 @@
 #include "sim/flows/move_surface.h"
 #include "sim/grid/leaf_table.h"
 #include "sim/heat/heat.h"
+#include "sim/solids/visibility.h"
 #include "sim/step/liquid_fields.h"
 #include "sim/surface/level_set.h"
 #include "sim/surface/settle_surface.h"
@@ -10,6 +11,23 @@
 #include <tbb/parallel_for.h>
 
 namespace fluidtex::sim {
+
+namespace {
+
+// Whether a cell is on the body's side of thin walls: it sees a cell of the body beside it, or there is none.
+bool isOnSideOf(const ShapeDistance& body, const SolidField& solid, const Coord& cell) {
+  if (solid.visibility == nullptr || solid.visibility->around(cell) == nullptr) return true;
+  bool hidden = false;
+  for (int n = 0; n < 27; ++n) {
+    const Coord at = cell.offsetBy(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
+    if (body(solid.phi->indexToWorld(at)) >= 0.0) continue;
+    if (!solid.visibility->hides(cell, at)) return true;
+    hidden = true;
+  }
+  return !hidden;
+}
+
+}  // namespace
 
 void pour(Liquid& liquid, const ShapeDistance& body, const std::function<double(const Vec3d&)>& surface,
           const Vec3d& velocity, double temperature, const SolidField& solid) {
@@ -30,7 +48,11 @@ void pour(Liquid& liquid, const ShapeDistance& body, const std::function<double(
       const float* was = leafValues(before.component[a]->constTree(), leaf.origin(), scratch);
       for (auto it = leaf.beginValueOn(); it; ++it) {
         // Faces of the body's cells: within half a cell of it.
-        const bool inBody = body(grid.indexToWorld(it.getCoord())) < 0.5 * h;
+        const Coord face = it.getCoord();
+        Coord below = face;
+        below[a] -= 1;
+        const bool inBody = body(grid.indexToWorld(face)) < 0.5 * h &&
+                            (isOnSideOf(body, solid, face) || isOnSideOf(body, solid, below));
         it.setValue(inBody ? static_cast<float>(velocity[a]) : was[it.pos()]);
       }
     });

@@ -53,7 +53,7 @@ void carryVelocity(const Liquid& liquid, Liquid& next, const SolidField& solid, 
                    double dt) {
   const bool before = liquid.acceleration.component[0] != nullptr;
   Velocity carried = before ? plus(liquid.velocity, liquid.acceleration, 0.5 * dt) : copyOf(liquid.velocity);
-  extendLinearly(carried, *liquid.phi);
+  extendLinearly(carried, *liquid.phi, solid.visibility.get());
   restBesideSources(carried, *liquid.phi, flows);
   advectVelocity(liquid.velocity, carried, next.velocity, *next.phi, *solid.phi, dt, solid.visibility.get());
   if (before) next.velocity = plus(next.velocity, liquid.acceleration, -0.5 * dt);

@@ -6,6 +6,7 @@
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/local_reach.h"
 #include "sim/grid/velocity_window.h"
+#include "sim/solids/own_side_trace.h"
 #include "sim/solids/solid_layers.h"
 #include "sim/solids/trace_end.h"
 #include "sim/surface/extend_into_solids.h"
@@ -103,9 +104,14 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
       end.setLeaf(origin, near);
       moved[n] = std::make_unique<LeafBuffer>();
       std::copy_n(leaves[n]->buffer().data(), kLeafSize, moved[n]->data());
-      const auto look = [&](int i, const Vec3f& traced) {
+      const auto speed = [&](int axis, const Vec3f& x) { return step * window.component(axis).at(x); };
+      const auto look = [&](int i, Vec3f traced) {
         float& out = (*moved[n])[i];
         const Vec3f centre(float(i >> 6) + 0.5f, float((i >> 3) & 7) + 0.5f, float(i & 7) + 0.5f);
+        if (end.nearThinWalls()) {
+          const OwnSideTrace trace(*visibility, origin, speed);
+          if (trace.isBesideWall(centre) || trace.isBesideWall(traced)) traced = trace(centre);
+        }
         const auto [from, cell] = end(i, centre, traced);
         if (const VisibleCells* visible = end.nearThinWalls() ? visibility->around(cell) : nullptr) {
           out = oneSided(before, cell - origin, from, *visible, solids.getValue(cell), h,

@@ -5,6 +5,7 @@
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/voxel_mask.h"
 #include "sim/solids/solid_layers.h"
+#include "sim/solids/table_sight.h"
 #include "sim/surface/level_set.h"
 #include "sim/surface/mirror_sides.h"
 
@@ -40,17 +41,7 @@ struct Extension {
   std::vector<float> depth;          // #voxels: -solidPhi
   VoxelMask known;                   // cells with a value: all not deep in solids, and those extrapolated
   std::unique_ptr<Vec3[]> gradient;  // #voxels: of phi in solids, without the parts left out
-  std::vector<const Visibility::Leaf*> sight;  // #leaves; null where all is visible
-
-  // The neighbour on a side (0 to 5); -1 where there is none, or it is on the other side of a thin wall.
-  std::int64_t beside(std::int64_t cell, int side) const {
-    if (const Visibility::Leaf* leaf = sight[cell / kLeafSize]) {
-      const int stride = VisibleCells::kStride[side / 2];
-      const VisibleCells& seen = (*leaf)[cell % kLeafSize];
-      if (!seen.sees(VisibleCells::kMiddle + (side % 2 == 0 ? -stride : stride))) return -1;
-    }
-    return table.neighbor(cell, side);
-  }
+  TableSight sight;
 
   // Gradient of phi at a cell outside solids, from its known neighbours outside solids. Across a kink in air
   // it is that of the smoother side: beside the rim of a wall, phi behind it is the distance round the rim.
@@ -60,7 +51,7 @@ struct Extension {
       std::array<float, 2> change;  // in a cell, on either side
       int count = 0;
       for (int up = 0; up < 2; ++up) {
-        const std::int64_t n = beside(cell, 2 * axis + up);
+        const std::int64_t n = sight.cell(cell, 2 * axis + up);
         if (n < 0 || depth[n] > deepest || !isSet(known, n)) continue;
         change[count++] = (up != 0 ? value[n] - value[cell] : value[cell] - value[n]) / h;
       }
@@ -118,7 +109,7 @@ struct Extension {
     int count = 0;
     for (int axis = 0; axis < 3; ++axis) {
       for (int up = 0; up < 2; ++up) {
-        const std::int64_t n = beside(cell, 2 * axis + up);
+        const std::int64_t n = sight.cell(cell, 2 * axis + up);
         // A cell that a solid has left takes values from outside solids only, and a partly open cell none
         // from a closed one: what is extrapolated from deep in a wall may be liquid of its other side.
         if (n < 0 || (depth[cell] <= deepest && depth[n] > deepest)) continue;
@@ -182,11 +173,15 @@ void extendIntoSolids(FloatGrid& phi, const FloatGrid& solidPhi, const GapRules&
                       const Visibility* visibility, const FloatGrid* left) {
   const LeafTable table = makeLeafTable(phi.constTree());
   const float h = static_cast<float>(phi.voxelSize()[0]), background = phi.background();
-  Extension extension{
-      table, rules,   deep * h, h, sampleOn(table, phi.constTree()), sampleOn(table, solidPhi.constTree()),
-      {},    nullptr, {}};
-  for (std::size_t n = 0; n < table.size(); ++n)
-    extension.sight.push_back(visibility != nullptr ? visibility->leaf(table.origins[n]) : nullptr);
+  Extension extension{table,
+                      rules,
+                      deep * h,
+                      h,
+                      sampleOn(table, phi.constTree()),
+                      sampleOn(table, solidPhi.constTree()),
+                      {},
+                      nullptr,
+                      TableSight(table, visibility)};
   forLeaves(table, [&](std::size_t n) {
     for (std::size_t i = n * kLeafSize; i < (n + 1) * kLeafSize; ++i)
       extension.depth[i] = -extension.depth[i];

@@ -2,17 +2,26 @@
 
 #include "sim/grid/dilate.h"
 #include "sim/solids/solid_layers.h"
+#include "sim/solids/visibility.h"
 #include "sim/surface/extend_into_solids.h"
 
 namespace fluidtex::sim {
 namespace {
 
-// Whether one of the 27 cells around and at this one is liquid outside solids.
-bool touchesLiquid(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord& cell) {
+// Whether a thin wall hides a cell from another.
+bool hides(const SolidField& solid, const Coord& from, const Coord& cell) {
+  return solid.visibility != nullptr && solid.visibility->hides(from, cell);
+}
+
+// Whether one of the 27 cells around and at this one is liquid outside solids, on its side of thin walls.
+bool touchesLiquid(const FloatGrid& phi, const SolidField& solid, const Coord& cell) {
+  const FloatGrid& solidPhi = *solid.phi;
   const float deep = -kDeepInSolid * static_cast<float>(solidPhi.voxelSize()[0]);
   for (int n = 0; n < 27; ++n) {
     const Coord at = cell.offsetBy(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
-    if (phi.constTree().getValue(at) < 0.0f && solidPhi.constTree().getValue(at) >= deep) return true;
+    if (phi.constTree().getValue(at) < 0.0f && solidPhi.constTree().getValue(at) >= deep &&
+        !hides(solid, cell, at))
+      return true;
   }
   return false;
 }
@@ -32,7 +41,7 @@ bool leavesSolid(const FloatGrid& phi, const Velocity& velocity, const SolidFiel
   const float deep = -kDeepInSolid * static_cast<float>(solidPhi.voxelSize()[0]);
   bool onFloor = false;
   // Liquid beside the film moves it along or, at rest, supports it.
-  const bool touches = touchesLiquid(phi, solidPhi, cell);
+  const bool touches = touchesLiquid(phi, solid, cell);
   const Vec3d fall = touches ? Vec3d(0.0) : kick;
   const double slowest = kLeaves * kick.length();
   for (int side = 0; side < 6; ++side) {
@@ -89,7 +98,8 @@ void openGaps(FloatGrid& phi, const Velocity& velocity, const SolidField& solid,
       for (int side = 0; side < 6; ++side) {
         Coord beside = it.getCoord();
         beside[side / 2] += side % 2 == 0 ? -1 : 1;
-        if (distance.getValue(beside) <= here + along) around.tree().setValueOn(beside);
+        if (distance.getValue(beside) <= here + along && !hides(solid, it.getCoord(), beside))
+          around.tree().setValueOn(beside);
       }
     }
     cutSolids(phi, *solid.phi, around);

@@ -5,6 +5,7 @@
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/local_reach.h"
 #include "sim/grid/velocity_window.h"
+#include "sim/solids/own_side_trace.h"
 #include "sim/solids/trace_end.h"
 
 #include <tbb/parallel_for.h>
@@ -58,8 +59,17 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
         };
         const Window& own = content.component(axis);
         float* const out = leaves[axis][n]->buffer().data();
+        const auto speed = [&](int a, const Vec3f& x) { return step * window.component(a).at(x); };
         const auto take = [&](int i, Vec3f place) {
-          place = end.onOwnSide(i, faceCentre(i, axis), place, axis);
+          const Vec3f centre = faceCentre(i, axis);
+          if (end.nearThinWalls()) {
+            const OwnSideTrace trace(*visibility, origin, speed);
+            // The cell that the trace leads into.
+            Coord cell(i >> 6, (i >> 3) & 7, i & 7);
+            if (place[axis] < centre[axis]) --cell[axis];
+            if (trace.isBesideWall(cell) || trace.isBesideWall(place)) place = trace(centre, cell);
+          }
+          place = end.onOwnSide(i, centre, place, axis);
           const auto [low, high] = own.range(place);
           out[i] = std::clamp(own.cubic(place), low, high);
         };

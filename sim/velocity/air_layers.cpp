@@ -2,6 +2,7 @@
 
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/voxel_mask.h"
+#include "sim/solids/table_sight.h"
 
 #include <algorithm>
 
@@ -23,6 +24,7 @@ constexpr float kLeastWay = 0.5f;
 
 struct Layers {
   const LeafTable& table;
+  const TableSight& sight;
   float h;
   std::vector<float> phi;                      // #voxels, metres
   std::array<std::vector<float*>, 3> speed{};  // by leaf: of its lower faces, m/s
@@ -31,11 +33,15 @@ struct Layers {
   std::vector<float> change{}, bound{};        // #voxels: of the layer at work, 0 elsewhere
 
   float& speedAt(int axis, std::int64_t face) const { return speed[axis][face >> 9][face & 511]; }
+  // Nothing passes a face in a thin wall; its value is that of neither side.
+  float passing(int axis, std::int64_t face) const {
+    return sight.inWall(face, axis) ? 0.0f : speedAt(axis, face);
+  }
 
   // How much farther from the liquid the cell behind a face (towards direction 0..5) is; 0 where the face is
   // not free.
   float way(std::int64_t cell, int direction) const {
-    const std::int64_t beyond = table.neighbor(cell, direction);
+    const std::int64_t beyond = sight.cell(cell, direction);
     if (beyond < 0) return 0.0f;
     const std::int64_t face = (direction & 1) != 0 ? beyond : cell;
     return isSet(free[direction >> 1], face) ? std::max(0.0f, phi[beyond] - phi[cell]) : 0.0f;
@@ -48,7 +54,7 @@ struct Layers {
     for (int axis = 0; axis < 3; ++axis) {
       const std::int64_t up = table.neighbor(cell, 2 * axis + 1);
       if (up < 0) return 0.0f;
-      divergence += speedAt(axis, up) - speedAt(axis, cell);
+      divergence += passing(axis, up) - passing(axis, cell);
       ways += way(cell, 2 * axis) + way(cell, 2 * axis + 1);
     }
     return ways > kLeastWay * h ? -divergence / ways : 0.0f;
@@ -58,12 +64,25 @@ struct Layers {
     float most = 0.0f;
     for (int axis = 0; axis < 3; ++axis) {
       const std::int64_t up = table.neighbor(cell, 2 * axis + 1);
-      most = std::max(most, std::abs(speedAt(axis, cell)));
-      if (up >= 0) most = std::max(most, std::abs(speedAt(axis, up)));
+      most = std::max(most, std::abs(passing(axis, cell)));
+      if (up >= 0) most = std::max(most, std::abs(passing(axis, up)));
     }
     return most;
   }
 };
+
+// Leaves of these cells of a leaf only those beside set ones on their own side of walls.
+void dropHidden(const TableSight& sight, const VoxelMask& mask, std::size_t leaf, LeafBits& cells) {
+  if (!sight.any(leaf)) return;
+  LeafBits seen{};
+  forBits(cells, leaf, [&](std::int64_t cell) {
+    for (int direction = 0; direction < 6; ++direction) {
+      const std::int64_t next = sight.cell(cell, direction);
+      if (next >= 0 && isSet(mask, next)) return setBit(seen, cell);
+    }
+  });
+  cells = seen;
+}
 
 // Finds the layers. The first one touches liquid, each next one the layer before.
 void number(Layers& layers, const VoxelMask& liquid, const VoxelMask& open) {
@@ -74,6 +93,7 @@ void number(Layers& layers, const VoxelMask& liquid, const VoxelMask& open) {
     layer.resize(layers.table.size());
     forLeaves(layers.table, [&](std::size_t leaf) {
       layer[leaf] = besideAny(layers.table, before, leaf);
+      dropHidden(layers.sight, before, leaf, layer[leaf]);
       for (std::size_t i = 0; i < layer[leaf].size(); ++i) {
         layer[leaf][i] &= open[leaf][i] & ~taken[leaf][i];
         taken[leaf][i] |= layer[leaf][i];
@@ -123,9 +143,10 @@ std::vector<float*> valuesOf(FloatTree& tree) {
 }  // namespace
 
 void balanceAirLayers(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi,
-                      const FloatGrid& solidPhi) {
+                      const FloatGrid& solidPhi, const Visibility* visibility) {
   const LeafTable table = makeLeafTable(velocity.component[0]->constTree());
-  Layers layers{table, static_cast<float>(phi.voxelSize()[0]), sampleOn(table, phi.constTree())};
+  const TableSight sight(table, visibility);
+  Layers layers{table, sight, static_cast<float>(phi.voxelSize()[0]), sampleOn(table, phi.constTree())};
   layers.change.resize(table.voxels());
   layers.bound.resize(table.voxels());
   const VoxelMask liquid = maskOf(table, layers.phi, [](float p) { return p < 0.0f; });
@@ -151,8 +172,9 @@ void balanceAirLayers(Velocity& velocity, const FaceMasks& valid, const FloatGri
     for (int sweep = 0; sweep < kSweeps; ++sweep) balance(layers, layer);
 }
 
-void extendLinearly(Velocity& values, const FloatGrid& phi) {
+void extendLinearly(Velocity& values, const FloatGrid& phi, const Visibility* visibility) {
   const LeafTable table = makeLeafTable(values.component[0]->constTree());
+  const TableSight sight(table, visibility);
   const std::vector<float> cellPhi = sampleOn(table, phi.constTree());
   const VoxelMask liquid = maskOf(table, cellPhi, [](float p) { return p < 0.0f; });
   for (int axis = 0; axis < 3; ++axis) {
@@ -178,11 +200,11 @@ void extendLinearly(Velocity& values, const FloatGrid& phi) {
           const float here = cellPhi[face] + below(face);
           float weights = 0.0f, sum = 0.0f, count = 0.0f, plain = 0.0f;
           for (int direction = 0; direction < 6; ++direction) {
-            const std::int64_t near = table.neighbor(face, direction);
+            const std::int64_t near = sight.face(face, axis, direction);
             if (near < 0 || !isSet(known, near)) continue;
             count += 1.0f;
             plain += valueAt(near);
-            const std::int64_t behind = table.neighbor(near, direction);
+            const std::int64_t behind = sight.face(near, axis, direction);
             if (behind < 0 || !isSet(known, behind)) continue;
             const float nearer = here - cellPhi[near] - below(near);
             if (nearer <= 0.0f) continue;
@@ -190,7 +212,7 @@ void extendLinearly(Velocity& values, const FloatGrid& phi) {
             const float most = kMostSlope * std::max(std::abs(valueAt(near)), std::abs(valueAt(behind)));
             sum += nearer * (valueAt(near) + std::clamp(valueAt(near) - valueAt(behind), -most, most));
           }
-          valueAt(face) = weights > 0.0f ? sum / weights : plain / count;
+          if (count > 0.0f) valueAt(face) = weights > 0.0f ? sum / weights : plain / count;
         });
       });
       forLeaves(table, [&](std::size_t n) {

@@ -6,6 +6,7 @@
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/require.h"
 #include "sim/grid/sort_by_distance.h"
+#include "sim/solids/table_sight.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -19,7 +20,8 @@ namespace {
 // The components along one axis of kFields fields, side by side on flat arrays.
 template <int kFields>
 struct Sweep {
-  const LeafTable& table;
+  const TableSight& sight;
+  const int normal;                               // axis of the faces' normals
   std::vector<float> airDistance, solidDepth;     // #voxels, at faces, metres: phi; positive inside solids
   std::vector<std::array<float, kFields>> value;  // #voxels
   std::vector<std::uint8_t> known;                // #voxels: bit n says whether field n is known
@@ -35,7 +37,7 @@ struct Sweep {
     for (int axis = 0; axis < 3; ++axis) {
       double best[kFields] = {}, bestValue[kFields] = {};
       for (int up = 0; up < 2; ++up) {
-        const std::int64_t n = table.neighbor(voxel, 2 * axis + up);
+        const std::int64_t n = sight.face(voxel, normal, 2 * axis + up);
         if (n < 0 || known[n] == 0) continue;
         const double nearer = static_cast<double>(distance[voxel]) - distance[n];
         for (int f = 0; f < kFields; ++f) {
@@ -82,8 +84,12 @@ std::vector<float> atFaces(const LeafTable& table, const std::vector<float>& cel
 
 template <int kFields>
 void extrapolateAxis(const std::vector<Extrapolated>& fields, int axis, const LeafTable& table,
-                     const std::vector<float>& phi, const std::vector<float>& depth) {
-  Sweep<kFields> s{table, atFaces(table, phi, axis), atFaces(table, depth, axis),
+                     const TableSight& sight, const std::vector<float>& phi,
+                     const std::vector<float>& depth) {
+  Sweep<kFields> s{sight,
+                   axis,
+                   atFaces(table, phi, axis),
+                   atFaces(table, depth, axis),
                    std::vector<std::array<float, kFields>>(table.voxels()),
                    std::vector<std::uint8_t>(table.voxels())};
   std::array<std::vector<FloatLeaf*>, kFields> leaves;
@@ -142,8 +148,9 @@ void extrapolateAxis(const std::vector<Extrapolated>& fields, int axis, const Le
 
 template <int kFields>
 void extrapolateFields(const std::vector<Extrapolated>& fields, const FloatGrid& phi,
-                       const FloatGrid& solidPhi) {
+                       const FloatGrid& solidPhi, const Visibility* visibility) {
   const LeafTable table = makeLeafTable(fields[0].field.component[0]->constTree());
+  const TableSight sight(table, visibility);
   const std::vector<float> cellPhi = sampleOn(table, phi.constTree());
   std::vector<float> depth = sampleOn(table, solidPhi.constTree());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, depth.size(), kLeafSize), [&](const auto& range) {
@@ -154,23 +161,24 @@ void extrapolateFields(const std::vector<Extrapolated>& fields, const FloatGrid&
       tbb::blocked_range<int>(0, 3, 1),
       [&](const tbb::blocked_range<int>& range) {
         for (int axis = range.begin(); axis != range.end(); ++axis)
-          extrapolateAxis<kFields>(fields, axis, table, cellPhi, depth);
+          extrapolateAxis<kFields>(fields, axis, table, sight, cellPhi, depth);
       },
       tbb::simple_partitioner());
 }
 
 }  // namespace
 
-void extrapolate(const std::vector<Extrapolated>& fields, const FloatGrid& phi, const FloatGrid& solidPhi) {
+void extrapolate(const std::vector<Extrapolated>& fields, const FloatGrid& phi, const FloatGrid& solidPhi,
+                 const Visibility* visibility) {
   require(!fields.empty() && fields.size() <= 3, "extrapolate: one to three fields at once");
-  if (fields.size() == 1) extrapolateFields<1>(fields, phi, solidPhi);
-  if (fields.size() == 2) extrapolateFields<2>(fields, phi, solidPhi);
-  if (fields.size() == 3) extrapolateFields<3>(fields, phi, solidPhi);
+  if (fields.size() == 1) extrapolateFields<1>(fields, phi, solidPhi, visibility);
+  if (fields.size() == 2) extrapolateFields<2>(fields, phi, solidPhi, visibility);
+  if (fields.size() == 3) extrapolateFields<3>(fields, phi, solidPhi, visibility);
 }
 
-void extrapolate(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi,
-                 const FloatGrid& solidPhi) {
-  extrapolate({{velocity, valid}}, phi, solidPhi);
+void extrapolate(Velocity& velocity, const FaceMasks& valid, const FloatGrid& phi, const FloatGrid& solidPhi,
+                 const Visibility* visibility) {
+  extrapolate({{velocity, valid}}, phi, solidPhi, visibility);
 }
 
 }  // namespace fluidtex::sim

@@ -9,6 +9,7 @@
 #include "sim/viscosity/viscous_system.h"
 
 #include "sim/grid/leaf_block.h"
+#include "sim/solids/table_sight.h"
 #include "sim/viscosity/volume_fraction.h"
 
 #include <tbb/parallel_for.h>
@@ -111,7 +112,8 @@ struct FaceFields {
   std::array<std::vector<float>, 3> volume;  // liquid around a face, outside solids
 };
 
-FaceFields classify(const LeafTable& table, const FloatGrid& phi, const SolidField& solid) {
+FaceFields classify(const LeafTable& table, const TableSight& sight, const FloatGrid& phi,
+                    const SolidField& solid) {
   FaceFields fields;
   const float h = static_cast<float>(solid.voxelSize), onWall = kOnWall * h;
   const Walls walls{solid, h};
@@ -129,7 +131,7 @@ FaceFields classify(const LeafTable& table, const FloatGrid& phi, const SolidFie
         const float nearest = std::min(liquid.cell(at), liquid.cell(below));
         if (nearest > kNearLiquid * h) continue;
         const Coord face = origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7);
-        if (walls.given(face, c)) {
+        if (walls.given(face, c) || sight.inWall(static_cast<std::int64_t>(v), c)) {
           fields.state[c][v] = kGiven;
           continue;
         }
@@ -186,9 +188,14 @@ float reachFactor(float unknownDistance, float givenDistance, float slip) {
 
 class Sampler {
  public:
-  Sampler(const ViscousSystem& system, const FloatGrid& phi, const SolidField& solid,
+  Sampler(const ViscousSystem& system, const TableSight& sight, const FloatGrid& phi, const SolidField& solid,
           const ViscosityField& viscosity, double scale)
-      : m_system(system), m_phi(phi), m_solid(solid), m_viscosity(viscosity), m_scale(scale) {}
+      : m_system(system),
+        m_sight(sight),
+        m_phi(phi),
+        m_solid(solid),
+        m_viscosity(viscosity),
+        m_scale(scale) {}
 
   // Appends the samples of type t whose voxel is in leaf n.
   void sample(std::size_t n, int t, std::vector<StrainSample>& out) const {
@@ -205,7 +212,7 @@ class Sampler {
         whole = whole && f >= 0;
         any = any || (f >= 0 && f < m_system.unknowns);
       }
-      if (!whole || !any) continue;
+      if (!whole || !any || (t >= 3 && isThroughWall(sample, voxel, p, q))) continue;
       if (!patches) {
         patches = std::make_unique<Patches>(Patch(m_phi.constTree(), origin),
                                             Patch(m_solid.phi->constTree(), origin), nullptr);
@@ -242,6 +249,17 @@ class Sampler {
         : liquid(l), wall(w), viscosity(std::move(v)) {}
   };
 
+  // Whether a sample at a cell's lower edge between two axes is of faces on both sides of a thin wall: they
+  // do not drag on each other.
+  bool isThroughWall(const StrainSample& sample, std::int64_t cell, int p, int q) const {
+    if (!m_sight.any(static_cast<std::size_t>(cell / kLeafSize))) return false;
+    const auto areLiquid = [&](int first) {
+      return sample.face[first] < m_system.unknowns && sample.face[first + 1] < m_system.unknowns;
+    };
+    return (areLiquid(0) && m_sight.hidesFace(cell, p, 2 * q)) ||
+           (areLiquid(2) && m_sight.hidesFace(cell, q, 2 * p));
+  }
+
   float factor(std::int32_t first, std::int32_t second, const Patch& wall, int firstAt, int secondAt,
                int axis) const {
     const bool firstGiven = first >= m_system.unknowns, secondGiven = second >= m_system.unknowns;
@@ -266,6 +284,7 @@ class Sampler {
   }
 
   const ViscousSystem& m_system;
+  const TableSight& m_sight;
   const FloatGrid& m_phi;
   const SolidField& m_solid;
   const ViscosityField& m_viscosity;
@@ -293,13 +312,14 @@ ViscousSystem viscousSystem(const Velocity& velocity, const FloatGrid& phi, cons
                             std::vector<double>& before) {
   ViscousSystem system;
   system.table = makeLeafTable(velocity.component[0]->constTree());
+  const TableSight sight(system.table, solid.visibility.get());
   {
-    const FaceFields fields = classify(system.table, phi, solid);
+    const FaceFields fields = classify(system.table, sight, phi, solid);
     numberFaces(system, fields.state);
     gatherMass(fields, system);
   }
   const double h = solid.voxelSize;
-  gatherSamples(Sampler(system, phi, solid, viscosity, dt / (density * h * h)), system);
+  gatherSamples(Sampler(system, sight, phi, solid, viscosity, dt / (density * h * h)), system);
   linkSamples(system);
 
   before.assign(system.faces + 1, 0.0);

@@ -20,7 +20,7 @@ ViscousStepReport applyViscousStep(Velocity& velocity, const FloatGrid& phi, con
   if (!report.pressure.converged) return report;
   uniteTopology(balanced);
   // Viscosity also reads faces that the projection leaves unchanged, with all that forces gave them.
-  extrapolate(balanced, projection.valid, phi, *solid.phi);
+  extrapolate(balanced, projection.valid, phi, *solid.phi, solid.visibility.get());
   const Velocity before = copyOf(balanced);
   report.viscosity = applyViscosity(balanced, phi, solid, dt, density, viscosity);
   if (!report.viscosity.converged) return report;

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace fluidtex::sim;
@@ -168,6 +169,44 @@ TEST_CASE("visibility: liquid that falls off the underside of a thin floor draws
     for (int j = 9; j < 15; ++j) {
       CHECK(phi.getValue(Coord(i, j, 14)) < 0.0f);
       CHECK(phi.getValue(Coord(i, j, 10)) > 0.0f);
+    }
+  }
+}
+
+TEST_CASE("visibility: a pool behind a thin wall does not feel the flow on its other side") {
+  // Along the wall, at a metre a second and up to twice that where it piles up. Wherever the wall stands in
+  // its cells; in cells: 0.6 has samples of velocity on both sides of it and none in it, 1.2 one or two.
+  constexpr int kCells = 16;
+  constexpr double h = 1.0 / kCells;
+  for (const double viscosity : {0.0, 1.0}) {
+    for (const double thickness : {0.6, 1.2}) {
+      for (const double middle : {8.0, 8.3, 8.5}) {
+        const double low = (middle - 0.5 * thickness) * h, high = (middle + 0.5 * thickness) * h;
+        Options options = tank(kCells, {box(Vec3d(0.0), Vec3d(low, 1.0, 0.5)),
+                                        box(Vec3d(high, 0.0, 0.0), Vec3d(1.0, 1.0, 0.5))});
+        options.viscosity = viscosity;
+        options.liquid[1].velocity = Vec3d(0.0, 1.0, 0.0);
+        options.solids.resize(1);
+        options.solids[0].shape = {Box{Vec3d(low, -1.0, -1.0), Vec3d(high, 2.0, 2.0)}};
+        Solver solver(options);
+        const Solids solids(options);
+        double still = 0.0, flowing = 0.0;
+        for (int n = 0; n < 6; ++n) {
+          solver.next();
+          const State& state = solver.state();
+          for (auto it = state.phi->cbeginValueOn(); it; ++it) {
+            const Vec3d x = state.phi->indexToWorld(it.getCoord());
+            if (*it >= 0.0f || solids.distance(x, 0.0) <= 0.0) continue;
+            for (const auto& component : state.velocity.component) {
+              double& fastest = x[0] < middle * h ? still : flowing;
+              fastest = std::max(fastest, double(std::abs(component->tree().getValue(it.getCoord()))));
+            }
+          }
+        }
+        CAPTURE(viscosity, thickness, middle);
+        CHECK(flowing > 1.0);
+        CHECK(still < 0.02);
+      }
     }
   }
 }
