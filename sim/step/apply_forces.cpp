@@ -69,7 +69,13 @@ void extrapolateAll(Liquid& liquid, Projection& projection, const SolidField& so
   const FaceMasks free = driven ? drivenFaces(projection, solid) : FaceMasks{};
   const bool expands = projection.expansion.component[0] != nullptr;
   liquid.acceleration = liquid.expansion = {};
-  if (driven) liquid.acceleration = accelerationBy(std::move(arrived), liquid.velocity, free, dt);
+  if (driven) {
+    // Liquid that meets in a short step, or is very viscous, changes its velocity at once, which is no force
+    // for a longer one. The next step, of twice the leapfrog offset, carries along half of this change at
+    // most.
+    const double longer = std::max(dt, 2.0 * liquid.leapfrogOffset);
+    liquid.acceleration = accelerationBy(std::move(arrived), liquid.velocity, free, longer);
+  }
 
   std::vector<Extrapolated> fields{{liquid.velocity, valid}};
   if (driven) fields.push_back({liquid.acceleration, free});

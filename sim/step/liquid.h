@@ -17,8 +17,8 @@ struct Liquid {
   Markers markers;              // on both sides of the surface
   std::int64_t steps = 0;       // taken so far; seeds the new markers
   double leapfrogOffset = 0.0;  // s: leapfrog offset, by which the velocity is later than phi
-  // m/s2 at the velocity's faces, extrapolated: acceleration by pressure and viscosity in the last step; no
-  // grids where there was none.
+  // m/s2 at the velocity's faces, extrapolated: acceleration by pressure and viscosity in the last step, as
+  // if that had been as long as the next one where it was shorter; no grids where there was none.
   FaceGrids acceleration;
   // K at cell centres of the velocity's leaves, extrapolated into air and solids; null where heat is not
   // simulated.

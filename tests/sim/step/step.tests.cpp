@@ -40,3 +40,22 @@ TEST_CASE("step: a drop in the open is accelerated by gravity, to the middle of 
   CHECK(later->velocity[2].tree().getValue(Coord(16, 16, 16)) - before ==
         Approx(options.gravity[2] * (dt + 0.5 * nextDt - offset)).epsilon(1e-3));
 }
+
+TEST_CASE("step: what a short step changes at once is no force that lasts through a long one", "[sim]") {
+  Options options = tank(24, {{Shape{Sphere{Vec3d(0.5), 0.2}}, Vec3d(0.0), 0.0}});
+  options.gravity = Vec3d(0.0);
+  Solver solver(options);
+  solver.next();
+  Liquid liquid = solver.state();
+  // Halves of the drop run into each other.
+  for (auto it = liquid.velocity.component[0]->beginValueOn(); it; ++it)
+    it.setValue(it.getCoord()[0] < 12 ? 1.0f : -1.0f);
+  const auto solid = Solids(options).at(0.0);
+  const double dt = 1e-5, nextDt = 0.04;
+  auto met = step(liquid, *solid, *solid, dt, nextDt, options);
+  REQUIRE(met);
+  const double fastest = maxAbs(met->velocity);
+  const auto later = step(*met, *solid, *solid, nextDt, nextDt, options);
+  REQUIRE(later);
+  CHECK(maxAbs(later->velocity) < fastest);
+}
