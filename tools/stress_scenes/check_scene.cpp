@@ -211,9 +211,10 @@ class Checks {
 
   // Potential energy and surface are those of the frame, the velocity is later by the leapfrog offset. Until
   // then the energy of place falls by what gravity does meanwhile: exactly, but for a part of second order,
-  // of which free fall has the most, m (g offset)^2 / 2. A deficit may have been lost at another height than
-  // where it is, and given back some cells from where it was, and of a drop that no grid sees a cell is the
-  // least that can be known.
+  // of which free fall has the most, m (g offset)^2 / 2. What is seen without being there (a negative
+  // deficit) has no energy of motion. A deficit may have been lost at another height than where it is, and
+  // given back some cells from where it was, and of a drop that no grid sees a cell is the least that can be
+  // known.
   void energy(const sim::State& state, const sim::Frame& frame, const Measures& now) {
     const double h = m_options.voxelSize(), deficit = std::abs(frame.stats.deficit);
     const bool event = m_frame == 1 || isEvent(m_options, m_time, frame.time);
@@ -222,7 +223,8 @@ class Checks {
     // Of liquid that nobody sees nothing is known.
     if (isDriven(m_options) || !std::isfinite(now.lowest)) return;
     const double weight = m_options.gravity.length(), fall = weight * state.leapfrogOffset;
-    const double sum = now.kinetic + now.potential + now.surface - now.falling * state.leapfrogOffset;
+    const double sum = now.kinetic + std::min(0.0, now.deficitMotion) + now.potential + now.surface -
+                       now.falling * state.leapfrogOffset;
     const double height = m_surroundings.highest(frame.time) - now.lowest;
     const double lifted =
         m_options.density *
@@ -237,12 +239,11 @@ class Checks {
     m_energy = std::min(m_energy, sum + unseenEnergy(frame, now));
   }
 
-  // Energy of motion and of surface that the volume deficit can have: it moves as the liquid seen does on the
-  // whole, in drops of a cell or larger. It may be seen again.
+  // Energy of motion and of surface that the volume deficit can have, the latter in drops of a cell or
+  // larger. It may be seen again.
   double unseenEnergy(const sim::Frame& frame, const Measures& now) const {
     const double unseen = std::max(0.0, frame.stats.deficit), perVolume = std::cbrt(36.0 * M_PI);
-    const double ofMotion = now.mass > 0.0 ? now.kinetic / now.mass : 0.0;
-    return m_options.density * unseen * ofMotion +
+    return std::max(0.0, now.deficitMotion) +
            m_options.surfaceTension * perVolume * unseen / m_options.voxelSize();
   }
 

@@ -42,6 +42,24 @@ void forWetCells(const sim::FloatGrid& phi, const sim::SolidField& solid, const 
   }
 }
 
+// Of the velocity in a cell: its middle, and the mean of what its faces have of its square.
+struct CellMotion {
+  Vec3d velocity;
+  double squares = 0.0;
+};
+
+CellMotion motionIn(const Accessor (&face)[3], const Coord& cell) {
+  CellMotion found;
+  for (int a = 0; a < 3; ++a) {
+    Coord up = cell;
+    up[a] += 1;
+    const double low = face[a].getValue(cell), high = face[a].getValue(up);
+    found.velocity[a] = 0.5 * (low + high);
+    found.squares += 0.5 * (low * low + high * high);
+  }
+  return found;
+}
+
 // Whether the liquid here is part of a sheet or a thread of a cell or two.
 bool isThin(const Accessor& phi, const Coord& cell, double h) {
   for (int n = 0; n < 27; ++n)
@@ -78,15 +96,7 @@ Measures measure(const sim::State& state, const sim::SolidField& field, const si
     }
     found.area += std::sqrt(slope) * std::clamp(0.5 + s / h, 0.0, 1.0) * cube;
     if (share <= 0.0) return;
-    Vec3d velocity;
-    double squares = 0.0;
-    for (int a = 0; a < 3; ++a) {
-      Coord up = cell;
-      up[a] += 1;
-      const double low = face[a].getValue(cell), high2 = face[a].getValue(up);
-      velocity[a] = 0.5 * (low + high2);
-      squares += 0.5 * (low * low + high2 * high2);
-    }
+    const auto [velocity, squares] = motionIn(face, cell);
     const double mass = options.density * share * cube;
     found.mass += mass;
     if (isThin(phi, cell, h)) found.thin += share * cube;
@@ -99,9 +109,14 @@ Measures measure(const sim::State& state, const sim::SolidField& field, const si
   });
   found.surface = options.surfaceTension * found.area;
   if (state.deficit == nullptr) return found;
+  const double squaresOnTheWhole = found.mass > 0.0 ? 2.0 * found.kinetic / found.mass : 0.0;
   for (auto it = state.deficit->cbeginValueOn(); it; ++it) {
-    const Vec3d x = (it.getCoord().asVec3d() + Vec3d(0.5)) * h;
-    found.potential += options.density * *it * cube * (-options.gravity.dot(x) - floor);
+    const Coord cell = it.getCoord();
+    const Vec3d x = (cell.asVec3d() + Vec3d(0.5)) * h;
+    const double mass = options.density * *it * cube;
+    found.potential += mass * (-options.gravity.dot(x) - floor);
+    const double squares = phi.getValue(cell) < 0.0f ? motionIn(face, cell).squares : squaresOnTheWhole;
+    found.deficitMotion += 0.5 * mass * squares;
     if (std::abs(*it) > std::abs(found.deficit.value)) found.deficit = {*it, x};
   }
   return found;
