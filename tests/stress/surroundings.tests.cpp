@@ -102,6 +102,15 @@ TEST_CASE("surroundings: volumes are those of the shapes outside of solids", "[s
   CHECK(Surroundings(options, {}).pouredVolume() == Approx(expected).epsilon(0.003));
 }
 
+TEST_CASE("surroundings: a shape's surface is what of it lies in the open", "[stress]") {
+  sim::Options options = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.5)));
+  const sim::Shape drain = box(Vec3d(0.21, 0.32, 0.13), Vec3d(0.74, 0.85, 0.49));
+  const double sides = 4.0 * 0.53 * 0.36, ends = 2.0 * 0.53 * 0.53;
+  CHECK(Surroundings(options, {}).surfaceOf(drain, 0.0) == Approx(sides + ends).epsilon(0.03));
+  addSolid(options, box(Vec3d(-1.0), Vec3d(0.475, 2.0, 2.0)));
+  CHECK(Surroundings(options, {}).surfaceOf(drain, 0.0) == Approx(0.5 * (sides + ends)).epsilon(0.15));
+}
+
 TEST_CASE("surroundings: beyond an unbounded side there is liquid, too", "[stress]") {
   sim::Options options = tank(box(Vec3d(-0.3, 0.2, 0.1), Vec3d(0.4, 0.7, 0.6)));
   CHECK(Surroundings(options, {}).pouredVolume() == Approx(0.4 * 0.5 * 0.5).epsilon(0.01));

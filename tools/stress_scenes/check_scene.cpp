@@ -220,6 +220,7 @@ class Checks {
     const bool event = m_frame == 1 || isEvent(m_options, m_time, frame.time);
     m_mostDeficit = event ? deficit : std::max(m_mostDeficit, deficit);
     if (event) m_energy = INFINITY;
+    m_energy += laidOpen(frame);
     // Of liquid that nobody sees nothing is known.
     if (isDriven(m_options) || !std::isfinite(now.lowest)) return;
     const double weight = m_options.gravity.length(), fall = weight * state.leapfrogOffset;
@@ -237,6 +238,17 @@ class Checks {
       fail("energy", fmt::format("{:.4g} J after {:.4g} J, {:+.1f}%; fastest {:.3g} m/s at {}", sum, m_energy,
                                  100.0 * (sum / m_energy - 1.0), now.speed.value, written(now.speed.place)));
     m_energy = std::min(m_energy, sum + unseenEnergy(frame, now));
+  }
+
+  // Energy of the surface that drains give the liquid, J: each of them empties its shape once in a step, and
+  // the liquid around it gets no more surface by that than the shape has.
+  double laidOpen(const sim::Frame& frame) const {
+    if (m_options.surfaceTension == 0.0) return 0.0;
+    double area = 0.0;
+    for (const sim::Drain& drain : m_options.drains)
+      if (drain.from < frame.time && m_time < drain.until)
+        area += m_surroundings.surfaceOf(drain.shape, frame.time);
+    return m_options.surfaceTension * area * static_cast<double>(frame.substeps.size());
   }
 
   // Energy of motion and of surface that the volume deficit can have, the latter in drops of a cell or

@@ -257,6 +257,17 @@ double Surroundings::volumeIn(const sim::Shape& shape, double t,
   return volume * m_step * m_step * m_step;
 }
 
+double Surroundings::surfaceOf(const sim::Shape& shape, double t) const {
+  const sim::ShapeDistance distance(shape, m_options.voxelSize(), sim::domainBox(m_options));
+  const sim::Solids solids(m_options);
+  const std::vector<float> away = distances(
+      [&](const Vec3d& x) { return solids.distance(x, t) > 0.0 ? std::abs(distance(x)) : INFINITY; });
+  // Layers within a sample of the surface, by how near they are.
+  double layers = 0.0;
+  for (const float value : away) layers += std::max(0.0, 1.0 - value / m_step);
+  return layers * m_step * m_step;
+}
+
 double Surroundings::frontRate(const sim::Shape& shape, const Vec3d& velocity, double t) const {
   const sim::ShapeDistance distance(shape, m_options.voxelSize(), sim::domainBox(m_options));
   const sim::Solids solids(m_options);

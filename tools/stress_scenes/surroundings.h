@@ -40,6 +40,8 @@ class Surroundings {
   // positions).
   double volumeIn(const sim::Shape& shape, double t,
                   const std::function<double(const Vec3d&)>& alsoIn = {}) const;
+  // m2 of its surface in the open.
+  double surfaceOf(const sim::Shape& shape, double t) const;
   // m3/s that flow of this velocity takes out of the shape's surface in the open: of what the shape itself
   // would give, whatever cells make of it.
   double frontRate(const sim::Shape& shape, const Vec3d& velocity, double t) const;
