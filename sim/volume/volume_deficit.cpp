@@ -265,13 +265,15 @@ SourceCells cellsOf(const RunningFlows& flows, const LeafTable& leaves, const So
   return all;
 }
 
-// Clears the deficit within a cell of a drain, which is always empty.
+// Removes liquid that is due within a cell of a drain, which is always empty. Liquid that the surface shows
+// there in excess has not flowed there: without its negative deficit it would come out of nothing.
 void drainDeficit(const LeafTable& leaves, const FloatGrid& shape, float h, std::vector<float>& deficit) {
   for (std::size_t n = 0; n < leaves.size(); ++n) {
     float scratch[kLeafSize];
     const float* phi = leafValues(shape.constTree(), leaves.origins[n], scratch);
     for (int i = 0; i < kLeafSize; ++i) {
-      if (phi[i] < h) deficit[n * kLeafSize + i] = 0.0f;
+      float& due = deficit[n * kLeafSize + i];
+      if (phi[i] < h) due = std::min(due, 0.0f);
     }
   }
 }

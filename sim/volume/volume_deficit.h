@@ -17,11 +17,10 @@ namespace fluidtex::sim {
 // units of h^3 at cell centres, negative where there is too much liquid.
 // deficit: before the step, null for none. solid: while `velocity` held.
 // Volumes are advected by fluxes through the solids' open faces (sim/volume/volume_flux.h). What leaves
-// through sides of the domain is gone, and drains leave no deficit. Sources refill their cells without
-// deficit, but liquid that meets them from outside becomes deficit. Liquid that solids push aside, or cover
-// between two steps (dt 0), becomes deficit beside them.
-// The sum of the enclosed volume (liquidVolume) and the deficit is exact. Bit-identical on any number of
-// threads.
+// through sides of the domain is gone, and so is what is due within a cell of drains. Sources refill their
+// cells without deficit, but liquid that meets them from outside becomes deficit. Liquid that solids push
+// aside, or cover between two steps (dt 0), becomes deficit beside them. The sum of the enclosed volume
+// (liquidVolume) and the deficit is exact. Bit-identical on any number of threads.
 FloatGrid::Ptr volumeDeficit(const FloatGrid& before, const FloatGrid& after, const FloatGrid* deficit,
                              const Velocity& velocity, const SolidField& solid, const SolidField& solidAfter,
                              const RunningFlows& flows, double dt);

@@ -111,6 +111,23 @@ TEST_CASE("volume deficit: what leaves the domain and what sources put in is not
   CHECK(volumeDeficit(*nothing, *source.phi, nullptr, still, closed, closed, flows, 0.01)->empty());
 }
 
+TEST_CASE("volume deficit: beside a drain no liquid comes out of nothing") {
+  // The surface of a slab rises towards a drain above it, which no flow has done.
+  const SolidField solid = box();
+  const auto before = phiOf([](const Vec3d& x) { return x[2] - 0.5; });
+  const auto after = phiOf([](const Vec3d& x) { return x[2] - 0.5 - 0.4 * kVoxel; });
+  const auto drain = phiOf([](const Vec3d& x) { return 0.5 + 0.6 * kVoxel - x[2]; });
+  RunningFlows flows;
+  flows.drains.push_back(drain.get());
+  const Velocity still = flow([](const Vec3d&) { return Vec3d(0.0); });
+  const auto deficit = volumeDeficit(*before, *after, nullptr, still, solid, solid, flows, 0.01);
+  const double gained = liquidVolume(*after, solid) - liquidVolume(*before, solid);
+  CHECK(gained == Approx(0.4 * kVoxel));
+  CHECK(sumOf(*deficit) == Approx(-gained));
+  // What the surface has lost there the drain has taken.
+  CHECK(volumeDeficit(*after, *before, nullptr, still, solid, solid, flows, 0.01)->empty());
+}
+
 TEST_CASE("volume deficit: a source that holds its place has none, wherever cells are cut by its edges") {
   const SolidField closed = box();
   const double low = 10.4 * kVoxel, high = 20.4 * kVoxel;  // centres lie 0.1 cell outside
