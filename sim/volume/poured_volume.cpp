@@ -54,7 +54,9 @@ FloatGrid::Ptr withPoured(const FloatGrid* deficit, const PouredLiquid& poured, 
       const float far = leaves[n]->getValue(i);
       if (!solid.domain.isInside(cell) || std::abs(far) >= h) continue;
       const bool inOpen = poured.start && room[i] >= h;
-      const bool isUnseen = seen[i] == 0.0f && whole[i] > 0.0f && far < 0.5f * h;
+      // Later, what settling loses is in the deficit already.
+      const float shown = poured.start ? after[i] : seen[i];
+      const bool isUnseen = shown == 0.0f && whole[i] > 0.0f && far < 0.5f * h;
       if (!inOpen && !isUnseen) continue;
       const float share = shareOf(poured.distance, far, settled.indexToWorld(cell), h);
       more[n][i] = inOpen ? share - after[i] : std::min(whole[i], share);

@@ -18,9 +18,9 @@ struct PouredLiquid {
 
 // The deficit (null for none) with the part of poured liquid added that its surface does not represent. At
 // cell centres, in units of h^3.
-// Added: films and drops in which no cell centre lies; at the start, away from solids, also what settling,
-// which makes phi a distance, erodes at edges and of bodies of a few cells. Nothing is added in sources and
-// within a cell of drains.
+// Added: films and drops in which no cell centre lies outside solids; at the start, away from solids, also
+// what settling, which makes phi a distance, erodes at edges and of bodies of a few cells. Nothing is added
+// in sources and within a cell of drains.
 // settled: phi after settling.
 FloatGrid::Ptr withPoured(const FloatGrid* deficit, const PouredLiquid& poured, const FloatGrid& settled,
                           const SolidField& solid, const RunningFlows& flows);

@@ -231,6 +231,18 @@ TEST_CASE("solver: nothing hangs at a ceiling, however little it is") {
         Catch::Detail::Approx(first.volume + first.deficit).epsilon(1e-4));
 }
 
+TEST_CASE("solver: a film that is poured on a wall and flies off it is all there") {
+  // The only cell's centre that it reaches lies just in the wall.
+  const double h = 1.0 / 16.0, wall = 8.51 * h, surface = 9.35 * h;
+  Options options = tank(16, {box(Vec3d(0.0), Vec3d(surface, 1.0, 1.0))});
+  options.liquid[0].velocity = Vec3d(2.0, 0.0, 0.0);
+  Solid solid;
+  solid.shape = {Box{Vec3d(-1.0), Vec3d(wall, 2.0, 2.0)}};
+  options.solids.push_back(solid);
+  const FrameStats start = frameAfter(options, 1).stats;
+  CHECK(start.volume + start.deficit == Approx(surface - wall).epsilon(0.01));
+}
+
 TEST_CASE("solver: a film on a wall falls when no liquid feeds it, on the floor it stays") {
   const double h = 1.0 / 24;
   const Frame onWall = frameAfter(tank(24, {box(Vec3d(0.0, 0.3, 0.5), Vec3d(0.3 * h, 0.7, 0.9))}), 4);
