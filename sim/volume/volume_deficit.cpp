@@ -10,10 +10,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <numbers>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 namespace fluidtex::sim {
 namespace {
@@ -71,9 +75,60 @@ bool isWay(const LeafPatch& faces, const LeafPatch& room, int at, int axis, bool
          room[at] > 0.0f;
 }
 
+// The neighbour of a cell in a patch on a side (0 to 5: -x, +x, -y, ...).
+int besideIn(int at, int side) {
+  const int stride = kPatchStride[side / 2];
+  return side % 2 == 0 ? at - stride : at + stride;
+}
+
+// Shut faces between two cells that both have room, as in a thin wall: no deficit passes there. A bit for
+// each side of each cell of a leaf; null for most leaves, which have none.
+using ShutSides = std::array<std::uint8_t, kLeafSize>;
+using ShutFaces = std::vector<std::unique_ptr<ShutSides>>;
+
+ShutFaces shutFaces(const LeafTable& leaves, const std::vector<float>& room, const FaceGrids& open) {
+  ShutFaces shut(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    const float* own = room.data() + n * kLeafSize;
+    if (std::all_of(own, own + kLeafSize, [](float r) { return r >= 1.0f; })) return;
+    LeafPatch space{};
+    loadPatch(leaves, room, n, space, [](float) { return 0.0f; });
+    std::array<LeafPatch, 3> faces;
+    for (int a = 0; a < 3; ++a) faces[a] = patchOf(open.component[a]->constTree(), leaves.origins[n]);
+    ShutSides sides{};
+    for (int i = 0; i < kLeafSize; ++i) {
+      const int at = patchIndex(i);
+      for (int side = 0; side < 6; ++side) {
+        const int beside = besideIn(at, side);
+        const bool isShut = faces[side / 2][std::max(at, beside)] <= 0.0f;
+        if (isShut && space[at] > 0.0f && space[beside] > 0.0f) sides[i] |= std::uint8_t(1 << side);
+      }
+    }
+    if (sides != ShutSides{}) shut[n] = std::make_unique<ShutSides>(sides);
+  });
+  return shut;
+}
+
+// Calls body(offset, sum) for the cells of a leaf that have a shut side. sum(flow): of flow(at, beside), with
+// patch indices, over a cell's other sides.
+template <class Body>
+void forCellsBesideShut(const ShutFaces& shut, std::size_t leaf, const Body& body) {
+  if (shut[leaf] == nullptr) return;
+  for (int i = 0; i < kLeafSize; ++i) {
+    const int sides = (*shut[leaf])[i], at = patchIndex(i);
+    if (sides == 0) continue;
+    body(i, [&](const auto& flow) {
+      float sum = 0.0f;
+      for (int side = 0; side < 6; ++side)
+        if ((sides >> side & 1) == 0) sum += flow(at, besideIn(at, side));
+      return sum;
+    });
+  }
+}
+
 // Moves the deficit of air cells towards the liquid, to the neighbours that are nearer to it. phi: `far` or
 // more in solids.
-void gatherInLiquid(const LeafTable& leaves, const std::vector<float>& phi, float far,
+void gatherInLiquid(const LeafTable& leaves, const std::vector<float>& phi, float far, const ShutFaces& shut,
                     std::vector<float>& deficit) {
   const auto none = [far](float) { return 2.0f * far; };  // nothing moves where there is no leaf
   // One over the sum of differences to lower neighbours; 0 where nothing is passed on.
@@ -81,14 +136,18 @@ void gatherInLiquid(const LeafTable& leaves, const std::vector<float>& phi, floa
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     LeafPatch distance;
     loadPatch(leaves, phi, n, distance, none);
+    const auto drop = [&](int at, int beside) { return std::max(0.0f, distance[at] - distance[beside]); };
+    const auto rateOf = [&](int at, float drops) {
+      return distance[at] >= 0.0f && drops > 0.0f ? 1.0f / drops : 0.0f;
+    };
     for (int i = 0; i < kLeafSize; ++i) {
       const int at = patchIndex(i);
-      float drop = 0.0f;
-      for (const int stride : kPatchStride)
-        drop += std::max(0.0f, distance[at] - distance[at - stride]) +
-                std::max(0.0f, distance[at] - distance[at + stride]);
-      rate[n * kLeafSize + i] = distance[at] >= 0.0f && drop > 0.0f ? 1.0f / drop : 0.0f;
+      float drops = 0.0f;
+      for (const int stride : kPatchStride) drops += drop(at, at - stride) + drop(at, at + stride);
+      rate[n * kLeafSize + i] = rateOf(at, drops);
     }
+    forCellsBesideShut(
+        shut, n, [&](int i, const auto& sum) { rate[n * kLeafSize + i] = rateOf(patchIndex(i), sum(drop)); });
   });
   for (int round = 0; round < kGatherRounds; ++round) {
     std::vector<float> next(deficit.size());
@@ -100,16 +159,23 @@ void gatherInLiquid(const LeafTable& leaves, const std::vector<float>& phi, floa
       loadPatch(leaves, rate, n, give, [](float) { return 0.0f; });
       LeafPatch given;
       for (std::size_t at = 0; at < given.size(); ++at) given[at] = give[at] * value[at];
+      const auto kept = [&](int at) { return give[at] > 0.0f ? 0.0f : value[at]; };
+      const auto arrives = [&](int at, int from) {
+        return std::max(0.0f, distance[from] - distance[at]) * given[from];
+      };
       forRows([&](int row, int first) {
         for (int k = 0; k < kLeafDim; ++k) {
           const int at = first + k;
-          float sum = give[at] > 0.0f ? 0.0f : value[at];
+          float sum = kept(at);
           for (const int stride : kPatchStride) {
-            sum += std::max(0.0f, distance[at - stride] - distance[at]) * given[at - stride];
-            sum += std::max(0.0f, distance[at + stride] - distance[at]) * given[at + stride];
+            sum += arrives(at, at - stride);
+            sum += arrives(at, at + stride);
           }
           next[n * kLeafSize + row + k] = sum;
         }
+      });
+      forCellsBesideShut(shut, n, [&](int i, const auto& sum) {
+        next[n * kLeafSize + i] = kept(patchIndex(i)) + sum(arrives);
       });
     });
     deficit.swap(next);
@@ -182,7 +248,7 @@ float spreadShare(int round) {
 
 // Diffuses the deficit of liquid cells, as a share of their room.
 void spreadInLiquid(const LeafTable& leaves, const std::vector<float>& phi, const std::vector<float>& room,
-                    std::vector<float>& deficit) {
+                    const ShutFaces& shut, std::vector<float>& deficit) {
   std::vector<float> wet(deficit.size());
   for (std::size_t at = 0; at < deficit.size(); ++at) wet[at] = phi[at] < 0.0f ? room[at] : 0.0f;
   const auto none = [](float) { return 0.0f; };
@@ -196,16 +262,22 @@ void spreadInLiquid(const LeafTable& leaves, const std::vector<float>& phi, cons
       loadPatch(leaves, wet, n, space, none);
       for (std::size_t at = 0; at < share.size(); ++at)
         share[at] = space[at] > 0.0f ? value[at] / space[at] : 0.0f;
+      const auto arrives = [&](int at, int from) {
+        return std::min(space[at], space[from]) * (share[from] - share[at]);
+      };
       forRows([&](int row, int first) {
         for (int k = 0; k < kLeafDim; ++k) {
           const int at = first + k;
           float sum = 0.0f;
           for (const int stride : kPatchStride) {
-            sum += std::min(space[at], space[at - stride]) * (share[at - stride] - share[at]);
-            sum += std::min(space[at], space[at + stride]) * (share[at + stride] - share[at]);
+            sum += arrives(at, at - stride);
+            sum += arrives(at, at + stride);
           }
           next[n * kLeafSize + row + k] = value[at] + part * sum;
         }
+      });
+      forCellsBesideShut(shut, n, [&](int i, const auto& sum) {
+        next[n * kLeafSize + i] = value[patchIndex(i)] + part * sum(arrives);
       });
     });
     deficit.swap(next);
@@ -342,8 +414,9 @@ FloatGrid::Ptr volumeDeficit(const FloatGrid& before, const FloatGrid& after, co
     openAfter[cell] = 0.0f;
     phi[cell] = kFar * h;
   }
-  gatherInLiquid(leaves, phi, kFar * h, due);
-  spreadInLiquid(leaves, phi, openAfter, due);
+  const ShutFaces shut = shutFaces(leaves, openAfter, solidAfter.open);
+  gatherInLiquid(leaves, phi, kFar * h, shut, due);
+  spreadInLiquid(leaves, phi, openAfter, shut, due);
   spreadPiles(leaves, solidAfter, openAfter, due);
   return toGrid(leaves, due, solid.voxelSize);
 }

@@ -111,6 +111,40 @@ TEST_CASE("volume deficit: what leaves the domain and what sources put in is not
   CHECK(volumeDeficit(*nothing, *source.phi, nullptr, still, closed, closed, flows, 0.01)->empty());
 }
 
+TEST_CASE("volume deficit: it stays on its side of a wall thinner than a cell") {
+  // The centres at 17.5 lie in the wall, and these cells belong to the upper side.
+  const double low = 16.9 * kVoxel, top = 17.64 * kVoxel;
+  Options options;
+  options.size = Vec3d(1.0);
+  options.resolution = kCells;
+  Solid wall;
+  wall.shape = {Box{Vec3d(-1.0, -1.0, low), Vec3d(2.0, 2.0, top)}};
+  options.solids.push_back(wall);
+  const SolidField solid = *Solids(options).at(0.0);
+  const Velocity still = flow([](const Vec3d&) { return Vec3d(0.0); });
+  const auto below = [](const FloatGrid& deficit) {
+    double sum = 0.0;
+    for (auto it = deficit.cbeginValueOn(); it; ++it)
+      sum += it.getCoord().z() < 17 ? double(*it) * std::pow(kVoxel, 3) : 0.0;
+    return sum;
+  };
+  SECTION("in liquid") {
+    const auto before = phiOf([&](const Vec3d& x) { return x[2] - top - 1.6 * kVoxel; });
+    const auto after = phiOf([&](const Vec3d& x) { return x[2] - top - 1.2 * kVoxel; });
+    const auto deficit = volumeDeficit(*before, *after, nullptr, still, solid, solid, {}, 0.01);
+    CHECK(sumOf(*deficit) == Approx(0.4 * kVoxel));
+    CHECK(below(*deficit) == 0.0);
+  }
+  SECTION("in the air, with liquid on the other side") {
+    const auto phi = phiOf([&](const Vec3d& x) { return low - x[2]; });
+    const auto before = FloatGrid::create(0.0f);
+    before->setTransform(cellTransform(kVoxel));
+    before->tree().setValueOn(Coord(16, 16, 16), 0.3f);
+    const auto deficit = volumeDeficit(*phi, *phi, before.get(), still, solid, solid, {}, 0.01);
+    CHECK(below(*deficit) == Approx(0.3 * std::pow(kVoxel, 3)));
+  }
+}
+
 TEST_CASE("volume deficit: beside a drain no liquid comes out of nothing") {
   // The surface of a slab rises towards a drain above it, which no flow has done.
   const SolidField solid = box();
