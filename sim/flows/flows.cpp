@@ -306,9 +306,13 @@ SolidField withFlows(const SolidField& solid, const RunningFlows& flows, const F
   for (int side = 0; side < 6; ++side)
     if (solid.sides[side] == Side::stream) giveStream(given, side, solid, phi, before, gravity, dt);
   for (const auto& [source, factor] : flows.sources) {
-    for (int axis = 0; axis < 3 && source->velocity[axis] != nullptr; ++axis)
+    for (int axis = 0; axis < 3 && source->velocity[axis] != nullptr; ++axis) {
+      // Where a solid stands in a source its surface holds the liquid, as elsewhere.
+      const auto open = solid.open[axis].getConstAccessor();
       for (auto it = source->velocity[axis]->cbeginValueOn(); it; ++it)
-        given.set(axis, it.getCoord(), static_cast<float>(factor * *it));
+        if (open.getValue(it.getCoord()) > 0.0f)
+          given.set(axis, it.getCoord(), static_cast<float>(factor * *it));
+    }
   }
   field.given = {given.grid};
   return field;

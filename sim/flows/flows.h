@@ -65,7 +65,7 @@ std::vector<std::string> flowWarnings(const Options& options, const Solids& soli
 // air markers in sources and liquid markers in drains.
 void applyFlows(FloatGrid& phi, Markers& markers, const RunningFlows& flows);
 
-// The solids with given velocities added: at faces in sources, and at open faces on stream sides of the
+// The solids with given velocities added: at open faces in sources, and at open faces on stream sides of the
 // domain. On stream sides the velocity `before` is advected outward by itself and by the waves of shallow
 // water, for dt seconds.
 // Source: Orlanski, "A simple boundary condition for unbounded hyperbolic flows", 1976.

@@ -259,6 +259,26 @@ TEST_CASE("flows: a source begins in an empty domain, and one in a wall is told 
   }
 }
 
+TEST_CASE("flows: a source that ends in a wall sends nothing through it") {
+  Options options = channel();
+  Solid wall;
+  wall.shape.kind = Box{Vec3d(1.02, -1.0, -1.0), Vec3d(1.1, 1.0, 1.0)};
+  options.solids = {wall};
+  Source source;
+  source.shape.kind = Box{Vec3d(0.8, -1.0, -1.0), Vec3d(1.08, 1.0, 1.0)};
+  source.velocity = Vec3d(1.0, 0.0, 0.0);
+  options.sources = {source};
+  Solver solver(options);
+  FrameStats stats;
+  for (int n = 0; n < 4; ++n) stats = solver.next().stats;
+  CHECK(std::abs(stats.deficit) < 1e-9);
+  int beyond = 0;
+  const CoordBBox room(Coord(26, 0, 0), Coord(47, 11, 11));
+  for (auto it = solver.state().phi->cbeginValueOn(); it; ++it)
+    beyond += int(*it < 0.0f && room.isInside(it.getCoord()));
+  CHECK(beyond == 0);
+}
+
 TEST_CASE("flows: a restored state goes on bit for bit") {
   Options options = channel();
   options.sides[1] = Side::stream;
