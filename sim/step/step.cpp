@@ -128,7 +128,7 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
     next.deficit =
         volumeDeficit(*liquid.phi, *next.phi, liquid.deficit.get(), moving, before, solid, flows, dt);
     withdrawSurface(*next.phi, next.markers, *next.deficit, solid);
-    regainSurface(*next.phi, next.markers, *next.deficit, solid);
+    regainSurface(*next.phi, next.markers, *next.deficit, solid, flows);
   }
   next.velocity = velocityFor(*next.phi, solid);
   carryVelocity(liquid, next, solid, flows, dt);

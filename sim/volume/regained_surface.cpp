@@ -34,13 +34,24 @@ struct Regained {
   float share;  // liquid share of the cell
 };
 
-std::vector<Regained> regainedIn(const FloatLeaf& deficit, const FloatTree& phi, const SolidField& solid) {
+// Makes a source's own liquid air in a patch of phi: with its velocity given, it takes no deficit.
+void leaveOut(LeafPatch& distance, const SourceGrids& source, const Coord& origin) {
+  if (source.velocity[0] == nullptr) return;
+  const LeafPatch shape = patchOf(source.phi->constTree(), origin);
+  for (std::size_t at = 0; at < LeafPatch::size(); ++at)
+    if (shape[at] < 0.0f) distance[at] = std::max(0.0f, distance[at]);
+}
+
+std::vector<Regained> regainedIn(const FloatLeaf& deficit, const FloatTree& phi, const SolidField& solid,
+                                 const RunningFlows& flows) {
   const float* due = deficit.buffer().data();
   std::vector<Regained> found;
   if (std::none_of(due, due + kLeafSize, [](float v) { return v > kFills; })) return found;
   LeafShares open;
   openShares(solid, deficit.origin(), open);
-  const LeafPatch distance = patchOf(phi, deficit.origin());
+  const LeafPatch here = patchOf(phi, deficit.origin());
+  LeafPatch distance = here;
+  for (const auto& running : flows.sources) leaveOut(distance, *running.source, deficit.origin());
   const LeafPatch wall = patchOf(solid.phi->constTree(), deficit.origin());
   // Behind a solid's surface phi is extrapolated.
   const auto isLiquid = [&](int at) { return distance[at] < 0.0f && wall[at] > 0.0f; };
@@ -48,7 +59,7 @@ std::vector<Regained> regainedIn(const FloatLeaf& deficit, const FloatTree& phi,
     const int at = patchIndex(i);
     const Coord cell = deficit.offsetToGlobalCoord(i);
     if (due[i] <= kFills || open[i] < kRoomy || !solid.domain.isInside(cell)) continue;
-    bool dry = distance[at] >= 0.0f;
+    bool dry = here[at] >= 0.0f;
     for (const int stride : kPatchStride) dry = dry && !isLiquid(at - stride) && !isLiquid(at + stride);
     if (dry) found.push_back({cell, std::min(due[i], 1.0f)});
   }
@@ -85,11 +96,12 @@ std::vector<Coord> emptyIn(const FloatLeaf& deficit, const FloatGrid& phi, const
 
 }  // namespace
 
-void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& deficit, const SolidField& solid) {
+void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& deficit, const SolidField& solid,
+                   const RunningFlows& flows) {
   const auto leaves = leavesOf(deficit.constTree());
   std::vector<std::vector<Regained>> parts(leaves.size());
   tbb::parallel_for(std::size_t{0}, leaves.size(),
-                    [&](std::size_t n) { parts[n] = regainedIn(*leaves[n], phi.constTree(), solid); });
+                    [&](std::size_t n) { parts[n] = regainedIn(*leaves[n], phi.constTree(), solid, flows); });
   std::vector<Regained> regained;
   for (const auto& part : parts) regained.insert(regained.end(), part.begin(), part.end());
   if (regained.empty()) return;

@@ -52,6 +52,23 @@ TEST_CASE("regained surface: liquid beside takes the deficit itself") {
   CHECK(phi->tree().getValue(Coord(8, 8, 8)) > 0.0f);
 }
 
+TEST_CASE("regained surface: liquid of a source with a velocity takes nothing") {
+  const auto solid = Solids(tank(16, {})).at(0.0);
+  for (const bool flowing : {true, false}) {
+    const auto phi = makePhi(kVoxel, 6 * kVoxel);
+    phi->tree().setValue(Coord(8, 8, 7), static_cast<float>(-kVoxel));
+    SourceGrids source;
+    source.phi = phi->deepCopy();
+    if (flowing) source.velocity.fill(FloatGrid::create(0.0f));
+    RunningFlows flows;
+    flows.sources.push_back({&source, 1.0});
+    const auto deficit = owing(Coord(8, 8, 8), 0.95f);
+    Markers markers;
+    regainSurface(*phi, markers, *deficit, *solid, flows);
+    CHECK((phi->tree().getValue(Coord(8, 8, 8)) < 0.0f) == flowing);
+  }
+}
+
 TEST_CASE("regained surface: a speck that shows liquid where none is left is withdrawn, the sum stays") {
   const auto solid = Solids(tank(16, {})).at(0.0);
   const Coord cell(8, 8, 8);
