@@ -154,3 +154,25 @@ TEST_CASE("volume budget: what comes and goes is allowed, and no more", "[stress
   CHECK(drained.advance(0.0, 0.1, 0.3) == 0.0);
   CHECK(drained.advance(0.1, 0.2, 0.33) == Approx(0.03).epsilon(0.02));
 }
+
+TEST_CASE("volume budget: a source must give no more than its room holds", "[stress]") {
+  // Walls part the tank. On the source's side there is room for 0.5 x 1 x 0.2 m3, less its own 0.4 x 0.4 x
+  // 0.1.
+  sim::Options options = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.8)));
+  addSolid(options, box(Vec3d(0.5, -1.0, -1.0), Vec3d(0.7, 2.0, 2.0)));
+  sim::Source source;
+  source.shape = box(Vec3d(0.05, 0.3, 0.9), Vec3d(0.45, 0.7, 1.0));
+  source.velocity = Vec3d(0.0, 0.0, -1.0);
+  options.sources.push_back(source);
+  const Surroundings surroundings(options, {});
+  CHECK(surroundings.roomFor(0) == Approx(0.084).epsilon(0.03));
+  const double before = 0.8 * 0.8 + 0.016, full = before + 0.084, step = 0.5 * 0.16;
+  const auto after = [&](double first, double second) {
+    stress::VolumeBudget budget(options, surroundings);
+    budget.start(before);
+    CHECK(budget.advance(0.0, 0.5, first) == 0.0);
+    return budget.advance(0.5, 1.0, second);
+  };
+  CHECK(after(before + step, full) == 0.0);
+  CHECK(after(before + step, full - 0.05) < 0.0);
+}

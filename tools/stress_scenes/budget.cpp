@@ -95,7 +95,7 @@ bool happens(double time, double from, double to, double frameRate) {
 }
 
 VolumeBudget::VolumeBudget(const sim::Options& options, const Surroundings& surroundings)
-    : m_options(options), m_surroundings(surroundings) {}
+    : m_options(options), m_surroundings(surroundings), m_given(options.sources.size(), 0.0) {}
 
 double VolumeBudget::tolerance() const {
   return 0.01 * m_most + std::pow(m_options.voxelSize(), 3) + m_slack;
@@ -133,7 +133,8 @@ double VolumeBudget::advance(double from, double to, double volume) {
     m_low = std::max(0.0, m_low - m_surroundings.volumeIn(solid.shape, solid.from - 1e-6));
     exact = false;
   }
-  for (const sim::Source& source : m_options.sources) {
+  for (std::size_t n = 0; n < m_options.sources.size(); ++n) {
+    const sim::Source& source = m_options.sources[n];
     const double begin = std::max(from, source.from), end = std::min(to, source.until);
     if (begin >= end) continue;
     const double length = end - begin, factor = 0.5 * (rateAt(source, begin) + rateAt(source, end));
@@ -142,7 +143,11 @@ double VolumeBudget::advance(double from, double to, double volume) {
     const double smooth =
         m_surroundings.frontRate(source.shape, source.velocity, 0.5 * (begin + end)) * factor * length;
     m_high += std::max(given, smooth);
-    m_low += std::min(given, smooth);
+    // Into a full room a source gives nothing. Several may have to share theirs.
+    const double room = m_surroundings.roomFor(n) / static_cast<double>(m_options.sources.size());
+    const double least = std::min({given, smooth, std::max(0.0, room - m_given[n])});
+    m_low += least;
+    m_given[n] += least;
     // As it begins its shape is filled. Later, what flows away is filled up where it is not driven itself: no
     // more than gravity draws out in that time.
     const double whole = m_surroundings.volumeIn(source.shape, to);

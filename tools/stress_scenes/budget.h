@@ -4,6 +4,8 @@
 
 #include "tools/stress_scenes/surroundings.h"
 
+#include <vector>
+
 namespace fluidtex::stress {
 
 class VolumeBudget {
@@ -26,7 +28,8 @@ class VolumeBudget {
   const sim::Options& m_options;
   const Surroundings& m_surroundings;
   double m_low = 0.0, m_high = 0.0, m_most = 0.0;
-  double m_slack = 0.0;  // of sources, m3
+  double m_slack = 0.0;         // of sources, m3
+  std::vector<double> m_given;  // least that each source has given, m3
 };
 
 // Whether something happens between two frames, at the second one's time too: of times that the solver takes

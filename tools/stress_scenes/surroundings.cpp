@@ -89,6 +89,15 @@ Surroundings::Surroundings(const sim::Options& options, const std::vector<std::s
   for (const sim::LiquidBody& body : options.liquid) add(body.shape, body.from);
   for (const sim::Source& source : options.sources) add(source.shape, source.from);
 
+  if (!options.sources.empty()) {
+    std::vector<float> taken(ever);
+    for (std::size_t n = 0; n < taken.size(); ++n) taken[n] = std::min({taken[n], open[n], openNow[n]});
+    for (const sim::Source& source : options.sources) {
+      const sim::ShapeDistance distance(source.shape, options.voxelSize(), domain);
+      m_rooms.push_back(roomFrom(open, distances([&](const Vec3d& x) { return distance(x); }), taken));
+    }
+  }
+
   const double cube = m_step * m_step * m_step;
   for (std::size_t n = 0; n < first.size(); ++n) {
     const double distance = std::max(first[n], -openNow[n]);
@@ -99,11 +108,11 @@ Surroundings::Surroundings(const sim::Options& options, const std::vector<std::s
   const double top = highest(sim::kForever);
   const bool calm = !disturbs(options) && std::isfinite(top);
   const double weight = options.gravity.length();
-  flood(open, ever, calm ? top + weight * options.voxelSize() : INFINITY);
+  m_flood = flood(open, ever, calm ? top + weight * options.voxelSize() : INFINITY);
   if (!calm) return;
-  m_atRest = !m_unbounded;
+  m_atRest = !m_flood.unbounded;
   for (std::size_t n = 0; n < ever.size() && m_atRest; ++n) {
-    if (m_reached[n] == 0 || -options.gravity.dot(place(n)) > top - 1.01 * weight * m_step) continue;
+    if (m_flood.reached[n] == 0 || -options.gravity.dot(place(n)) > top - 1.01 * weight * m_step) continue;
     m_atRest = ever[n] < 0.5 * m_step;
   }
   for (int side = 0; side < 6 && m_atRest; ++side) {
@@ -112,10 +121,10 @@ Surroundings::Surroundings(const sim::Options& options, const std::vector<std::s
     for (std::size_t n = 0; n < ever.size(); ++n) {
       const Coord at(static_cast<int>(n) / (m_count[1] * m_count[2]),
                      static_cast<int>(n) / m_count[2] % m_count[1], static_cast<int>(n) % m_count[2]);
-      if (at[axis] == end && m_reached[n] != 0) m_atRest = false;
+      if (at[axis] == end && m_flood.reached[n] != 0) m_atRest = false;
     }
   }
-  if (!m_atRest) flood(open, ever, INFINITY);
+  if (!m_atRest) m_flood = flood(open, ever, INFINITY);
 }
 
 Vec3d Surroundings::place(std::size_t sample) const {
@@ -189,13 +198,13 @@ void Surroundings::findUnresolved(const sim::Solids& solids, const std::vector<f
 }
 
 // highest: no place with more of -gravity . x is entered.
-void Surroundings::flood(const std::vector<float>& open, const std::vector<float>& liquid, double highest) {
-  m_reached.assign(open.size(), 0);
-  m_unbounded = false;
+Surroundings::Flood Surroundings::flood(const std::vector<float>& open, const std::vector<float>& liquid,
+                                        double highest) const {
+  Flood found{std::vector<std::uint8_t>(open.size(), 0)};
   std::vector<std::size_t> front;
   const auto enter = [&](std::size_t n) {
-    if (m_reached[n] != 0 || open[n] <= 0.0f || -m_options.gravity.dot(place(n)) > highest) return;
-    m_reached[n] = 1;
+    if (found.reached[n] != 0 || open[n] <= 0.0f || -m_options.gravity.dot(place(n)) > highest) return;
+    found.reached[n] = 1;
     front.push_back(n);
   };
   for (std::size_t n = 0; n < open.size(); ++n)
@@ -204,7 +213,7 @@ void Surroundings::flood(const std::vector<float>& open, const std::vector<float
                                  static_cast<std::size_t>(m_count[2]), 1};
   // What is behind one unbounded side is behind all of them.
   const auto enterFromOutside = [&] {
-    m_unbounded = true;
+    found.unbounded = true;
     for (std::size_t n = 0; n < open.size(); ++n) {
       for (int side = 0; side < 6; ++side) {
         const int a = side / 2, at = static_cast<int>(n / stride[a]) % m_count[a];
@@ -219,25 +228,48 @@ void Surroundings::flood(const std::vector<float>& open, const std::vector<float
     for (int side = 0; side < 6; ++side) {
       const int a = side / 2, at = static_cast<int>(n / stride[a]) % m_count[a];
       if (at == (side % 2 == 0 ? 0 : m_count[a] - 1)) {
-        if (m_options.sides[side] == sim::Side::unbounded && !m_unbounded) enterFromOutside();
+        if (m_options.sides[side] == sim::Side::unbounded && !found.unbounded) enterFromOutside();
         continue;
       }
       enter(side % 2 == 0 ? n - stride[a] : n + stride[a]);
     }
   }
+  return found;
+}
+
+// source: distances to it; taken: to all liquid that is ever poured or a source's, and to solids.
+double Surroundings::roomFrom(const std::vector<float>& open, const std::vector<float>& source,
+                              const std::vector<float>& taken) const {
+  double least = INFINITY;
+  std::vector<std::uint8_t> seen(open.size(), 0);
+  std::vector<float> start(open.size(), 1.0f);
+  for (std::size_t n = 0; n < open.size(); ++n) {
+    if (source[n] >= 0.0f || open[n] <= 0.0f || seen[n] != 0) continue;
+    start[n] = -1.0f;
+    const Flood part = flood(open, start, INFINITY);
+    start[n] = 1.0f;
+    double room = part.unbounded ? INFINITY : 0.0;
+    for (std::size_t m = 0; m < open.size(); ++m) {
+      if (part.reached[m] == 0) continue;
+      seen[m] = 1;
+      room += share(-taken[m], m_step) * m_step * m_step * m_step;
+    }
+    least = std::min(least, room);
+  }
+  return least;
 }
 
 bool Surroundings::reached(const Coord& cell) const {
   const Coord first =
       Coord(cell[0] * kSamplesPerCell, cell[1] * kSamplesPerCell, cell[2] * kSamplesPerCell) - m_first;
   for (int a = 0; a < 3; ++a)
-    if (first[a] < 0 || first[a] >= m_count[a]) return m_unbounded;
+    if (first[a] < 0 || first[a] >= m_count[a]) return m_flood.unbounded;
   for (int i = 0; i < kSamplesPerCell; ++i) {
     for (int j = 0; j < kSamplesPerCell; ++j) {
       for (int k = 0; k < kSamplesPerCell; ++k) {
         const std::size_t n =
             (static_cast<std::size_t>(first[0] + i) * m_count[1] + first[1] + j) * m_count[2] + first[2] + k;
-        if (m_reached[n] != 0) return true;
+        if (m_flood.reached[n] != 0) return true;
       }
     }
   }

@@ -54,6 +54,11 @@ class Surroundings {
   // a cell belongs to one side of a wall.
   double besideThinWalls() const { return m_besideThinWalls; }
 
+  // m3 that a source (by index) can fill: of the open that its liquid can get to, as solids are at the start,
+  // without what is poured or a source's at any time. Where walls divide the source, of the smallest part.
+  // Infinite where liquid can get out of the domain through an unbounded side.
+  double roomFor(std::size_t source) const { return m_rooms[source]; }
+
   // Most of -gravity . x, m2/s2, of what is poured or comes in until time t; -infinity where there is
   // nothing.
   double highest(double t) const;
@@ -63,13 +68,20 @@ class Surroundings {
   std::vector<float> distances(const std::function<double(const Vec3d&)>& distance) const;
   void findUnresolved(const sim::Solids& solids, const std::vector<float>& open,
                       const std::vector<float>& liquid);
-  void flood(const std::vector<float>& open, const std::vector<float>& liquid, double highest);
+  // What liquid can get to in the open from where it is.
+  struct Flood {
+    std::vector<std::uint8_t> reached;
+    bool unbounded = false;  // it can get out through an unbounded side
+  };
+  Flood flood(const std::vector<float>& open, const std::vector<float>& liquid, double highest) const;
+  double roomFrom(const std::vector<float>& open, const std::vector<float>& source,
+                  const std::vector<float>& taken) const;
 
   const sim::Options& m_options;
   double m_step;           // from sample to sample, metres
   Coord m_first, m_count;  // of samples
-  std::vector<std::uint8_t> m_reached;
-  bool m_unbounded = false;  // liquid can get out through an unbounded side
+  Flood m_flood;
+  std::vector<double> m_rooms;  // of sources
   bool m_atRest = false;
   double m_poured = 0.0, m_pouredSurface = 0.0, m_inNarrowGaps = 0.0, m_besideThinWalls = 0.0;
   struct Body {
