@@ -92,6 +92,9 @@ TEST_CASE("surroundings: what leaves through one unbounded side may come back th
   const Surroundings around(options, {});
   CHECK(around.reached(Coord(15, 10, 10)));
   CHECK(around.reached(Coord(-40, 0, 0)));
+  // It flows out, and may splash.
+  CHECK_FALSE(around.atRest());
+  CHECK(around.reached(Coord(4, 10, 18)));
 }
 
 TEST_CASE("surroundings: volumes are those of the shapes outside of solids", "[stress]") {
