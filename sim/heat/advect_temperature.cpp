@@ -6,6 +6,7 @@
 
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/velocity_window.h"
+#include "sim/solids/own_side_trace.h"
 #include "sim/solids/trace_end.h"
 
 #include <tbb/parallel_for.h>
@@ -46,14 +47,23 @@ FloatGrid::Ptr advectTemperature(const FloatGrid& from, const Velocity& velocity
     VelocityWindow flow;
     Window before, predicted;
     TraceEnd end;
+    const Visibility* visibility;
+    Coord origin;
     // From a cell's centre.
     Vec3f trace(int offset, const Vec3f& x, float step) const {
-      return end.onOwnSide(offset, x, flow.trace(x, step));
+      Vec3f to = flow.trace(x, step);
+      if (end.nearThinWalls()) {
+        const auto speed = [&](int axis, const Vec3f& at) { return step * flow.component(axis).at(at); };
+        const OwnSideTrace ownSide(*visibility, origin, speed);
+        if (ownSide.isBesideWall(x) || ownSide.isBesideWall(to)) to = ownSide(x);
+      }
+      return end.onOwnSide(offset, x, to);
     }
   };
   const auto load = [&](const Coord& origin) {
-    Windows windows{VelocityWindow(halo), Window(halo, centre), Window(halo, centre),
-                    TraceEnd(*solid.phi, solid.visibility.get())};
+    Windows windows{VelocityWindow(halo),   Window(halo, centre),
+                    Window(halo, centre),   TraceEnd(*solid.phi, solid.visibility.get()),
+                    solid.visibility.get(), origin};
     windows.end.setLeaf(origin, halo);
     windows.flow.load(velocity, origin);
     windows.before.load(from.constTree(), origin);
