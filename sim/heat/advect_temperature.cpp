@@ -55,7 +55,7 @@ FloatGrid::Ptr advectTemperature(const FloatGrid& from, const Velocity& velocity
       if (end.nearThinWalls()) {
         const auto speed = [&](int axis, const Vec3f& at) { return step * flow.component(axis).at(at); };
         const OwnSideTrace ownSide(*visibility, origin, speed);
-        if (ownSide.isBesideWall(x) || ownSide.isBesideWall(to)) to = ownSide(x);
+        to = ownSide.corrected(x, ownSide.cellAt(x), to);
       }
       return end.onOwnSide(offset, x, to);
     }

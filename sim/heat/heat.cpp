@@ -4,6 +4,7 @@
 #include "sim/grid/require.h"
 #include "sim/poisson/poisson.h"
 #include "sim/solids/solid_layers.h"
+#include "sim/solids/table_sight.h"
 #include "sim/surface/level_set.h"
 
 #include <tbb/parallel_for.h>
@@ -109,9 +110,11 @@ void heatBody(FloatGrid& temperature, const std::function<double(const Vec3d&)>&
   });
 }
 
-void extendTemperature(FloatGrid& temperature, const FloatGrid& phi, const FloatGrid& solidPhi, int layers) {
+void extendTemperature(FloatGrid& temperature, const FloatGrid& phi, const FloatGrid& solidPhi, int layers,
+                       const Visibility* visibility) {
   const float h = static_cast<float>(phi.voxelSize()[0]);
   const LeafTable table = makeLeafTable(temperature.constTree());
+  const TableSight sight(table, visibility);
   std::vector<float> value = sampleOn(table, temperature.constTree());
   const std::vector<float> p = sampleOn(table, phi.constTree()), s = sampleOn(table, solidPhi.constTree());
   std::vector<std::uint8_t> known(table.voxels());
@@ -124,7 +127,7 @@ void extendTemperature(FloatGrid& temperature, const FloatGrid& phi, const Float
         float sum = 0.0f;
         int count = 0;
         for (int side = 0; side < 6; ++side) {
-          const std::int64_t beside = table.neighbor(static_cast<std::int64_t>(v), side);
+          const std::int64_t beside = sight.cell(static_cast<std::int64_t>(v), side);
           if (beside < 0 || known[beside] == 0) continue;
           sum += value[beside];
           ++count;

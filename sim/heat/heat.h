@@ -25,7 +25,8 @@ FloatGrid::Ptr makeTemperature(double h, double background);
 void heatBody(FloatGrid& temperature, const std::function<double(const Vec3d&)>& distance, double value);
 
 // Extrapolates temperature, constant, from the liquid's cells into air and solids, for `layers` cells.
-void extendTemperature(FloatGrid& temperature, const FloatGrid& phi, const FloatGrid& solidPhi, int layers);
+void extendTemperature(FloatGrid& temperature, const FloatGrid& phi, const FloatGrid& solidPhi, int layers,
+                       const Visibility* visibility = nullptr);
 
 // Conduction in the liquid, radiation from its surface (Stefan-Boltzmann law, against the surroundings) and
 // loss to walls, for dt seconds.

@@ -94,10 +94,11 @@ struct Motion {
   }
 };
 
-// Moves a marker from where it was. Markers are measured from the centre of the block's first cell.
+// Corrects a marker's way from where it was. Markers are measured from the centre of the block's first cell.
 template <class Trace>
-void traceOnOwnSide(const Trace& trace, const Marker& was, Marker& m) {
-  const Vec3f to = trace(Vec3f(was.x, was.y, was.z) + Vec3f(0.5f)) - Vec3f(0.5f);
+void keepOnOwnSide(const Trace& trace, const Marker& was, Marker& m) {
+  const auto place = [](const Marker& marker) { return Vec3f(marker.x, marker.y, marker.z) + Vec3f(0.5f); };
+  const Vec3f to = trace.corrected(place(was), trace.cellAt(place(was)), place(m)) - Vec3f(0.5f);
   m.x = to[0], m.y = to[1], m.z = to[2];
 }
 
@@ -135,7 +136,7 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt, cons
     }
     // In the middle of a thin wall a marker is between the two sides, and the smallest motion would put the
     // liquid of one side into the air of the other.
-    const Sight sight(visibility, markers[n].origin);
+    const Sight sight(visibility, markers[n].origin, halo);
     before.clear();
     if (sight.any()) before = here;
     const auto speed = [&](int axis, const Vec3f& place) { return motion.at(axis, place); };
@@ -145,8 +146,7 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt, cons
     for (std::size_t number = 0; number < here.size(); ++number) {
       Marker& m = here[number];
       if (sight.any()) {
-        if (sight.at(before[number]) != nullptr || sight.at(m) != nullptr)
-          traceOnOwnSide(OwnSideTrace(*visibility, markers[n].origin, speed), before[number], m);
+        keepOnOwnSide(OwnSideTrace(*visibility, markers[n].origin, speed), before[number], m);
         if (sight.parts(before[number], m)) continue;
       }
       const int di = wrap(m.x), dj = wrap(m.y), dk = wrap(m.z), to = neighborNumber(di, dj, dk);

@@ -16,9 +16,11 @@ inline int nearestCell(float x) {
 // Visibility for the markers of one block.
 class Sight {
  public:
-  // visibility: null where no solid is thin.
-  Sight(const Visibility* visibility, const Coord& origin) : m_visibility(visibility), m_origin(origin) {
-    if (visibility == nullptr || !visibility->touches(openvdb::CoordBBox(origin, origin.offsetBy(kLeafDim))))
+  // visibility: null where no solid is thin. reach: cells that markers come out of the block.
+  Sight(const Visibility* visibility, const Coord& origin, int reach = 0)
+      : m_visibility(visibility), m_origin(origin) {
+    if (visibility == nullptr ||
+        !visibility->touches(openvdb::CoordBBox(origin.offsetBy(-reach), origin.offsetBy(kLeafDim + reach))))
       m_visibility = nullptr;
   }
   bool any() const { return m_visibility != nullptr; }

@@ -7,9 +7,9 @@
 #include "sim/grid/mac_grid.h"
 #include "sim/grid/require.h"
 #include "sim/poisson/poisson.h"
-#include "sim/pressure/held_sources.h"
 #include "sim/pressure/liquid_cells.h"
 #include "sim/pressure/pressure_system.h"
+#include "sim/pressure/slowed_sources.h"
 #include "sim/pressure/tension_pressure.h"
 #include "sim/solids/solid_layers.h"
 #include "sim/surface/level_set.h"
@@ -299,13 +299,13 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   report.converged = true;
   std::vector<double> q(n, 0.0), expansion;
   std::vector<char> detached(n, 0);
-  SolidField held = solid;  // with the velocities that sources get in the end
+  SolidField slowed = solid;  // with the velocities that sources get in the end
   for (int pass = 0; n > 0; ++pass) {
     std::vector<int> liquidOf;
     const PoissonSystem system = pressureSystem(liquid, detached, liquidOf);
     const auto singular = singularParts(system);
-    // All cells are unknowns yet. Later passes enclose nothing more.
-    if (pass == 0 && solid.given) held.given = heldSources(solid, singular, liquid);
+    // All cells are unknowns yet. In later passes a part with more inflow than outflow keeps an open edge.
+    if (pass == 0 && solid.given) slowed.given = slowedSources(solid, singular, liquid);
     std::vector<char> enclosed(n, 0);
     for (const auto& part : singular) {
       for (const int i : part) enclosed[liquidOf[i]] = 1;
@@ -365,9 +365,9 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   }
 
   if (options.keepBefore) result.before = {{u.deepCopy(), v.deepCopy(), w.deepCopy()}};
-  result.valid.component[0] = updateFaces(liquid, surface, held, q, detached, 0, u);
-  result.valid.component[1] = updateFaces(liquid, surface, held, q, detached, 1, v);
-  result.valid.component[2] = updateFaces(liquid, surface, held, q, detached, 2, w);
+  result.valid.component[0] = updateFaces(liquid, surface, slowed, q, detached, 0, u);
+  result.valid.component[1] = updateFaces(liquid, surface, slowed, q, detached, 1, v);
+  result.valid.component[2] = updateFaces(liquid, surface, slowed, q, detached, 2, w);
   if (!expansion.empty()) {
     result.expansion = makeVelocity(solid.voxelSize);
     const SolidField still = atRest(solid);

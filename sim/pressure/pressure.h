@@ -67,7 +67,7 @@ struct Projection {
 // Surface: pressure 0 (see PressureOptions::surfaceTension), at its place between two cell centres by phi,
 // second-order. Solids: free-slip walls, given by open face areas and speed; liquid may separate from them
 // (see PressureOptions). Open sides of the domain: pressure 0 and no inflow. Faces with a given velocity get
-// it, whatever the pressure; but sources in enclosed liquid are slowed (sim/pressure/held_sources.h).
+// it, whatever the pressure; but sources in enclosed liquid are slowed (sim/pressure/slowed_sources.h).
 // Faces are written and made active where Projection::valid says; the rest keeps its values. Bit-identical on
 // any number of threads.
 // Where it fails to converge the report says so. Throws std::invalid_argument where dt or density is not

@@ -48,9 +48,9 @@ bool beyondOpening(const SolidField& solid, const Coord& face, int axis) {
   return false;
 }
 
-// Whether a thin wall separates the two cells of a face.
-bool isInThinWall(const SolidField& solid, const Coord& face, int axis) {
-  return solid.visibility != nullptr && solid.visibility->hides(face, shifted(face, axis, -1));
+// Whether a thin wall separates the two cells of a leaf's face. sight: null where all is visible.
+bool isInThinWall(const Visibility::Leaf* sight, int offset, int axis) {
+  return sight != nullptr && !(*sight)[offset].sees(VisibleCells::kMiddle - VisibleCells::kStride[axis]);
 }
 
 // A leaf's active faces that are closed, or almost closed, and not known.
@@ -107,6 +107,7 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
       // Deep inside a solid the distance is clamped and has no gradient.
       const auto [least, most] = std::minmax_element(distance.begin(), distance.end());
       if (*most - *least < 1e-3f * static_cast<float>(solid.voxelSize)) continue;
+      const Visibility::Leaf* sight = solid.visibility != nullptr ? solid.visibility->leaf(origin) : nullptr;
       liquid.load(phi.constTree(), origin);
       for (int a = 0; a < 3; ++a) {
         speed[a].load(grids[a]->constTree(), origin);
@@ -129,7 +130,7 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
           // In the middle of a thin wall both sides read the velocity. Deep inside a solid there is no
           // normal, and nothing reads it.
           const bool within = *here < 0.0f && *below < 0.0f && here[kBlockStride[axis]] > *here;
-          if (isInThinWall(solid, c, axis) || (within && wall.getValue(shifted(c, axis, -2)) > *below)) {
+          if (isInThinWall(sight, offset, axis) || (within && wall.getValue(shifted(c, axis, -2)) > *below)) {
             changes[n].push_back({own[axis]->buffer().data() + offset, speed[axis][at] - velocity[axis]});
             continue;
           }

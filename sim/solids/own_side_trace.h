@@ -15,13 +15,16 @@ using openvdb::Vec3f;
 template <class Speed>
 class OwnSideTrace {
  public:
-  // visibility must outlive this.
+  // All must outlive this.
   OwnSideTrace(const Visibility& visibility, const Coord& origin, const Speed& speed)
       : m_visibility(visibility), m_origin(origin), m_speed(speed) {}
 
-  // Whether a thin wall is beside a cell, or that of a place.
-  bool isBesideWall(const Coord& cell) const { return around(cell) != nullptr; }
-  bool isBesideWall(const Vec3f& place) const { return isBesideWall(cellAt(place)); }
+  // The end of a trace that was made without regard to walls and leads to `to`; traced anew where it begins
+  // or ends within VisibleCells::kReach cells of a thin wall. One that only passes such a wall stays as it
+  // is.
+  Vec3f corrected(const Vec3f& start, const Coord& cell, const Vec3f& to) const {
+    return around(cell) != nullptr || around(cellAt(to)) != nullptr ? (*this)(start, cell) : to;
+  }
 
   // The place to which `start`, in or on a face of `cell`, moves. Third-order Runge-Kutta [Ralston 1962].
   Vec3f operator()(const Vec3f& start, const Coord& cell) const {
@@ -30,15 +33,14 @@ class OwnSideTrace {
     const Vec3f k3 = velocityAt(start + 0.75f * k2, cell);
     return start + (2.0f * k1 + 3.0f * k2 + 4.0f * k3) / 9.0f;
   }
-  Vec3f operator()(const Vec3f& start) const { return (*this)(start, cellAt(start)); }
-
- private:
-  const VisibleCells* around(const Coord& cell) const { return m_visibility.around(m_origin + cell); }
 
   static Coord cellAt(const Vec3f& place) {
     return Coord(static_cast<int>(std::floor(place[0])), static_cast<int>(std::floor(place[1])),
                  static_cast<int>(std::floor(place[2])));
   }
+
+ private:
+  const VisibleCells* around(const Coord& cell) const { return m_visibility.around(m_origin + cell); }
 
   // A place that a wall hides from `from` is read at the wall instead: in that cell.
   Vec3f velocityAt(Vec3f place, const Coord& from) const {
@@ -54,7 +56,8 @@ class OwnSideTrace {
     const Vec3f middle = cell.asVec3s() + Vec3f(0.5f);
     Vec3f velocity;
     for (int a = 0; a < 3; ++a)
-      velocity[a] = m_speed(a, visible == nullptr ? place : middle + onOwnSide(*visible, place - middle, a));
+      velocity[a] =
+          m_speed(a, visible == nullptr ? place : middle + moveToOwnSide(*visible, place - middle, a));
     return velocity;
   }
 

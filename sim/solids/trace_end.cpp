@@ -76,7 +76,7 @@ Vec3f TraceEnd::onOwnSide(int offset, const Vec3f& start, const Vec3f& aim, int 
   const VisibleCells* visible = m_nearThinWalls ? m_visibility->around(cell) : nullptr;
   if (visible == nullptr) return place;
   const Vec3f middle = (cell - m_origin).asVec3s() + Vec3f(0.5f);
-  return middle + sim::onOwnSide(*visible, place - middle, axis);
+  return middle + moveToOwnSide(*visible, place - middle, axis);
 }
 
 }  // namespace fluidtex::sim

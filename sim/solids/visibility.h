@@ -30,10 +30,10 @@ void extrapolateBehind(Stencil& values, const VisibleCells& visible,
 // along the axes that the wall blocks.
 void riseBehind(Stencil& values, const VisibleCells& visible, float step);
 
-// The place in or at a cell nearest to `place` of which all samples around are in visible cells. Places: from
-// the cell's centre, in cells. axis: of the samples at faces normal to it, which lie on the cell's own faces;
-// -1 for samples at cell centres.
-openvdb::Vec3f onOwnSide(const VisibleCells& visible, openvdb::Vec3f place, int axis = -1);
+// Moves a place towards a cell's centre until all samples around it are in visible cells, first along the
+// axis on which it is farthest. Places: from the centre, in cells. axis: of samples at faces normal to it,
+// which lie on the cell's own faces; -1 for samples at cell centres.
+openvdb::Vec3f moveToOwnSide(const VisibleCells& visible, openvdb::Vec3f place, int axis = -1);
 
 class Visibility {
  public:

@@ -36,7 +36,12 @@ void pour(Liquid& liquid, const ShapeDistance& body, const std::function<double(
   liquid.velocity = velocityFor(*liquid.phi, solid);
   if (liquid.temperature) {
     liquid.temperature = makeTemperature(*liquid.temperature, liquid.velocity.component[0]->constTree());
-    heatBody(*liquid.temperature, body, temperature);
+    const auto onOwnSide = [&](const Vec3d& x) {
+      const double distance = body(x);
+      const Coord cell = Coord::round(liquid.temperature->worldToIndex(x));
+      return distance >= voxelSize(liquid) || isOnSideOf(body, solid, cell) ? distance : kForever;
+    };
+    heatBody(*liquid.temperature, onOwnSide, temperature);
   }
   const double h = voxelSize(liquid);
   for (int a = 0; a < 3; ++a) {
@@ -98,7 +103,7 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   if (liquid.temperature) {
     liquid.temperature = makeTemperature(*liquid.temperature, liquid.velocity.component[0]->constTree());
     setSourceTemperature(*liquid.temperature, flows);
-    extendTemperature(*liquid.temperature, phi, *solid.phi, kTemperatureLayers);
+    extendTemperature(*liquid.temperature, phi, *solid.phi, kTemperatureLayers, solid.visibility.get());
   }
   // Viscosity acts as long as gravity does.
   const FloatGrid::Ptr viscosity =

@@ -67,7 +67,7 @@ bool moveHeat(const Liquid& liquid, Liquid& next, const SolidField& solid, const
                                        next.velocity.component[0]->constTree(), *next.phi, solid, dt);
   setSourceTemperature(*next.temperature, flows);
   const bool done = conductHeat(*next.temperature, *next.phi, solid, dt, options.density, options.heat);
-  extendTemperature(*next.temperature, *next.phi, *solid.phi, kTemperatureLayers);
+  extendTemperature(*next.temperature, *next.phi, *solid.phi, kTemperatureLayers, solid.visibility.get());
   return done;
 }
 

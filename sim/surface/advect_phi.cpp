@@ -110,7 +110,7 @@ void moveOnce(FloatGrid& phi, const Velocity& velocity, const FloatGrid& solidPh
         const Vec3f centre(float(i >> 6) + 0.5f, float((i >> 3) & 7) + 0.5f, float(i & 7) + 0.5f);
         if (end.nearThinWalls()) {
           const OwnSideTrace trace(*visibility, origin, speed);
-          if (trace.isBesideWall(centre) || trace.isBesideWall(traced)) traced = trace(centre);
+          traced = trace.corrected(centre, trace.cellAt(centre), traced);
         }
         const auto [from, cell] = end(i, centre, traced);
         if (const VisibleCells* visible = end.nearThinWalls() ? visibility->around(cell) : nullptr) {

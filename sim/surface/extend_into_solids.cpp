@@ -25,8 +25,9 @@ using Vec3 = openvdb::Vec3f;
 // A distance's slope is 1. Differences across a kink are steeper, by more than this.
 constexpr float kKink = 0.01f;
 
-// Mean of two differences beside each other, at most twice the smaller of them in magnitude.
-// Source: van Leer, "Towards the ultimate conservative difference scheme III", 1977 (monotonized central).
+// Mean of two differences beside each other, at most twice the smaller of them in magnitude: van Leer,
+// "Towards the ultimate conservative difference scheme III", 1977 (monotonized central), but not 0 at an
+// extremum.
 float limitedMean(const std::array<float, 2>& change) {
   const auto [a, b] = change;
   const float most = 2.0f * std::min(std::abs(a), std::abs(b));

@@ -67,7 +67,7 @@ void advectVelocity(const Velocity& from, const Velocity& carried, Velocity& to,
             // The cell that the trace leads into.
             Coord cell(i >> 6, (i >> 3) & 7, i & 7);
             if (place[axis] < centre[axis]) --cell[axis];
-            if (trace.isBesideWall(cell) || trace.isBesideWall(place)) place = trace(centre, cell);
+            place = trace.corrected(centre, cell, place);
           }
           place = end.onOwnSide(i, centre, place, axis);
           const auto [low, high] = own.range(place);

@@ -33,7 +33,7 @@ struct Layers {
   std::vector<float> change{}, bound{};        // #voxels: of the layer at work, 0 elsewhere
 
   float& speedAt(int axis, std::int64_t face) const { return speed[axis][face >> 9][face & 511]; }
-  // Nothing passes a face in a thin wall; its value is that of neither side.
+  // Nothing passes a face in a thin wall at rest; its value is that of neither side.
   float passing(int axis, std::int64_t face) const {
     return sight.inWall(face, axis) ? 0.0f : speedAt(axis, face);
   }
@@ -71,7 +71,7 @@ struct Layers {
   }
 };
 
-// Leaves of these cells of a leaf only those beside set ones on their own side of walls.
+// Keeps those of a leaf's cells that are beside set ones on their own side of walls.
 void dropHidden(const TableSight& sight, const VoxelMask& mask, std::size_t leaf, LeafBits& cells) {
   if (!sight.any(leaf)) return;
   LeafBits seen{};

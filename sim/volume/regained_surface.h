@@ -11,7 +11,7 @@ namespace fluidtex::sim {
 // Turns a deficit that fills a cell back into surface. A level set alone loses films and drops thinner than
 // its cells; their volume is deficit where they were (see sim/volume/volume_deficit.h). Where the flow
 // gathers so much of it in an air cell that the cell is almost full, with no liquid beside it that could take
-// it (a source's own can not), phi becomes a surface there again. Its distance from the centre is that of a
+// it (a source's own cannot), phi becomes a surface there again. Its distance from the centre is that of a
 // plane that cuts off this volume. The deficit is reduced by what the surface then encloses, so that the sum
 // stays. Air markers in and beside these cells are dropped, or they would remove the surface.
 void regainSurface(FloatGrid& phi, Markers& markers, FloatGrid& deficit, const SolidField& solid,

@@ -23,7 +23,7 @@ struct Failure {
 //            more may be missing while what is seen is films
 //   outside  no liquid where there is no open path to
 //   energy   kinetic, potential and surface energy together, with what the volume deficit may have, do not
-//            rise where nothing drives the liquid, but by the surface that drains lay open
+//            rise where nothing drives the liquid, except by the surface that drains lay open
 //   speed    is no more than gravity, height and the driving forces can give, three times that where solids
 //            move
 //   rest     what is at rest stays at rest

@@ -119,7 +119,7 @@ double fastestInBath(const Vec3d& size, const Box& outside, const Box& inside, d
   const Solids solids(options);
   double fastest = 0.0;
   for (int n = 0; n < frames; ++n) {
-    solver.next();
+    REQUIRE(solver.next().stats.volume > 200.0);
     const State& state = solver.state();
     for (auto it = state.phi->cbeginValueOn(); it; ++it) {
       const Coord cell = it.getCoord();

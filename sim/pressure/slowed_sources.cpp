@@ -1,4 +1,4 @@
-#include "sim/pressure/held_sources.h"
+#include "sim/pressure/slowed_sources.h"
 
 #include "sim/grid/mac_grid.h"
 
@@ -39,9 +39,9 @@ std::vector<Inlet> inletsOf(const std::vector<int>& part, const SolidField& soli
 
 }  // namespace
 
-FaceGrids heldSources(const SolidField& solid, const std::vector<std::vector<int>>& enclosed,
-                      LiquidCells& liquid) {
-  FaceGrids held = solid.given;
+FaceGrids slowedSources(const SolidField& solid, const std::vector<std::vector<int>>& enclosed,
+                        LiquidCells& liquid) {
+  FaceGrids slowed = solid.given;
   bool copied = false;
   for (const std::vector<int>& part : enclosed) {
     const std::vector<Inlet> inlets = inletsOf(part, solid, liquid);
@@ -52,16 +52,16 @@ FaceGrids heldSources(const SolidField& solid, const std::vector<std::vector<int
     const double share = std::clamp(excess / comesIn, 0.0, 1.0);
     if (share <= 0.0) continue;
     if (!copied) {
-      for (FloatGrid::Ptr& grid : held.component) grid = grid->deepCopy();
+      for (FloatGrid::Ptr& grid : slowed.component) grid = grid->deepCopy();
       copied = true;
     }
     for (const auto& [number, axis, face, flow] : inlets) {
-      FloatTree& given = held.component[axis]->tree();
+      FloatTree& given = slowed.component[axis]->tree();
       given.setValueOn(face, static_cast<float>((1.0 - share) * given.getValue(face)));
       liquid.outflow[number] += share * flow;
     }
   }
-  return held;
+  return slowed;
 }
 
 }  // namespace fluidtex::sim

@@ -1,4 +1,4 @@
-// Sources in liquid that can not take more.
+// Sources in liquid that cannot take more.
 #pragma once
 
 #include "sim/pressure/liquid_cells.h"
@@ -9,11 +9,12 @@
 namespace fluidtex::sim {
 
 // The given velocities (SolidField::given), with those slowed that lead into liquid enclosed on all sides: so
-// much that no more comes in than goes out. Liquid does not compress; a source in a full room stands still.
+// much that no more comes in than goes out. Liquid does not compress; nothing comes out of a source in a full
+// room, though the faces within it keep their velocity.
 // outflow of the cells beside slowed faces is changed with them. Parts that reach a stream side stay as they
 // are.
 // enclosed: the parts of the liquid without a surface, each a list of its cells.
-FaceGrids heldSources(const SolidField& solid, const std::vector<std::vector<int>>& enclosed,
-                      LiquidCells& liquid);
+FaceGrids slowedSources(const SolidField& solid, const std::vector<std::vector<int>>& enclosed,
+                        LiquidCells& liquid);
 
 }  // namespace fluidtex::sim

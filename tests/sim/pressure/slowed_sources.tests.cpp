@@ -1,4 +1,4 @@
-#include "sim/pressure/held_sources.h"
+#include "sim/pressure/slowed_sources.h"
 
 #include "tests/sim/pressure/pressure_scene.h"
 
@@ -35,7 +35,7 @@ double frontSpeed(Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("held sources: what is full takes nothing more, and stays divergence-free", "[sim]") {
+TEST_CASE("slowed sources: what is full takes nothing more, and stays divergence-free", "[sim]") {
   Scene scene = withSource([](const Vec3d&) { return -1.0; });
   CHECK(std::abs(frontSpeed(scene)) < 1e-6);
   MaskGrid source;
@@ -43,12 +43,12 @@ TEST_CASE("held sources: what is full takes nothing more, and stays divergence-f
   CHECK(scene.largestDivergence(source) < 1e-5);
 }
 
-TEST_CASE("held sources: below a surface they give what they are told", "[sim]") {
+TEST_CASE("slowed sources: below a surface they give what they are told", "[sim]") {
   Scene scene = withSource([](const Vec3d& x) { return x[2] - 0.8; });
   CHECK(frontSpeed(scene) == 1.0);
 }
 
-TEST_CASE("held sources: they make up for what a solid that draws back leaves", "[sim]") {
+TEST_CASE("slowed sources: they make up for what a solid that draws back leaves", "[sim]") {
   Scene scene = withSource([](const Vec3d&) { return -1.0; });
   const auto& c = scene.velocity.component;
   LiquidCells liquid =
@@ -58,7 +58,7 @@ TEST_CASE("held sources: they make up for what a solid that draws back leaves", 
   for (int n = 0; n < liquid.numbering.size(); ++n) excess -= liquid.outflow[all[n] = n];
   CHECK(excess == Approx(1.0));
   liquid.outflow[0] += 0.25;
-  const FaceGrids held = heldSources(*scene.solid, {all}, liquid);
-  CHECK(held[2].tree().getValue(kFront) == Approx(0.25f));
+  const FaceGrids slowed = slowedSources(*scene.solid, {all}, liquid);
+  CHECK(slowed[2].tree().getValue(kFront) == Approx(0.25f));
   CHECK(scene.solid->given[2].tree().getValue(kFront) == 1.0f);
 }
