@@ -22,6 +22,8 @@ constexpr double kAround[] = {2.0, 5.0, 12.0};
 // Cosine of the angle up to which it may have turned there. A sphere that stays within half a cell of its
 // tangent plane over two cells turns by 28 degrees; beyond an edge of the body the normal is another one.
 constexpr double kTurned = 0.88;
+// Widths, in cells, over which a body's normal is taken; the smaller ones beside an edge.
+constexpr double kLeastWidth = 1e-4, kMostWidth = 0.01;
 // Bisection steps between two cells.
 constexpr int kHalvings = 40;
 
@@ -67,11 +69,12 @@ bool isParallel(const Distance& solids, const Vec3d& place, const Vec3d& normal,
 
 // Whether a body ends at a solid at a place on its surface: there the two surfaces coincide, or the body
 // reaches some way into the solid. Where one cuts the other, the body's surface continues into the solid.
+// edge: how near the place may be to an edge of the body; the normal is taken from less far.
 bool isAtSolid(const ShapeDistance& body, const Distance& solids, const Vec3d& place, double apart,
-               double h) {
+               double edge, double h) {
   const double away = solids(place);
   if (away > apart) return false;
-  const Vec3d normal = normalAt(body, place, 0.01 * h);
+  const Vec3d normal = normalAt(body, place, std::clamp(0.5 * edge, kLeastWidth * h, kMostWidth * h));
   if (!isParallel(solids, place, normal, h)) return false;
   return away >= -apart || !comesOut(body, solids, place, normal, h);
 }
@@ -111,7 +114,7 @@ double distanceAcross(const ShapeDistance& body, const Distance& solids, const V
         }
         const Vec3d place = crossing(body, from, beside, here);
         const double length = place[axis] - x[axis];
-        if (std::abs(length) < nearest && !isAtSolid(body, solids, place, apart, h) &&
+        if (std::abs(length) < nearest && !isAtSolid(body, solids, place, apart, std::abs(here), h) &&
             !leadsThroughWall(solids, x, axis, length, h))
           nearest = std::abs(length);
         break;
@@ -145,7 +148,7 @@ Distance pouredSurface(const ShapeDistance& body, Distance solids, double h) {
     const Vec3d closest = place - here * normalAt(body, place, 0.01 * h);
     // Where two surfaces are equally near, neither lies along the gradient of the distance.
     const bool isOn = std::abs(body(closest)) < touching;
-    if (place == x && isOn && !isAtSolid(body, solids, closest, touching, h)) return here;
+    if (place == x && isOn && !isAtSolid(body, solids, closest, touching, h, h)) return here;
     if (const double across = distanceAcross(body, solids, place, here, h); across > 0.0)
       return here < 0.0 ? -across : across;
     // The body ends at the solid here; its own surface is farther away.

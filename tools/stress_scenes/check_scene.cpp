@@ -7,6 +7,7 @@
 #include "sim/step/state_io.h"
 #include "sim/surface/level_set.h"
 #include "tools/stress_scenes/budget.h"
+#include "tools/stress_scenes/closing_gap.h"
 #include "tools/stress_scenes/measures.h"
 #include "tools/stress_scenes/surroundings.h"
 
@@ -50,6 +51,8 @@ constexpr double kGivenBack = 8.0;
 constexpr double kFilms = 0.1;
 // Of the speed at which a ripple of a cell's height falls, which is sqrt(g h): what is left at rest is less.
 constexpr double kStill = 0.05;
+// Cells of a gap that solids close, below which the liquid in it may be deficit.
+constexpr double kNarrow = 2.0;
 // In a frame. Liquid of the greatest speed that is allowed takes less.
 constexpr int kMostSteps = 500;
 
@@ -146,6 +149,7 @@ class Checks {
     if (const std::string grid = notFinite(solver.state()); !grid.empty()) return fail("finite", grid);
     const auto solid = m_solids.around({solver.state().phi.get()}, frame.time, m_solids.active(frame.time));
     const Measures now = measure(solver.state(), *solid, m_options);
+    m_gap = std::min(m_gap, closingGap(m_options, frame.time));
     volume(frame, now);
     outside(solver.state(), frame);
     energy(solver.state(), frame, now);
@@ -183,7 +187,8 @@ class Checks {
     const bool films =
         frame.stats.deficit > 0.0 && now.mass / m_options.density < kFilmThickness * h * now.area;
     m_owing = !films && deficit > kMostDeficit * whole + always ? m_owing + 1 : 0;
-    if (films) return;
+    // Nor is what a closing gap holds that is little wider than a cell.
+    if (films || m_gap < kNarrow * h) return;
     if (m_owing >= kDeficitFrames || deficit > atOnce + always)
       fail("deficit", fmt::format("{:+.3g} m3, {:+.1f}% of {:.4g} m3, most of it ({:+.3g} of a cell) at {}",
                                   frame.stats.deficit, 100.0 * frame.stats.deficit / whole, whole,
@@ -271,8 +276,10 @@ class Checks {
     const double given = givenSpeed(m_options);
     const double height = std::max(0.0, m_surroundings.highest(time) - now.lowest) +
                           (isDriven(m_options) ? weight * m_options.size.length() : 0.0);
-    // Between solids that close on each other liquid comes out the faster the narrower the gap is.
-    const double most = (anyMoves(m_options) ? 3.0 : 1.0) * kJets *
+    // Between solids that close on each other liquid comes out the faster the narrower the gap is: what a
+    // gap's whole length gives has to go out through its width.
+    const double squeezed = anyMoves(m_options) ? std::max(3.0, m_options.size.length() / m_gap) : 1.0;
+    const double most = squeezed * kJets *
                         std::sqrt(given * given + 2.0 * height + 2.0 * weight * h +
                                   4.0 * m_options.surfaceTension / (m_options.density * h));
     if (now.speed.value > most)
@@ -286,6 +293,7 @@ class Checks {
   VolumeBudget m_budget;
   std::vector<Failure> m_failures;
   int m_frame = 0, m_owing = 0;
+  double m_gap = INFINITY;  // metres: the narrowest that solids have closed yet
   double m_time = 0.0, m_energy = 0.0, m_mostDeficit = 0.0;
 };
 

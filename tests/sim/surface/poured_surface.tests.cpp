@@ -146,3 +146,10 @@ TEST_CASE("poured surface: liquid stays level a cell below the rim of a bath") {
   const Box inside{Vec3d(8.2337, 7.29805, 7.51105), Vec3d(11.2764, 22.092, 13.6472)};
   CHECK(fastestInBath(Vec3d(13, 25, 18), outside, inside, 12.53065, 12) < 0.02);
 }
+
+TEST_CASE(
+    "poured surface: liquid is level in the corner of a bath, however near a cell's centre is to a wall") {
+  const Box outside{Vec3d(3.8, 5.2, 3.2), Vec3d(16.3, 16.6, 22.3)};
+  const Box inside{Vec3d(6.6, 8.07, 6.0), Vec3d(13.5044, 13.738, 22.3)};
+  CHECK(fastestInBath(Vec3d(29, 21, 28), outside, inside, 13.388, 4) < 0.02);
+}
