@@ -5,6 +5,7 @@
 #include "sim/grid/require.h"
 #include "sim/surface/cell_volume.h"
 #include "sim/surface/level_set.h"
+#include "sim/volume/shut_faces.h"
 #include "sim/volume/volume_flux.h"
 
 #include <tbb/parallel_for.h>
@@ -73,64 +74,6 @@ bool isWay(const LeafPatch& faces, const LeafPatch& room, int at, int axis, bool
   const int stride = kPatchStride[axis];
   return faces[up ? at + stride : at] > 0.0f && room[up ? at + stride : at - stride] > 0.0f &&
          room[at] > 0.0f;
-}
-
-// The neighbour of a cell in a patch on a side (0 to 5: -x, +x, -y, ...).
-int besideIn(int at, int side) {
-  const int stride = kPatchStride[side / 2];
-  return side % 2 == 0 ? at - stride : at + stride;
-}
-
-// Shut faces between two cells that both have room, as in a thin wall: no deficit passes there. A bit for
-// each side of each cell of a leaf; null for most leaves, which have none.
-using ShutSides = std::array<std::uint8_t, kLeafSize>;
-using ShutFaces = std::vector<std::unique_ptr<ShutSides>>;
-
-ShutFaces shutFaces(const LeafTable& leaves, const std::vector<float>& room, const FaceGrids& open) {
-  ShutFaces shut(leaves.size());
-  std::vector<char> isCut(leaves.size());  // solids take room in the leaf
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    const float* own = room.data() + n * kLeafSize;
-    isCut[n] = std::any_of(own, own + kLeafSize, [](float r) { return r < 1.0f; });
-  });
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    // A wall may begin in the plane between two leaves.
-    const auto& next = leaves.next[n];
-    if (!isCut[n] && std::none_of(next.begin(), next.end(), [&](int m) { return m >= 0 && isCut[m]; }))
-      return;
-    LeafPatch space{};
-    loadPatch(leaves, room, n, space, [](float) { return 0.0f; });
-    std::array<LeafPatch, 3> faces;
-    for (int a = 0; a < 3; ++a) faces[a] = patchOf(open.component[a]->constTree(), leaves.origins[n]);
-    ShutSides sides{};
-    for (int i = 0; i < kLeafSize; ++i) {
-      const int at = patchIndex(i);
-      for (int side = 0; side < 6; ++side) {
-        const int beside = besideIn(at, side);
-        const bool isShut = faces[side / 2][std::max(at, beside)] <= 0.0f;
-        if (isShut && space[at] > 0.0f && space[beside] > 0.0f) sides[i] |= std::uint8_t(1 << side);
-      }
-    }
-    if (sides != ShutSides{}) shut[n] = std::make_unique<ShutSides>(sides);
-  });
-  return shut;
-}
-
-// Calls body(offset, sum) for the cells of a leaf that have a shut side. sum(flow): of flow(at, beside), with
-// patch indices, over a cell's other sides.
-template <class Body>
-void forCellsBesideShut(const ShutFaces& shut, std::size_t leaf, const Body& body) {
-  if (shut[leaf] == nullptr) return;
-  for (int i = 0; i < kLeafSize; ++i) {
-    const int sides = (*shut[leaf])[i], at = patchIndex(i);
-    if (sides == 0) continue;
-    body(i, [&](const auto& flow) {
-      float sum = 0.0f;
-      for (int side = 0; side < 6; ++side)
-        if ((sides >> side & 1) == 0) sum += flow(at, besideIn(at, side));
-      return sum;
-    });
-  }
 }
 
 // Moves the deficit of air cells towards the liquid, to the neighbours that are nearer to it. phi: `far` or

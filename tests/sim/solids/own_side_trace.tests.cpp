@@ -10,13 +10,21 @@
 using namespace fluidtex::sim;
 using Catch::Detail::Approx;
 
-TEST_CASE("own-side trace: beside a thin wall nothing of the flow behind it is read") {
-  // A plate across x from 15.7 to 16.3 of 32 cells. Before it, liquid goes along y at 0.5 cells a step,
-  // behind it at -2.
+namespace {
+
+// Across x from 15.7 to 16.3 of 32 cells.
+std::shared_ptr<const SolidField> plate() {
   Options options = tank(32, {});
   options.solids.resize(1);
   options.solids[0].shape = {Box{Vec3d(15.7 / 32, -1.0, -1.0), Vec3d(16.3 / 32, 2.0, 2.0)}};
-  const auto solid = Solids(options).at(0.0);
+  return Solids(options).at(0.0);
+}
+
+}  // namespace
+
+TEST_CASE("own-side trace: beside a thin wall nothing of the flow behind it is read") {
+  // Before it, liquid goes along y at 0.5 cells a step, behind it at -2.
+  const auto solid = plate();
   const auto speed = [](int axis, const Vec3f& x) {
     if (axis != 1) return 0.0f;
     const float part = std::min(std::max(x[0] - 15.5f, 0.0f), 1.0f);  // linear between the samples
@@ -36,11 +44,8 @@ TEST_CASE("own-side trace: beside a thin wall nothing of the flow behind it is r
 }
 
 TEST_CASE("own-side trace: liquid driven against a thin wall reads the velocity at the wall, not behind it") {
-  // The plate as above. Liquid goes against it at a cell a step and along it at 0.5; behind, along at -2.
-  Options options = tank(32, {});
-  options.solids.resize(1);
-  options.solids[0].shape = {Box{Vec3d(15.7 / 32, -1.0, -1.0), Vec3d(16.3 / 32, 2.0, 2.0)}};
-  const auto solid = Solids(options).at(0.0);
+  // Liquid goes against it at a cell a step and along it at 0.5; behind, along at -2.
+  const auto solid = plate();
   const auto speed = [](int axis, const Vec3f& x) {
     if (axis == 0) return x[0] < 16.0f ? 1.0f : 0.0f;
     return axis == 1 ? (x[0] <= 15.5f ? 0.5f : -2.0f) : 0.0f;
