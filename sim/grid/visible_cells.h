@@ -17,6 +17,7 @@ struct VisibleCells {
   // at: kMiddle + i kStride[0] + j kStride[1] + k kStride[2] for the cell (i, j, k) away.
   bool sees(int at) const { return (bits[at >> 6] >> (at & 63) & 1) != 0; }
   bool seesAll() const { return bits[0] == ~std::uint64_t{0} && bits[1] == ~std::uint64_t{0}; }
+  void show(int at) { bits[at >> 6] |= std::uint64_t{1} << (at & 63); }
   void hide(int at) { bits[at >> 6] &= ~(std::uint64_t{1} << (at & 63)); }
 };
 

@@ -78,9 +78,15 @@ int cornerOf(const Marker& m, int corner) {
          (int(m.z) + (corner & 1) - nearestCell(m.z)) * kStride[2];
 }
 
+bool seesCorners(const VisibleCells& visible, const Marker& m) {
+  for (int corner = 0; corner < 8; ++corner)
+    if (!visible.sees(cornerOf(m, corner))) return false;
+  return true;
+}
+
 // phi, in cells, at a marker.
 float sample(const BlockSamples& distance, const Marker& m, const VisibleCells* visible) {
-  if (visible == nullptr) return distance.at(m.x, m.y, m.z);
+  if (visible == nullptr || seesCorners(*visible, m)) return distance.at(m.x, m.y, m.z);
   constexpr int kReach = VisibleCells::kReach;
   Stencil values;
   float* to = values.data();

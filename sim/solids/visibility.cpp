@@ -25,6 +25,33 @@ constexpr int kFar = 5, kBox = 2 * kFar + 1;
 constexpr int kBoxStride[3] = {kBox * kBox, kBox, 1};
 constexpr int kBoxMiddle = kFar * (kBoxStride[0] + kBoxStride[1] + kBoxStride[2]);
 
+// A cell of a stencil, and the strides that lead from it towards the middle, one an axis.
+struct Outwards {
+  int at = 0, axes = 0;
+  int inwards[3] = {};
+};
+
+// All cells of a stencil but the middle, those that fewer faces part from it first.
+constexpr auto kOutwards = [] {
+  constexpr int kReach = VisibleCells::kReach;
+  std::array<Outwards, VisibleCells::kCount - 1> cells{};
+  std::size_t count = 0;
+  for (int ring = 1; ring <= 3 * kReach; ++ring) {
+    for (int at = 0; at < VisibleCells::kCount; ++at) {
+      Outwards cell{at};
+      int rest = at, steps = 0;
+      for (const int stride : VisibleCells::kStride) {
+        const int away = rest / stride - kReach;
+        rest %= stride;
+        steps += away < 0 ? -away : away;
+        if (away != 0) cell.inwards[cell.axes++] = away < 0 ? stride : -stride;
+      }
+      if (steps == ring) cells[count++] = cell;
+    }
+  }
+  return cells;
+}();
+
 struct Surroundings {
   std::vector<float> distance;                 // in cells
   std::array<std::vector<float>, 3> openness;  // of the lower faces
@@ -213,38 +240,21 @@ std::unique_ptr<Visibility::Leaf> look(const Surroundings& around) {
 
 void extrapolateBehind(Stencil& values, const VisibleCells& visible, float gap) {
   if (visible.seesAll()) return;
-  constexpr int kReach = VisibleCells::kReach;
-  std::array<bool, VisibleCells::kCount> known;
-  for (int at = 0; at < VisibleCells::kCount; ++at) known[at] = visible.sees(at);
-  // Outwards from the middle, so that values beside it are extrapolated.
-  for (int ring = 1; ring <= 3 * kReach; ++ring) {
-    for (int i = -kReach; i <= kReach; ++i) {
-      for (int j = -kReach; j <= kReach; ++j) {
-        const int k = ring - std::abs(i) - std::abs(j);
-        if (k < 0 || k > kReach) continue;
-        for (const int up : {-1, 1}) {
-          if (k == 0 && up > 0) continue;
-          const int offset[3] = {i, j, up * k};
-          int at = VisibleCells::kMiddle;
-          for (int a = 0; a < 3; ++a) at += offset[a] * VisibleCells::kStride[a];
-          if (known[at]) continue;
-          float sum = 0.0f;
-          int count = 0;
-          for (int a = 0; a < 3; ++a) {
-            if (offset[a] == 0) continue;
-            const int inwards = offset[a] > 0 ? -VisibleCells::kStride[a] : VisibleCells::kStride[a];
-            const float near = values[at + inwards];
-            // Two steps inwards may pass the middle, but never leave the stencil.
-            const float further = known[at + 2 * inwards] ? 2.0f * near - values[at + 2 * inwards] : near;
-            const bool sameSide = (further < 0.0f) == (near < 0.0f);
-            sum += sameSide || further - near > gap ? further : near;
-            ++count;
-          }
-          values[at] = sum / static_cast<float>(count);
-          known[at] = true;
-        }
-      }
+  VisibleCells known = visible;
+  for (const Outwards& cell : kOutwards) {
+    if (known.sees(cell.at)) continue;
+    float sum = 0.0f;
+    for (int n = 0; n < cell.axes; ++n) {
+      const int inwards = cell.inwards[n];
+      const float near = values[cell.at + inwards];
+      // Two steps inwards may pass the middle, but never leave the stencil.
+      const int second = cell.at + 2 * inwards;
+      const float further = known.sees(second) ? 2.0f * near - values[second] : near;
+      const bool sameSide = (further < 0.0f) == (near < 0.0f);
+      sum += sameSide || further - near > gap ? further : near;
     }
+    values[cell.at] = sum / static_cast<float>(cell.axes);
+    known.show(cell.at);
   }
 }
 
