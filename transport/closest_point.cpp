@@ -14,13 +14,6 @@ using openvdb::Coord;
 // Relative to a triangle's size: tolerance of culling, so that rounding never culls a tie.
 constexpr float kSlack = 2e-3f;
 
-std::size_t hashOf(const Coord& c) {
-  std::uint64_t h = std::uint32_t(c.x()) * 0x9e3779b97f4a7c15u;
-  h = (h ^ std::uint32_t(c.y())) * 0xbf58476d1ce4e5b9u;
-  h = (h ^ std::uint32_t(c.z())) * 0x94d049bb133111ebu;
-  return std::size_t(h ^ (h >> 32));
-}
-
 // Barycentric weights of the point of triangle (0, ab, ac) closest to p.
 Vec3f closestWeights(const Vec3f& p, const Vec3f& ab, const Vec3f& ac) {
   const float d1 = ab.dot(p), d2 = ac.dot(p);
@@ -71,7 +64,7 @@ inline openvdb::Coord ClosestPoint::cellOf(const Vec3d& x) const {
 }
 
 ClosestPoint::ClosestPoint(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles)
-    : m_positions(positions), m_triangles(triangles), m_bounds(triangles.size()), m_table(64) {
+    : m_positions(positions), m_triangles(triangles), m_bounds(triangles.size()) {
   if (triangles.empty()) throw std::invalid_argument("closest points need at least one triangle");
   for (const Vec3I& t : triangles) {
     if (std::max({t[0], t[1], t[2]}) >= positions.size())
@@ -117,30 +110,14 @@ ClosestPoint::ClosestPoint(const std::vector<Vec3f>& positions, const std::vecto
 }
 
 const ClosestPoint::Block* ClosestPoint::findBlock(const Coord& origin) const {
-  const std::size_t mask = m_table.size() - 1;
-  for (std::size_t slot = hashOf(origin) & mask; m_table[slot] != 0; slot = (slot + 1) & mask) {
-    const Block& block = m_blocks[m_table[slot] - 1];
-    if (block.origin == origin) return &block;
-  }
-  return nullptr;
+  const std::uint32_t number = m_places.find(origin);
+  return number == BlockTable::kNone ? nullptr : &m_blocks[number];
 }
 
 ClosestPoint::Block& ClosestPoint::makeBlock(const Coord& origin) {
-  if (const Block* known = findBlock(origin)) return m_blocks[std::size_t(known - m_blocks.data())];
-  m_blocks.emplace_back().origin = origin;
-  const auto enter = [&](std::size_t index) {
-    const std::size_t mask = m_table.size() - 1;
-    std::size_t slot = hashOf(m_blocks[index].origin) & mask;
-    while (m_table[slot] != 0) slot = (slot + 1) & mask;
-    m_table[slot] = std::uint32_t(index + 1);
-  };
-  if (2 * m_blocks.size() > m_table.size()) {
-    m_table.assign(2 * m_table.size(), 0);
-    for (std::size_t i = 0; i < m_blocks.size(); ++i) enter(i);
-  } else {
-    enter(m_blocks.size() - 1);
-  }
-  return m_blocks.back();
+  const std::uint32_t number = m_places.enter(origin);
+  if (number == m_blocks.size()) m_blocks.emplace_back().origin = origin;
+  return m_blocks[number];
 }
 
 template <typename Visit>

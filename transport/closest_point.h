@@ -1,6 +1,8 @@
 // Closest points on a triangle mesh, with a penalty on opposite sides.
 #pragma once
 
+#include "numerics/block_table.h"
+
 #include <openvdb/Types.h>
 
 #include <array>
@@ -66,7 +68,7 @@ class ClosestPoint {
   double m_cellSize = 0.0, m_cellsPerMetre = 0.0;
   std::vector<Bounds> m_bounds;  // of the triangles
   std::vector<Block> m_blocks;
-  std::vector<std::uint32_t> m_table;    // open addressing by block origin: index + 1, 0: free
+  BlockTable m_places;                   // of the blocks
   std::vector<std::uint32_t> m_entries;  // triangles by cell, ascending in each
 };
 

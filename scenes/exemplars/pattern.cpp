@@ -1,6 +1,6 @@
 #include "scenes/exemplars/pattern.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 
 #include <algorithm>
 #include <cmath>

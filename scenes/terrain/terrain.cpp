@@ -1,7 +1,7 @@
 // Noise: Perlin, "Improving noise", 2002, with hashed gradients.
 #include "scenes/terrain/terrain.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 
 #include <algorithm>
 #include <cmath>

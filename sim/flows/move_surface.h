@@ -1,7 +1,7 @@
 // The liquid's surface over one substep: level set and markers together.
 #pragma once
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "sim/flows/flows.h"
 #include "sim/grid/mac_grid.h"
 #include "sim/markers/markers.h"

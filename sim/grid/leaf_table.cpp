@@ -1,9 +1,10 @@
 #include "sim/grid/leaf_table.h"
 
+#include "numerics/block_table.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace fluidtex::sim {
 namespace {
@@ -36,10 +37,9 @@ LeafTable makeLeafTable(const FloatTree& tree) {
   LeafTable table;
   const auto leaves = leavesOf(tree);
   table.origins.reserve(leaves.size());
-  std::unordered_map<Coord, std::int32_t> numberOf;
-  numberOf.reserve(leaves.size());
+  BlockTable numbers(leaves.size());
   for (const FloatLeaf* leaf : leaves) {
-    numberOf.emplace(leaf->origin(), static_cast<std::int32_t>(table.origins.size()));
+    numbers.enter(leaf->origin());
     table.origins.push_back(leaf->origin());
   }
   table.next.resize(leaves.size());
@@ -47,8 +47,9 @@ LeafTable makeLeafTable(const FloatTree& tree) {
     for (int direction = 0; direction < 6; ++direction) {
       Coord there = table.origins[n];
       there[direction >> 1] += (direction & 1) != 0 ? kLeafDim : -kLeafDim;
-      const auto found = numberOf.find(there);
-      table.next[n][static_cast<std::size_t>(direction)] = found == numberOf.end() ? -1 : found->second;
+      const std::uint32_t number = numbers.find(there);
+      table.next[n][static_cast<std::size_t>(direction)] =
+          number == BlockTable::kNone ? -1 : static_cast<std::int32_t>(number);
     }
   });
   return table;

@@ -1,6 +1,6 @@
 #include "sim/markers/markers.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "sim/grid/block_samples.h"
 #include "sim/markers/marker_sight.h"
 
@@ -86,7 +86,8 @@ bool seesCorners(const VisibleCells& visible, const Marker& m) {
 
 // phi, in cells, at a marker.
 float sample(const BlockSamples& distance, const Marker& m, const VisibleCells* visible) {
-  if (visible == nullptr || seesCorners(*visible, m)) return distance.at(m.x, m.y, m.z);
+  if (visible == nullptr || visible->seesNear() || seesCorners(*visible, m))
+    return distance.at(m.x, m.y, m.z);
   constexpr int kReach = VisibleCells::kReach;
   Stencil values;
   float* to = values.data();

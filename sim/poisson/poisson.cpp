@@ -9,7 +9,6 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -34,18 +33,11 @@ void removeMeans(const std::vector<std::vector<int>>& parts, std::vector<Scalar>
 CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks) {
   m_lists = std::make_shared<Lists>();
   Lists& lists = *m_lists;
-  std::vector<Coord> places;
   for (const CellBlock& block : blocks) {
     lists.origins.push_back(block.origin);
-    const Coord place = block.origin >> 5;
-    if (places.empty() || places.back() != place) places.push_back(place);
+    lists.tables.enter(block.origin >> 5);
   }
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  lists.tables.resize(std::bit_ceil(2 * places.size() + 1));
-  lists.blockStart.assign(64 * places.size(), -1);
-  for (std::size_t n = 0; n < places.size(); ++n)
-    lists.tables[slotOf(places[n])] = {places[n], static_cast<int>(64 * n)};
+  lists.blockStart.assign(64 * lists.tables.size(), -1);
   lists.numbers.assign(blocks.size() * 512, -1);
 
   std::bitset<512> red;
@@ -55,7 +47,8 @@ CellNumbering::CellNumbering(const std::vector<CellBlock>& blocks) {
   std::vector<int> firstRed(count), firstBlack(count);
   int size = 0;
   for (int b = 0; b < count; ++b) {
-    lists.blockStart[tableOf(blocks[b].origin) + placeInTable(blocks[b].origin)] = b * 512;
+    const std::size_t table = lists.tables.find(blocks[b].origin >> 5);
+    lists.blockStart[64 * table + placeInTable(blocks[b].origin)] = b * 512;
     firstRed[b] = m_red;
     const int reds = static_cast<int>((blocks[b].cells & red).count());
     m_red += reds;

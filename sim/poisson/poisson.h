@@ -2,6 +2,8 @@
 // preconditioner.
 #pragma once
 
+#include "numerics/block_table.h"
+
 #include <openvdb/math/Coord.h>
 
 #include <algorithm>
@@ -45,9 +47,9 @@ class CellNumbering {
 
   // Indices of a block's 512 cells (-1: not in the list), or null where the block has none.
   const int* block(const Coord& anyCellInside) const {
-    const int table = tableOf(anyCellInside);
-    if (table < 0) return nullptr;
-    const int start = m_lists->blockStart[table + placeInTable(anyCellInside)];
+    const std::uint32_t table = m_lists->tables.find(anyCellInside >> 5);
+    if (table == BlockTable::kNone) return nullptr;
+    const int start = m_lists->blockStart[64 * std::size_t(table) + placeInTable(anyCellInside)];
     return start < 0 ? nullptr : m_lists->numbers.data() + start;
   }
 
@@ -58,32 +60,15 @@ class CellNumbering {
   }
 
  private:
-  // A table's place in blockStart; -1: none.
-  struct Table {
-    Coord place{0};  // in cells / 32
-    int start = -1;
-  };
-
-  // The table that holds a place, or the free slot where it would be.
-  std::size_t slotOf(const Coord& place) const {
-    const std::size_t mask = m_lists->tables.size() - 1;
-    const std::uint64_t mixed = static_cast<std::uint32_t>(place[0]) * 0x9e3779b97f4a7c15u ^
-                                static_cast<std::uint32_t>(place[1]) * 0xc2b2ae3d27d4eb4fu ^
-                                static_cast<std::uint32_t>(place[2]) * 0x165667b19e3779f9u;
-    std::size_t slot = (mixed >> 32) & mask;
-    while (m_lists->tables[slot].start >= 0 && m_lists->tables[slot].place != place) slot = (slot + 1) & mask;
-    return slot;
-  }
-  int tableOf(const Coord& cell) const { return m_lists->tables[slotOf(cell >> 5)].start; }
   static int placeInTable(const Coord& cell) {
     return (((cell[0] >> 3) & 3) << 4) | (((cell[1] >> 3) & 3) << 2) | ((cell[2] >> 3) & 3);
   }
 
   struct Lists {
     std::vector<Coord> origins;
-    std::vector<int> places;             // of the cells: 512 times the block's, and which of its 512
-    std::vector<Table> tables{Table{}};  // a power of two, never full
-    std::vector<int> blockStart;         // into numbers; -1: no cells
+    std::vector<int> places;      // of the cells: 512 times the block's, and which of its 512
+    BlockTable tables;            // by their lowest cell / 32
+    std::vector<int> blockStart;  // into numbers, by table and block in it; -1: no cells
     std::vector<int> numbers;
   };
 

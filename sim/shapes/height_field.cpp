@@ -1,6 +1,7 @@
 // Bicubic interpolation: Keys, "Cubic convolution interpolation for digital image processing", 1981.
 #include "sim/shapes/height_field.h"
 
+#include "numerics/catmull_rom.h"
 #include "sim/meshes/triangle_mesh.h"
 #include "sim/shapes/read_heights.h"
 
@@ -16,16 +17,11 @@ namespace {
 // Of a mesh, each of two triangles: with its level set some gigabytes.
 constexpr double kMostHeights = 16777216.0;
 
-std::array<double, 4> cubicWeights(double t) {
-  return {0.5 * t * (-1.0 + t * (2.0 - t)), 1.0 + 0.5 * t * t * (-5.0 + 3.0 * t),
-          0.5 * t * (1.0 + t * (4.0 - 3.0 * t)), 0.5 * t * t * (t - 1.0)};
-}
-
 // Column and row in pixels from the first one's centre; beyond the rim it is that of the rim.
 double sample(const HeightImage& image, double column, double row) {
   const double x = std::clamp(column, 0.0, image.width - 1.0), y = std::clamp(row, 0.0, image.height - 1.0);
   const int i = static_cast<int>(x), j = static_cast<int>(y);
-  const auto wx = cubicWeights(x - i), wy = cubicWeights(y - j);
+  const auto wx = catmullRom(x - i), wy = catmullRom(y - j);
   double sum = 0.0;
   for (int b = 0; b < 4; ++b) {
     const int r = std::clamp(j + b - 1, 0, image.height - 1);

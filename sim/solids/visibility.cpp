@@ -280,6 +280,7 @@ void riseBehind(Stencil& values, const VisibleCells& visible, float step) {
 
 openvdb::Vec3f moveToOwnSide(const VisibleCells& visible, openvdb::Vec3f place, int axis) {
   if (axis >= 0) place[axis] = std::clamp(place[axis], -0.5f, 0.5f);
+  if (visible.seesNear()) return place;
   // The neighbours on the place's side of the cell's centre, along one axis or several.
   for (int n = 1; n < 8;) {
     int at = VisibleCells::kMiddle, farthest = -1;

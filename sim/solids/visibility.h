@@ -4,6 +4,7 @@
 // 2005, section 4 (one-sided interpolation by visibility).
 #pragma once
 
+#include "numerics/block_table.h"
 #include "sim/grid/mac_grid.h"
 #include "sim/grid/visible_cells.h"
 
@@ -13,7 +14,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <unordered_map>
 #include <vector>
 
 namespace fluidtex::sim {
@@ -42,8 +42,8 @@ class Visibility {
   bool empty() const { return m_leaves.empty(); }
   // Of the cells of one block of 8 x 8 x 8, by its lowest cell; null where all around each is visible.
   const Leaf* leaf(const Coord& origin) const {
-    const auto found = m_leaves.find(origin);
-    return found == m_leaves.end() ? nullptr : found->second.get();
+    const std::uint32_t number = m_places.find(origin);
+    return number == BlockTable::kNone ? nullptr : m_leaves[number].get();
   }
   // Of one cell; null where all around it is visible.
   const VisibleCells* around(const Coord& cell) const;
@@ -53,10 +53,15 @@ class Visibility {
   // Whether a cell of the box may have hidden cells around it.
   bool touches(const openvdb::CoordBBox& box) const;
 
-  void add(const Coord& origin, std::unique_ptr<Leaf> leaf) { m_leaves.emplace(origin, std::move(leaf)); }
+  // origin: of a block that was not added yet.
+  void add(const Coord& origin, std::unique_ptr<Leaf> leaf) {
+    m_places.enter(origin);
+    m_leaves.push_back(std::move(leaf));
+  }
 
  private:
-  std::unordered_map<Coord, std::unique_ptr<Leaf>> m_leaves;
+  BlockTable m_places;
+  std::vector<std::unique_ptr<Leaf>> m_leaves;  // by number
 };
 
 // Visibility from solidPhi and open, as in SolidField. Null where all is visible.

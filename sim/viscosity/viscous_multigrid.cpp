@@ -5,13 +5,13 @@
 // sheet of one or two cells bends almost without strain, in modes that no coarser grid represents.
 #include "sim/viscosity/viscous_multigrid.h"
 
+#include "numerics/block_table.h"
 #include "sim/viscosity/viscous_factor.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_map>
 
 namespace fluidtex::sim {
 
@@ -69,24 +69,17 @@ Parents parentsOf(const Coord& face, int c) {
 // Voxels of a table by coordinate.
 class VoxelFinder {
  public:
-  explicit VoxelFinder(const std::unordered_map<Coord, std::int32_t>& leaves) : m_leaves(leaves) {}
+  explicit VoxelFinder(const BlockTable& leaves) : m_leaves(leaves) {}
 
-  std::int64_t at(const Coord& c) {
+  std::int64_t at(const Coord& c) const {
     const Coord origin = c & ~(kLeafDim - 1);
-    if (origin != m_origin || m_leaf == kUnset) {
-      const auto found = m_leaves.find(origin);
-      m_origin = origin;
-      m_leaf = found == m_leaves.end() ? -1 : found->second;
-    }
-    if (m_leaf < 0) return -1;
-    return static_cast<std::int64_t>(m_leaf) * kLeafSize + ((c[0] & 7) << 6) + ((c[1] & 7) << 3) + (c[2] & 7);
+    const std::uint32_t leaf = m_leaves.find(origin);
+    if (leaf == BlockTable::kNone) return -1;
+    return static_cast<std::int64_t>(leaf) * kLeafSize + ((c[0] & 7) << 6) + ((c[1] & 7) << 3) + (c[2] & 7);
   }
 
  private:
-  static constexpr std::int32_t kUnset = -2;
-  const std::unordered_map<Coord, std::int32_t>& m_leaves;
-  Coord m_origin{0};
-  std::int32_t m_leaf = kUnset;
+  const BlockTable& m_leaves;
 };
 
 int componentOf(const ViscousSystem& system, std::int32_t face) {
@@ -119,9 +112,8 @@ ViscousSystem coarsen(const ViscousSystem& fine, FaceTransfer& transfer) {
     }
   }
   coarse.table = makeLeafTable(topology);
-  std::unordered_map<Coord, std::int32_t> leaves;
-  for (std::size_t n = 0; n < coarse.table.size(); ++n)
-    leaves.emplace(coarse.table.origins[n], static_cast<std::int32_t>(n));
+  BlockTable leaves(coarse.table.size());
+  for (const Coord& origin : coarse.table.origins) leaves.enter(origin);
 
   std::array<std::vector<std::uint8_t>, 3> state;
   tbb::parallel_for(0, 3, [&](int c) {

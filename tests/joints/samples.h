@@ -1,7 +1,7 @@
 // Pictures for tests of what joints look like.
 #pragma once
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/exemplar/srgb.h"
 #include "texture/shown/color_between.h"
 

@@ -1,5 +1,7 @@
 #include "texture/exemplar/image.h"
 
+#include "numerics/catmull_rom.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,13 +20,6 @@ float inside(float t, int size, bool toroidal) {
 int neighbor(int i, int size, bool toroidal) {
   if (i >= 0 && i < size) return i;
   return toroidal ? (i % size + size) % size : std::clamp(i, 0, size - 1);
-}
-
-// Weights of the values at -1, 0, 1, 2.
-std::array<float, 4> cubicWeights(float t) {
-  const float t2 = t * t, t3 = t2 * t;
-  return {0.5f * (-t3 + 2.0f * t2 - t), 0.5f * (3.0f * t3 - 5.0f * t2 + 2.0f),
-          0.5f * (-3.0f * t3 + 4.0f * t2 + t), 0.5f * (t3 - t2)};
 }
 
 }  // namespace
@@ -48,7 +43,7 @@ template <typename Read>
 void cubic(const Image& image, bool toroidal, const Vec2f& texel, const Read& read, float* out) {
   const float x = inside(texel[0], image.width, toroidal), y = inside(texel[1], image.height, toroidal);
   const int x0 = int(x), y0 = int(y);
-  const std::array<float, 4> across = cubicWeights(x - float(x0)), down = cubicWeights(y - float(y0));
+  const auto across = catmullRom(x - float(x0)), down = catmullRom(y - float(y0));
   std::array<int, 4> column;
   std::array<const float*, 4> row;
   for (int i = 0; i < 4; ++i) {

@@ -1,6 +1,6 @@
 #include "texture/frames/fresh_start.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/labels/guidance.h"
 #include "texture/labels/usage.h"
 #include "texture/labels/ways.h"

@@ -1,6 +1,6 @@
 #include "texture/frames/later_frame.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/frames/first_frame.h"
 #include "texture/frames/fresh_start.h"
 #include "texture/frames/look_ahead.h"

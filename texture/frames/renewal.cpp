@@ -1,6 +1,6 @@
 #include "texture/frames/renewal.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/labels/fresh.h"
 #include "texture/labels/guidance.h"
 #include "texture/labels/pieces.h"

@@ -2,7 +2,7 @@
 // seam cost of Kwatra, Schoedl, Essa, Turk, Bobick, "Graphcut textures" (2003).
 #include "texture/labels/label_expansion.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/labels/guidance.h"
 #include "texture/labels/min_cut.h"
 #include "texture/labels/usage.h"

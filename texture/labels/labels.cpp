@@ -1,6 +1,6 @@
 #include "texture/labels/labels.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/labels/guidance.h"
 #include "texture/labels/ways.h"
 #include "texture/loops/complex.h"

@@ -1,8 +1,8 @@
 #include "texture/levelset/level_set.h"
 
-#include "texture/loops/morton.h"
-
+#include "numerics/catmull_rom.h"
 #include "texture/levelset/crossed_cells.h"
+#include "texture/loops/morton.h"
 #include "texture/loops/parallel.h"
 #include "texture/loops/point_grid.h"
 
@@ -32,13 +32,6 @@ constexpr float kFarthest = 8.0f;
 
 std::uint64_t morton(const Coord& origin) {
   return mortonCode(origin.x() / kBlockSide, origin.y() / kBlockSide, origin.z() / kBlockSide);
-}
-
-std::size_t hashOf(const Coord& origin) {
-  std::uint64_t h = std::uint64_t(std::uint32_t(origin.x())) * 0x9e3779b97f4a7c15ULL ^
-                    std::uint64_t(std::uint32_t(origin.y())) * 0xc2b2ae3d27d4eb4fULL ^
-                    std::uint64_t(std::uint32_t(origin.z())) * 0x165667b19e3779f9ULL;
-  return std::size_t(h ^ h >> 32);
 }
 
 void requireFinite(const FloatGrid& phi, const std::vector<const Leaf*>& leaves) {
@@ -234,31 +227,14 @@ LevelSet::LevelSet(const FloatGrid& phi) {
   m_surfaceBlocks = m_origins.size();
   sortAlongCurve(around);
 
-  std::size_t capacity = 16;
-  while (capacity < 2 * (m_surfaceBlocks + around.size())) capacity *= 2;
-  m_table.assign(capacity, kNone);
-  const auto insert = [&](std::uint32_t block) {
-    std::size_t slot = hashOf(m_origins[block]) & (capacity - 1);
-    while (m_table[slot] != kNone) slot = (slot + 1) & (capacity - 1);
-    m_table[slot] = block;
-  };
-  for (std::uint32_t b = 0; b < m_surfaceBlocks; ++b) insert(b);
-  for (const Coord& o : around) {
-    if (find(o) != kNone) continue;
-    m_origins.push_back(o);
-    insert(std::uint32_t(m_origins.size() - 1));
-  }
+  m_blocks = BlockTable(m_surfaceBlocks + around.size());
+  for (const Coord& origin : m_origins) m_blocks.enter(origin);
+  for (const Coord& origin : around)
+    if (m_blocks.enter(origin) == m_origins.size()) m_origins.push_back(origin);
   m_values = std::make_unique_for_overwrite<float[]>(m_origins.size() * kBlockValues);
   forBlocks(m_origins.size(), [&](const FloatGrid::ConstAccessor& acc, std::size_t i) {
     gather(acc, m_origins[i], scale, m_values.get() + i * kBlockValues);
   });
-}
-
-std::uint32_t LevelSet::find(const Coord& origin) const {
-  std::size_t slot = hashOf(origin) & (m_table.size() - 1);
-  while (m_table[slot] != kNone && m_origins[m_table[slot]] != origin)
-    slot = (slot + 1) & (m_table.size() - 1);
-  return m_table[slot];
 }
 
 LevelSet::Sample LevelSet::sample(const Vec3f& x) const {
@@ -267,23 +243,9 @@ LevelSet::Sample LevelSet::sample(const Vec3f& x) const {
   const std::uint32_t block = find(Coord(i & ~7, j & ~7, k & ~7));
   if (block == kNone) return s;
 
-  // Catmull-Rom weights along one axis, and their derivatives.
-  const auto weights = [](float t, float* w, float* d) {
-    const float t2 = t * t, t3 = t2 * t;
-    w[0] = 0.5f * (-t + 2.0f * t2 - t3);
-    w[1] = 0.5f * (2.0f - 5.0f * t2 + 3.0f * t3);
-    w[2] = 0.5f * (t + 4.0f * t2 - 3.0f * t3);
-    w[3] = 0.5f * (t3 - t2);
-    d[0] = 0.5f * (-1.0f + 4.0f * t - 3.0f * t2);
-    d[1] = 0.5f * (-10.0f * t + 9.0f * t2);
-    d[2] = 0.5f * (1.0f + 8.0f * t - 9.0f * t2);
-    d[3] = 0.5f * (3.0f * t2 - 2.0f * t);
-  };
-  float wx[4], wy[4], wz[4], dx[4], dy[4], dz[4];
-  weights(x.x() - float(i), wx, dx);
-  weights(x.y() - float(j), wy, dy);
-  weights(x.z() - float(k), wz, dz);
-
+  const float tx = x.x() - float(i), ty = x.y() - float(j), tz = x.z() - float(k);
+  const auto wx = catmullRom(tx), wy = catmullRom(ty), wz = catmullRom(tz);
+  const auto dx = catmullRomSlope(tx), dy = catmullRomSlope(ty), dz = catmullRomSlope(tz);
   const float* corner = values(block) + ((i & 7) * kBlockPadded + (j & 7)) * kBlockPadded + (k & 7);
   Float4 value{}, alongX{}, alongY{};
   for (int a = 0; a < 4; ++a) {

@@ -2,6 +2,7 @@
 // and the scale of the texture on it.
 #pragma once
 
+#include "numerics/block_table.h"
 #include "texture/surface.h"
 
 #include <openvdb/openvdb.h>
@@ -12,6 +13,7 @@ namespace fluidtex::texture {
 
 inline constexpr int kBlockSide = 8;     // cells along a block's edge; block origins are multiples of it
 inline constexpr int kBlockPadded = 11;  // values along its edge: local coordinates -1..9
+static_assert(BlockTable::kNone == kNone);
 
 // Index space (voxel = 1, voxel centres at integers); distances in voxels, whatever the grid's transform.
 // Only blocks near the zero set are kept. Throws std::invalid_argument if a value is not finite or voxels are
@@ -30,7 +32,8 @@ class LevelSet {
     return m_values.get() + block * kBlockPadded * kBlockPadded * kBlockPadded;
   }
   std::size_t blockCount() const { return m_origins.size(); }
-  std::uint32_t find(const openvdb::Coord& origin) const;
+  // kNone where the block is not kept.
+  std::uint32_t find(const openvdb::Coord& origin) const { return m_blocks.find(origin); }
 
   // Side of an exemplar pixel at x over the spacing; linear between voxels. 1 before setScale().
   float scale(const Vec3f& x) const { return m_scale.empty() ? 1.0f : sampleScale(x); }
@@ -64,8 +67,8 @@ class LevelSet {
 
   std::vector<openvdb::Coord> m_origins;
   std::unique_ptr<float[]> m_values;
-  std::vector<float> m_scale;          // empty: 1 everywhere
-  std::vector<std::uint32_t> m_table;  // open addressing on the block's origin
+  std::vector<float> m_scale;  // empty: 1 everywhere
+  BlockTable m_blocks;
   std::size_t m_surfaceBlocks = 0;
 };
 

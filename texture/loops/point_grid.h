@@ -1,6 +1,7 @@
 // Points sorted into a grid of cells.
 #pragma once
 
+#include "numerics/block_table.h"
 #include "texture/loops/parallel.h"
 #include "texture/surface.h"
 
@@ -22,19 +23,10 @@ inline Cell cellAt(const Vec3f& x, double perLength) {
   return {cellAlong(x.x() * perLength), cellAlong(x.y() * perLength), cellAlong(x.z() * perLength)};
 }
 
-// For hash tables with a power of two of slots.
-inline std::size_t cellHash(const Cell& cell) {
-  std::uint64_t h = std::uint64_t(std::uint32_t(cell[0])) * 0x9e3779b1u ^
-                    std::uint64_t(std::uint32_t(cell[1])) * 0x85ebca77u ^
-                    std::uint64_t(std::uint32_t(cell[2])) * 0xc2b2ae3du;
-  h *= 0x9e3779b97f4a7c15u;
-  return std::size_t(h >> 32);
-}
-
-// The same, but 4x4x4 cells are adjacent, for locality. For a surface the table should have about four slots
-// per point, and at least 64.
+// As hashOfPlace, but 4x4x4 cells are adjacent, for locality. For a surface the table should have about four
+// slots per point, and at least 64.
 inline std::size_t nearbySlot(int x, int y, int z, std::size_t mask) {
-  const std::size_t cube = cellHash({x >> 2, y >> 2, z >> 2});
+  const std::size_t cube = hashOfPlace(x >> 2, y >> 2, z >> 2);
   return (cube << 6 | std::size_t((x & 3) << 4 | (y & 3) << 2 | (z & 3))) & mask;
 }
 

@@ -1,6 +1,6 @@
 #include "texture/measure/measure.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/measure/patches.h"
 #include "texture/measure/repeats.h"
 #include "texture/measure/tiles.h"

@@ -1,6 +1,6 @@
 #include "texture/measure/tiles.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/exemplar/srgb.h"
 
 #include <algorithm>

@@ -29,14 +29,14 @@ std::vector<std::uint32_t> partsUnder(const EditableMesh& mesh, const Components
   for (std::uint32_t p = 0; p < count; ++p) {
     const Cell c = cellAt(mesh.position[meshParts.parts[p].first], 1.0);
     for (int n = 0; n < 27; ++n) {
-      const std::size_t hash = cellHash({c[0] + n % 3 - 1, c[1] + n / 3 % 3 - 1, c[2] + n / 9 - 1});
+      const std::size_t hash = hashOfPlace(c[0] + n % 3 - 1, c[1] + n / 3 % 3 - 1, c[2] + n / 9 - 1);
       marked[hash & (capacity - 1)] = 1;
       wanted.emplace(hash, p);
     }
   }
   for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
     const openvdb::Coord& cell = surface.cells[t];
-    const std::size_t hash = cellHash({cell.x(), cell.y(), cell.z()});
+    const std::size_t hash = hashOfPlace(cell.x(), cell.y(), cell.z());
     if (!marked[hash & (capacity - 1)]) continue;
     const Vec3f centre =
         (surface.positions[surface.triangles[t][0]] + surface.positions[surface.triangles[t][1]] +

@@ -2,7 +2,7 @@
 // hash.
 #include "texture/mesh/points.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/levelset/point_scale.h"
 #include "texture/loops/parallel.h"
 #include "texture/loops/point_grid.h"

@@ -1,7 +1,7 @@
 // Steps: level set -> iso-surface (topology) -> points -> mesh -> even mesh, level by level.
 #include "texture/mesh/prepare.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/levelset/isosurface.h"
 #include "texture/loops/parallel.h"
 #include "texture/mesh/carried_mesh.h"

@@ -1,6 +1,6 @@
 #include "texture/neighborhood/neighborhood.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/loops/parallel.h"
 #include "texture/neighborhood/flattener.h"
 

@@ -1,7 +1,7 @@
 // Candidates: propagation and random [Ashikhmin01], k-coherence [Tong02], tree search [Kwatra05].
 #include "texture/optimize/matches.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/labels/usage.h"
 #include "texture/loops/complex.h"
 

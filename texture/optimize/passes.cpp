@@ -1,6 +1,6 @@
 #include "texture/optimize/passes.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/exemplar/window_size.h"
 #include "texture/labels/fresh.h"
 #include "texture/labels/label_expansion.h"

@@ -6,7 +6,7 @@
 // opposite singularities; this lets them meet and cancel.
 #include "texture/orientation/orient.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/loops/complex.h"
 #include "texture/loops/parallel.h"
 #include "texture/loops/point_grid.h"

@@ -7,7 +7,7 @@
 
 #include "texture/search/pca.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/exemplar/principal_axes.h"
 #include "texture/loops/lanes.h"
 

@@ -2,7 +2,7 @@
 // 2002.
 
 #include "texture/search/search.h"
-#include "random/random.h"
+#include "numerics/random.h"
 
 #include "texture/loops/lanes.h"
 

@@ -3,7 +3,7 @@
 
 #include "texture/search/window_tree.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 
 #include <tbb/parallel_for.h>
 

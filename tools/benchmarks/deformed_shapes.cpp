@@ -1,6 +1,6 @@
 #include "tools/benchmarks/deformed_shapes.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/loops/parallel.h"
 
 #include <openvdb/tools/Morphology.h>

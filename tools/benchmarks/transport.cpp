@@ -1,7 +1,7 @@
 // Transport of one frame: the trace, a vertex and substep; closest point and pick-up, a vertex; and closest
 // points alone beside Embree and CGAL. A sphere in LeVeque's deformation, one cell a vertex; processor time
 // of one thread.
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/loops/parallel.h"
 #include "texture/mesh/prepare.h"
 #include "texture/orientation/tangent.h"

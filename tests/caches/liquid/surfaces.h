@@ -2,7 +2,7 @@
 #pragma once
 
 #include "caches/liquid/level_set.h"
-#include "random/random.h"
+#include "numerics/random.h"
 #include "tests/caches/liquid/flows.h"
 
 #include <openvdb/math/Proximity.h>

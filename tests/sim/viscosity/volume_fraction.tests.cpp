@@ -1,6 +1,6 @@
 #include "sim/viscosity/volume_fraction.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 
 #include <catch2/catch.hpp>
 

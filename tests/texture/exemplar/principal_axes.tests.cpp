@@ -1,6 +1,6 @@
 #include "texture/exemplar/principal_axes.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 
 #include <catch2/catch.hpp>
 

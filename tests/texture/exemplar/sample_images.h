@@ -2,7 +2,7 @@
 // or not.
 #pragma once
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/exemplar/exemplar.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Small images for tests.
 #pragma once
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/exemplar/exemplar.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // Surfaces for tests of joints: grids of vertices whose exemplar coordinates are linear in pieces.
 #pragma once
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/joints/places.h"
 
 #include <cmath>

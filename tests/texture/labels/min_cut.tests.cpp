@@ -1,6 +1,6 @@
 #include "texture/labels/min_cut.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/push_relabel_max_flow.hpp>

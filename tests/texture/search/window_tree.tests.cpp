@@ -1,6 +1,6 @@
 #include "texture/search/window_tree.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 #include "texture/shown/shown_color.h"
 
-#include "random/random.h"
+#include "numerics/random.h"
 #include "texture/exemplar/srgb.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "random/random.h"
+#include "numerics/random.h"
 
 #include <catch2/catch.hpp>
 
