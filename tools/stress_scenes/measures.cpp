@@ -42,10 +42,12 @@ void forWetCells(const sim::FloatGrid& phi, const sim::SolidField& solid, const 
   }
 }
 
-// Of the velocity in a cell: its middle, and the mean of what its faces have of its square.
+// Of the velocity in a cell: its middle, and the mean of what its faces have of its square; whether the
+// solver knows it, as it does in the liquid and in the air of the narrow band.
 struct CellMotion {
   Vec3d velocity;
   double squares = 0.0;
+  bool known = true;
 };
 
 CellMotion motionIn(const Accessor (&face)[3], const Coord& cell) {
@@ -56,6 +58,7 @@ CellMotion motionIn(const Accessor (&face)[3], const Coord& cell) {
     const double low = face[a].getValue(cell), high = face[a].getValue(up);
     found.velocity[a] = 0.5 * (low + high);
     found.squares += 0.5 * (low * low + high * high);
+    found.known = found.known && face[a].isValueOn(cell) && face[a].isValueOn(up);
   }
   return found;
 }
@@ -96,7 +99,7 @@ Measures measure(const sim::State& state, const sim::SolidField& field, const si
     }
     found.area += std::sqrt(slope) * std::clamp(0.5 + s / h, 0.0, 1.0) * cube;
     if (share <= 0.0) return;
-    const auto [velocity, squares] = motionIn(face, cell);
+    const auto [velocity, squares, known] = motionIn(face, cell);
     const double mass = options.density * share * cube;
     found.mass += mass;
     if (isThin(phi, cell, h)) found.thin += share * cube;
@@ -115,8 +118,8 @@ Measures measure(const sim::State& state, const sim::SolidField& field, const si
     const Vec3d x = (cell.asVec3d() + Vec3d(0.5)) * h;
     const double mass = options.density * *it * cube;
     found.potential += mass * (-options.gravity.dot(x) - floor);
-    const double squares = phi.getValue(cell) < 0.0f ? motionIn(face, cell).squares : squaresOnTheWhole;
-    found.deficitMotion += 0.5 * mass * squares;
+    const CellMotion motion = motionIn(face, cell);
+    found.deficitMotion += 0.5 * mass * (motion.known ? motion.squares : squaresOnTheWhole);
     if (std::abs(*it) > std::abs(found.deficit.value)) found.deficit = {*it, x};
   }
   return found;

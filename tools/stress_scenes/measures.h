@@ -21,8 +21,9 @@ struct Measures {
   // J, of motion at the time that the velocity is for; of place, measured from the domain's lowest corner,
   // with the volume deficit in its place; of the surface.
   double kinetic = 0.0, potential = 0.0, surface = 0.0;
-  // J, of motion of the volume deficit: in the liquid it moves as the liquid there does, in the air as all
-  // that is seen does on the whole.
+  // J, of motion of the volume deficit: it moves as what of the liquid is seen in its cell, by the velocity
+  // of the liquid or the air there; beyond the narrow band, where the solver knows none, as all that is seen
+  // does on the whole.
   double deficitMotion = 0.0;
   double area = 0.0;     // m2, of the surface between liquid and air
   double mass = 0.0;     // kg, without the volume deficit
