@@ -220,10 +220,6 @@ FaceShares openFaceShares(const SolidDistance& distance, const FloatTree& cellDi
       // All corners on walls: in the plane of one wall the face is closed, between two it is open.
       const bool between = least == 0.0 && most == 0.0 && low > 0.0 && high > 0.0;
       if (most <= 0.0 && !between) continue;
-      if (low > 0.0 && high > 0.0 &&
-          isCrossed(distance, places.centrePlace(below), places.centrePlace(local), low, high, h,
-                    kThinnestWall * h))
-        continue;
       const unsigned lowSide = sideOf(below) >> (1 << axis), highSide = sideOf(local);
       for (int n = 0; n < 4; ++n)
         if ((lowSide & highSide & 1u << corners[n]) == 0) d[n] = -std::abs(d[n]);

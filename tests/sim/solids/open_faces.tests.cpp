@@ -124,3 +124,15 @@ TEST_CASE("open faces: a gap in which no corner of the grid lies is closed") {
     CHECK(field->phi->tree().getValue(Coord(1, 1, 0)) > 0.0f);
   }
 }
+
+TEST_CASE("open faces: a solid whose edge just reaches between two cells leaves their face open beside it") {
+  // A plate in the plane of the faces, as a wedge's edge: it ends 0.02 cells beyond the cells' centres.
+  constexpr double kCells = 16.0;
+  const Box plate{Vec3d(-1.0, -1.0, 7.7 / kCells), Vec3d(8.52 / kCells, 2.0, 8.3 / kCells)};
+  const auto field = Solids(tankWith(16, {solidOf(Shape{plate})})).at(0.0);
+  const float beside = field->open[2].tree().getValue(Coord(8, 8, 8));
+  CHECK(beside > 0.3f);
+  CHECK(beside < 0.7f);
+  CHECK(field->open[2].tree().getValue(Coord(7, 8, 8)) == 0.0f);
+  CHECK(field->open[2].tree().getValue(Coord(9, 8, 8)) == 1.0f);
+}

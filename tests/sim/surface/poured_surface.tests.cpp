@@ -153,3 +153,28 @@ TEST_CASE(
   const Box inside{Vec3d(6.6, 8.07, 6.0), Vec3d(13.5044, 13.738, 22.3)};
   CHECK(fastestInBath(Vec3d(29, 21, 28), outside, inside, 13.388, 4) < 0.02);
 }
+
+TEST_CASE("poured surface: a pool is level to its rim round a short, inclined cylinder") {
+  // The edges of its ends reach between the centres of some cells, by a hundredth of a cell.
+  Options options = tank(32, {box(Vec3d(0.0), Vec3d(1.0, 0.5625, 0.356495))});
+  options.size = Vec3d(1.0, 0.5625, 0.71875);
+  options.solids.resize(1);
+  options.solids[0].shape = {
+      Cylinder{Vec3d(0.441177, 0.217645, 0.404841), Vec3d(0.378515, 0.170157, 0.319001), 0.107393}};
+  Solver solver(options);
+  const Solids solids(options);
+  const double h = options.voxelSize();
+  for (int n = 0; n < 4; ++n) {
+    solver.next();
+    const State& state = solver.state();
+    double farthest = 0.0;  // of phi from the height above the level, in cells
+    for (auto it = state.phi->cbeginValueOn(); it; ++it) {
+      const Vec3d x = state.phi->indexToWorld(it.getCoord());
+      const double height = x[2] - 0.356495;
+      if (std::abs(height) < h && solids.distance(x, 0.0) > 0.0)
+        farthest = std::max(farthest, std::abs(*it - height) / h);
+    }
+    REQUIRE(farthest < 0.02);
+    REQUIRE(fastestOf(state) < 0.01 * std::sqrt(options.gravity.length() * h));
+  }
+}
