@@ -48,14 +48,15 @@ struct Path {
 // Second order, third where A is constant.
 template <bool kGradient>
 void advance(VelocitySampler& sampler, double sign, int step, Path& path) {
-  const VelocitySample first = sampler.velocity(path.x);
+  const WallSide side = sampler.sideOf(path.x);
+  const VelocitySample first = sampler.velocity(path.x, side);
   const double left = std::exchange(path.left, 0.0), speed = first.velocity.length();
   const double wanted = left * speed / (kCellsPerStep * sampler.voxelSize());
   double steps = std::clamp(std::ceil(wanted - 1e-9), 1.0, double(kMaxSteps - step));
   double length = left / steps, h = sign * length;
   const auto middle = [&] {
     const Vec3d x = path.x + first.velocity * (0.5 * h);
-    return kGradient ? sampler.velocityAndGradient(x) : sampler.velocity(x);
+    return kGradient ? sampler.velocityAndGradient(x, side) : sampler.velocity(x, side);
   };
   VelocitySample second = middle();
   if constexpr (kGradient) {
@@ -66,7 +67,7 @@ void advance(VelocitySampler& sampler, double sign, int step, Path& path) {
       second = middle();
     }
   }
-  const VelocitySample third = sampler.velocity(path.x + second.velocity * (0.75 * h));
+  const VelocitySample third = sampler.velocity(path.x + second.velocity * (0.75 * h), side);
   const Vec3d mean =
       first.velocity * (2.0 / 9.0) + second.velocity * (3.0 / 9.0) + third.velocity * (4.0 / 9.0);
   path.x += mean * h;

@@ -67,7 +67,8 @@ Vec3d slopeAt(VelocitySampler& sampler, const Vec3d& x, int axis, double h) {
   Vec3d step(0.0);
   step[axis] = h;
   const auto known = [](const VelocitySample& sample) { return sample.known > kAllKnown; };
-  VelocitySample ahead = sampler.velocity(x + step), behind = sampler.velocity(x - step);
+  const WallSide side = sampler.sideOf(x);
+  VelocitySample ahead = sampler.velocity(x + step, side), behind = sampler.velocity(x - step, side);
   double width = 2.0 * h;
   if (known(ahead) != known(behind)) {
     (known(ahead) ? behind : ahead) = sampler.velocity(x);

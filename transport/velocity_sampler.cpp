@@ -11,8 +11,6 @@
 namespace fluidtex::transport {
 namespace {
 
-using openvdb::Coord;
-
 using Leaf = sim::FloatTree::LeafNodeType;
 
 constexpr int kSide = int(Leaf::DIM);
@@ -110,6 +108,7 @@ VelocitySampler::VelocitySampler(const sim::Substep& substep) {
     component.accessor.emplace(component.grid->tree());
   }
   m_voxelSize = std::isfinite(smallest) ? smallest : 0.0;
+  if (substep.u && substep.v && substep.w) m_visibility = substep.visibility;
 }
 
 void VelocitySampler::focus(const Vec3d& lower, const Vec3d& upper) {
@@ -211,12 +210,85 @@ VelocitySample VelocitySampler::sample(const Vec3d& x) {
   return result;
 }
 
-VelocitySample VelocitySampler::velocity(const Vec3d& x) {
-  return sample<false>(x);
+// For the inline functions of the header.
+template VelocitySample VelocitySampler::sample<false>(const Vec3d& x);
+template VelocitySample VelocitySampler::sample<true>(const Vec3d& x);
+
+Vec3d VelocitySampler::inCells(const Vec3d& x) const {
+  // Along its own axis a component's voxels are the cells' lower faces.
+  Vec3d place;
+  for (int axis = 0; axis < 3; ++axis)
+    place[axis] = m_components[axis].scale[axis] * x[axis] + m_components[axis].shift[axis];
+  return place;
 }
 
-VelocitySample VelocitySampler::velocityAndGradient(const Vec3d& x) {
-  return sample<true>(x);
+const sim::VisibleCells* VelocitySampler::around(const Coord& cell) {
+  const Coord block(cell.x() & ~(kSide - 1), cell.y() & ~(kSide - 1), cell.z() & ~(kSide - 1));
+  if (block != m_block) {
+    m_block = block;
+    m_leaf = m_visibility->leaf(block);
+  }
+  if (m_leaf == nullptr) return nullptr;
+  const Coord local = cell - block;
+  const sim::VisibleCells& visible =
+      (*m_leaf)[std::size_t((local.x() * kSide + local.y()) * kSide + local.z())];
+  return visible.seesAll() ? nullptr : &visible;
+}
+
+WallSide VelocitySampler::nearestOutside(const Vec3d& x) {
+  const Vec3d place = inCells(x);
+  if (!withinReach(place)) return {};
+  const Coord cell = Coord::floor(place);
+  // A cell from which all is seen counts as outside: whatever is read from it is right.
+  const auto isInSolid = [&](const Coord& at) {
+    const sim::VisibleCells* visible = around(at);
+    return visible != nullptr && visible->isInSolid();
+  };
+  if (!isInSolid(cell)) return {cell, around(cell) != nullptr};
+  // Of the cells between whose centres the place lies.
+  const Vec3d away = place - cell.asVec3d() - Vec3d(0.5);
+  Coord nearest = cell;
+  double least = std::numeric_limits<double>::infinity();
+  for (int n = 1; n < 8; ++n) {
+    Coord beside = cell;
+    for (int axis = 0; axis < 3; ++axis)
+      if ((n >> axis & 1) != 0) beside[axis] += away[axis] < 0.0 ? -1 : 1;
+    const double distance = (place - beside.asVec3d() - Vec3d(0.5)).lengthSqr();
+    if (distance >= least || isInSolid(beside)) continue;
+    nearest = beside;
+    least = distance;
+  }
+  return {nearest, around(nearest) != nullptr};
+}
+
+VelocitySample VelocitySampler::besideWall(const Vec3d& x, const WallSide& side) {
+  Coord cell = nearestOutside(x).cell;
+  if (m_visibility->hides(side.cell, cell)) cell = side.cell;
+  const sim::VisibleCells* visible = around(cell);
+  if (visible == nullptr) return sample<false>(x);
+  const Vec3f place(inCells(x) - cell.asVec3d() - Vec3d(0.5));
+  Vec3f inside;
+  for (int axis = 0; axis < 3; ++axis) inside[axis] = std::clamp(place[axis], -0.5f, 0.5f);
+  VelocitySample result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3d change(sim::moveToOwnSide(*visible, inside, axis) - place);
+    Vec3d none;
+    result.known += sampleComponent<false>(m_components[axis], x + change / m_components[axis].scale,
+                                           result.velocity[axis], none);
+  }
+  result.known *= 1.0 / 3.0;
+  return result;
+}
+
+VelocitySample VelocitySampler::besideWallAndGradient(const Vec3d& x, const WallSide& side) {
+  VelocitySample result = besideWall(x, side);
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3d half(0.0);
+    half[axis] = 0.5 * m_voxelSize;
+    const Vec3d difference = besideWall(x + half, side).velocity - besideWall(x - half, side).velocity;
+    result.gradient.setCol(axis, difference / m_voxelSize);
+  }
+  return result;
 }
 
 }  // namespace fluidtex::transport

@@ -4,11 +4,13 @@
 #include "sim/frame/frame.h"
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace fluidtex::transport {
 
+using openvdb::Coord;
 using openvdb::Mat3d;
 using openvdb::Vec3d;
 
@@ -20,9 +22,16 @@ struct VelocitySample {
   double known = 0.0;  // share of the surrounding values that are known, 0..1
 };
 
+// The side of thin walls on which a place is.
+struct WallSide {
+  Coord cell{0};        // that holds the place, or the nearest one outside where its centre is in a solid
+  bool walled = false;  // whether anything is hidden from it; otherwise the cell does not matter
+};
+
 // Reads the grids in place, each component through its own transform. A value is known where it is active and
 // finite. Unknown values around a position are replaced by the mean of the known ones; if all are unknown,
-// the velocity is zero. One sampler per thread.
+// the velocity is zero. Places beside thin walls have the velocity of their own side
+// (sim::Substep::visibility). One sampler per thread.
 class VelocitySampler {
  public:
   // Throws std::invalid_argument if a grid's transform is not a scaling (one factor per axis) and a
@@ -33,8 +42,18 @@ class VelocitySampler {
   // fast; worth it for many samples. Replaces the last box. Samples are bitwise unchanged.
   void focus(const Vec3d& lower, const Vec3d& upper);
 
-  VelocitySample velocity(const Vec3d& x);
-  VelocitySample velocityAndGradient(const Vec3d& x);
+  VelocitySample velocity(const Vec3d& x) { return velocity(x, sideOf(x)); }
+  VelocitySample velocityAndGradient(const Vec3d& x) { return velocityAndGradient(x, sideOf(x)); }
+
+  WallSide sideOf(const Vec3d& x) { return m_visibility == nullptr ? WallSide{} : nearestOutside(x); }
+  // On the side of a place no farther than a cell from x: where a wall hides x from it, x is read at the
+  // wall.
+  VelocitySample velocity(const Vec3d& x, const WallSide& side) {
+    return side.walled ? besideWall(x, side) : sample<false>(x);
+  }
+  VelocitySample velocityAndGradient(const Vec3d& x, const WallSide& side) {
+    return side.walled ? besideWallAndGradient(x, side) : sample<true>(x);
+  }
 
   double voxelSize() const {
     return m_voxelSize;
@@ -43,8 +62,8 @@ class VelocitySampler {
  private:
   // Dense copy of a box of values, unknown ones as NaN.
   struct Window {
-    openvdb::Coord origin{0}, size{0};  // first voxel; voxels along each axis
-    std::vector<float> values;          // z fastest
+    Coord origin{0}, size{0};   // first voxel; voxels along each axis
+    std::vector<float> values;  // z fastest
   };
   struct Component {
     sim::FloatGrid::ConstPtr grid;
@@ -59,8 +78,20 @@ class VelocitySampler {
   template <bool kGradient>
   VelocitySample sample(const Vec3d& x);
 
+  // A place in cells, from the lower corner of cell (0, 0, 0).
+  Vec3d inCells(const Vec3d& x) const;
+  // As Visibility::around(), which costs more.
+  const sim::VisibleCells* around(const Coord& cell);
+  WallSide nearestOutside(const Vec3d& x);
+  VelocitySample besideWall(const Vec3d& x, const WallSide& side);
+  VelocitySample besideWallAndGradient(const Vec3d& x, const WallSide& side);
+
   std::array<Component, 3> m_components;
   double m_voxelSize = 0.0;
+  std::shared_ptr<const sim::Visibility> m_visibility;
+  // The block last looked up; no block begins at the cell that this starts with.
+  Coord m_block = Coord::max();
+  const sim::Visibility::Leaf* m_leaf = nullptr;
 };
 
 }  // namespace fluidtex::transport

@@ -3,11 +3,13 @@
 #pragma once
 
 #include "sim/grid/grids.h"
+#include "sim/grid/visibility.h"
 
 #include <openvdb/openvdb.h>
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +25,10 @@ namespace fluidtex::sim {
 struct Substep {
   double dt = 0.0;  // s
   FloatGrid::ConstPtr u, v, w;
+  // Which cells thin walls hide from each other, cell (i,j,k) with u(i,j,k) as its lower x face: places
+  // beside them have the velocity of their own side. Null where all is visible, as it is taken to be in files
+  // of other programs.
+  std::shared_ptr<const Visibility> visibility = nullptr;
 };
 
 // Statistics of the solver for this frame; values that do not apply stay at their default.

@@ -6,7 +6,7 @@
 
 namespace fluidtex::sim {
 
-// The cells visible from one cell, of the 5 x 5 x 5 around it.
+// The cells visible from one cell, of the 5 x 5 x 5 around it, and whether its centre is in a solid.
 struct VisibleCells {
   static constexpr int kReach = 2, kSide = 2 * kReach + 1, kCount = kSide * kSide * kSide;
   static constexpr int kStride[3] = {kSide * kSide, kSide, 1};
@@ -20,6 +20,8 @@ struct VisibleCells {
     }
     return near;
   }();
+  // In bits[1], behind those of the cells.
+  static constexpr std::uint64_t kOutsideBit = std::uint64_t{1} << (kCount - 64);
 
   std::array<std::uint64_t, 2> bits{~std::uint64_t{0}, ~std::uint64_t{0}};
 
@@ -27,9 +29,13 @@ struct VisibleCells {
   bool sees(int at) const { return (bits[at >> 6] >> (at & 63) & 1) != 0; }
   // The middle cell and the 26 around it.
   bool seesNear() const { return (~bits[0] & kNear[0]) == 0 && (~bits[1] & kNear[1]) == 0; }
-  bool seesAll() const { return bits[0] == ~std::uint64_t{0} && bits[1] == ~std::uint64_t{0}; }
+  bool seesAll() const {
+    return bits[0] == ~std::uint64_t{0} && (bits[1] | kOutsideBit) == ~std::uint64_t{0};
+  }
   void show(int at) { bits[at >> 6] |= std::uint64_t{1} << (at & 63); }
   void hide(int at) { bits[at >> 6] &= ~(std::uint64_t{1} << (at & 63)); }
+  bool isInSolid() const { return (bits[1] & kOutsideBit) == 0; }
+  void setInSolid() { bits[1] &= ~kOutsideBit; }
 };
 
 // A field's values in the cells around one.

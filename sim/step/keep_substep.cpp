@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace fluidtex::sim {
 namespace {
@@ -43,9 +44,10 @@ Velocity nearSurface(const Velocity& velocity, const FloatGrid& phi,
 }
 
 Substep keepSubstep(double dt, const Velocity& velocity, const FloatGrid& phi,
-                    const std::vector<const FloatGrid*>& solids) {
+                    const std::vector<const FloatGrid*>& solids,
+                    std::shared_ptr<const Visibility> visibility) {
   const Velocity kept = nearSurface(velocity, phi, solids);
-  return {dt, kept.component[0], kept.component[1], kept.component[2]};
+  return {dt, kept.component[0], kept.component[1], kept.component[2], std::move(visibility)};
 }
 
 }  // namespace fluidtex::sim

@@ -4,6 +4,7 @@
 #include "sim/frame/frame.h"
 #include "sim/grid/mac_grid.h"
 
+#include <memory>
 #include <vector>
 
 namespace fluidtex::sim {
@@ -15,8 +16,10 @@ namespace fluidtex::sim {
 Velocity nearSurface(const Velocity& velocity, const FloatGrid& phi,
                      const std::vector<const FloatGrid*>& solids);
 
-// The substep of dt seconds with the velocity that nearSurface() leaves.
+// The substep of dt seconds with the velocity that nearSurface() leaves. visibility: as in SolidField, that
+// by which the surface is moved.
 Substep keepSubstep(double dt, const Velocity& velocity, const FloatGrid& phi,
-                    const std::vector<const FloatGrid*>& solids);
+                    const std::vector<const FloatGrid*>& solids,
+                    std::shared_ptr<const Visibility> visibility = nullptr);
 
 }  // namespace fluidtex::sim

@@ -283,8 +283,8 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       }
       longestNext = dt;
     }
-    frame.substeps.push_back(
-        keepSubstep(dt, movingVelocity(liquid), *liquid.phi, {m_solid->phi.get(), solid->phi.get()}));
+    frame.substeps.push_back(keepSubstep(dt, movingVelocity(liquid), *liquid.phi,
+                                         {m_solid->phi.get(), solid->phi.get()}, solid->visibility));
     FrameStats& stats = frame.stats;
     stats.dtMin = stats.dtMin > 0.0 ? std::min(stats.dtMin, dt) : dt;
     stats.pressureIterations += solves.pressure.iterations;

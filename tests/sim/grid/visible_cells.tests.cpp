@@ -10,8 +10,17 @@ TEST_CASE("visible cells: all are seen until one is hidden, which hides no other
     REQUIRE(cells.seesAll());
     cells.hide(hidden);
     REQUIRE_FALSE(cells.seesAll());
+    REQUIRE_FALSE(cells.isInSolid());
     for (int at = 0; at < VisibleCells::kCount; ++at) REQUIRE(cells.sees(at) == (at != hidden));
   }
+}
+
+TEST_CASE("visible cells: a cell in a solid sees no less for it", "[sim]") {
+  VisibleCells cells;
+  cells.setInSolid();
+  CHECK(cells.isInSolid());
+  CHECK(cells.seesAll());
+  for (int at = 0; at < VisibleCells::kCount; ++at) REQUIRE(cells.sees(at));
 }
 
 TEST_CASE("visible cells: the middle and its strides lead to every cell of 5 x 5 x 5", "[sim]") {
