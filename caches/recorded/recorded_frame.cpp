@@ -1,6 +1,7 @@
 #include "caches/recorded/recorded_frame.h"
 
 #include "caches/layouts/numbered_files.h"
+#include "caches/recorded/recorded_sight.h"
 #include "sim/grid/mac_grid.h"
 #include "sim/grid/write_grids.h"
 
@@ -81,6 +82,7 @@ sim::Frame frameOf(openvdb::io::File& vdb) {
     }
     frame.substeps.push_back({number("dt." + std::to_string(n)), faces[0], faces[1], faces[2]});
   }
+  readSight(vdb, frame.substeps);
   for (auto name = vdb.beginName(); name != vdb.endName(); ++name)
     if ((*name).starts_with(kField))
       frame.fields[(*name).substr(std::string(kField).size())] = centred(*name);
@@ -107,7 +109,9 @@ void writeRecordedFrame(const sim::Frame& frame, double h, const std::filesystem
       add(sim::toOpenVdb(*faces[axis]), kFaces[axis] + std::to_string(n), grids);
   }
   for (const auto& [name, field] : frame.fields) add(sim::toOpenVdb(*field), kField + name, grids);
-  sim::writeGrids(grids, metadataOf(frame, h), file);
+  openvdb::MetaMap metadata = metadataOf(frame, h);
+  addSight(frame, grids, metadata);
+  sim::writeGrids(grids, metadata, file);
 }
 
 sim::Frame readRecordedFrame(const std::filesystem::path& file) {
