@@ -20,10 +20,11 @@ std::string nameOf(int sight, int word) {
 openvdb::Int64Grid::Ptr wordsOf(const sim::Visibility& visibility, int sight, int word) {
   const auto grid = openvdb::Int64Grid::create(0);
   grid->setName(nameOf(sight, word));
-  for (const auto& [origin, cells] : visibility.leaves()) {
+  for (const sim::Coord& origin : visibility.origins()) {
+    const sim::Visibility::Leaf& cells = *visibility.leaf(origin);
     auto* const leaf = grid->tree().touchLeaf(origin);
-    for (std::size_t cell = 0; cell < cells->size(); ++cell)
-      leaf->setValueOn(openvdb::Index(cell), std::int64_t((*cells)[cell].bits[std::size_t(word)]));
+    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+      leaf->setValueOn(openvdb::Index(cell), std::int64_t(cells[cell].bits[std::size_t(word)]));
   }
   return grid;
 }
