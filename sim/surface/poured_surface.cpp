@@ -138,7 +138,7 @@ Distance pouredSurface(const ShapeDistance& body, Distance solids, double h) {
     if (room > std::abs(here) + touching) return here;
     // There is no air between a body and a solid that it almost touches.
     Vec3d place = x;
-    if (room > 0.0 && room < touching) {
+    if (room >= 0.0 && room < touching) {
       const Vec3d beside = x + touching * normalAt(solids, x, 0.01 * h);
       if ((body(beside) < 0.0) != (here < 0.0)) {
         place = beside;
