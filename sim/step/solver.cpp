@@ -28,6 +28,23 @@
 namespace fluidtex::sim {
 namespace {
 
+using DueBody = std::pair<const LiquidBody*, ShapeDistance>;
+
+// The distance to a body and to all that are poured with it and lie within `reach` of it.
+std::function<double(const Vec3d&)> withNeighbors(const ShapeDistance& body, const std::vector<DueBody>& due,
+                                                  double reach) {
+  openvdb::BBoxd near = body.boundsIn(kEverywhere);
+  near.expand(reach);
+  std::vector<ShapeDistance> shapes;
+  for (const auto& [liquid, shape] : due)
+    if (near.hasOverlap(shape.boundsIn(kEverywhere))) shapes.push_back(shape);
+  return [shapes = std::move(shapes)](const Vec3d& x) {
+    double least = kForever;
+    for (const ShapeDistance& shape : shapes) least = std::min(least, shape(x));
+    return least;
+  };
+}
+
 // A deficit above kMostDeficit of the liquid is reported, but not one below kFewCells cells.
 constexpr double kMostDeficit = 0.02, kFewCells = 8.0;
 // Solids that cover no more than this share of the liquid are not reported.
@@ -137,7 +154,7 @@ void Solver::applyEvents() {
   const double h = m_options.voxelSize();
   bool changed = m_state.frame == 0;
   Liquid liquid = withoutMarkers(m_state);
-  std::vector<std::pair<const LiquidBody*, ShapeDistance>> due;
+  std::vector<DueBody> due;
   std::vector<bool> poured = m_state.poured;
   FloatGrid dueLiquid(liquid.phi->background());
   dueLiquid.setTransform(cellTransform(h));
@@ -162,7 +179,8 @@ void Solver::applyEvents() {
   changed = changed || (isEmpty(liquid) && !flows.sources.empty());
   for (const auto& [body, shape] : due) {
     // With the same leapfrog offset as the velocity of the liquid that is there.
-    pour(liquid, shape, pouredSurface(shape, m_solids->distanceAt(now), h),
+    pour(liquid, shape,
+         pouredSurface(withNeighbors(shape, due, liquid.phi->background()), m_solids->distanceAt(now), h),
          body->velocity + m_options.gravity * liquid.leapfrogOffset, body->temperature, *m_solid);
     changed = true;
   }

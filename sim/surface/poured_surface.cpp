@@ -24,14 +24,36 @@ constexpr double kAround[] = {2.0, 5.0, 12.0};
 constexpr double kTurned = 0.88;
 // Widths, in cells, over which a body's normal is taken; the smaller ones beside an edge.
 constexpr double kLeastWidth = 1e-4, kMostWidth = 0.01;
+// Cells: what is no farther outside lies in a joint, by rounding, and liquid this far behind a surface covers
+// it.
+constexpr double kOnJoint = 0.01, kBeyond = 0.5;
 // Bisection steps between two cells.
 constexpr int kHalvings = 40;
 
 using Distance = std::function<double(const Vec3d&)>;
 
+// The body's distance. Where parts of it touch, a joint between them is no surface: on two opposite sides it
+// is deeper in the liquid.
+double withoutJoints(const Distance& body, const Vec3d& x, double h) {
+  const double here = body(x), step = kTouching * h;
+  if (std::abs(here) > kOnJoint * h) return here;
+  const auto isDeeper = [&](const Vec3d& at) { return body(at) < here - 0.2 * step; };
+  for (int n = 0; n < 13; ++n) {
+    const Vec3d way = step * Vec3d(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
+    if (isDeeper(x + way) && isDeeper(x - way)) return -step;
+  }
+  return here;
+}
+
+// Whether the surface that is nearest to a place in the liquid, along the normal there, lies in other liquid:
+// in a joint, or in what another part of the body covers.
+bool isCovered(const Distance& body, const Vec3d& x, double here, const Vec3d& normal, double h) {
+  return here < 0.0 && body(x + (kBeyond * h - here) * normal) < 0.0;
+}
+
 // The place between `from` and `to` where a distance changes its sign, by bisection. low: the distance at
 // `from`.
-Vec3d crossing(const ShapeDistance& distance, Vec3d from, Vec3d to, double low) {
+Vec3d crossing(const Distance& distance, Vec3d from, Vec3d to, double low) {
   for (int n = 0; n < kHalvings; ++n) {
     const Vec3d middle = 0.5 * (from + to);
     ((distance(middle) < 0.0) == (low < 0.0) ? from : to) = middle;
@@ -40,7 +62,7 @@ Vec3d crossing(const ShapeDistance& distance, Vec3d from, Vec3d to, double low) 
 }
 
 // Whether the body's surface leaves the solid near a place in it. normal: of the surface there.
-bool comesOut(const ShapeDistance& body, const Distance& solids, const Vec3d& place, const Vec3d& normal,
+bool comesOut(const Distance& body, const Distance& solids, const Vec3d& place, const Vec3d& normal,
               double h) {
   int least = 0;
   for (int a = 1; a < 3; ++a)
@@ -70,8 +92,8 @@ bool isParallel(const Distance& solids, const Vec3d& place, const Vec3d& normal,
 // Whether a body ends at a solid at a place on its surface: there the two surfaces coincide, or the body
 // reaches some way into the solid. Where one cuts the other, the body's surface continues into the solid.
 // edge: how near the place may be to an edge of the body; the normal is taken from less far.
-bool isAtSolid(const ShapeDistance& body, const Distance& solids, const Vec3d& place, double apart,
-               double edge, double h) {
+bool isAtSolid(const Distance& body, const Distance& solids, const Vec3d& place, double apart, double edge,
+               double h) {
   const double away = solids(place);
   if (away > apart) return false;
   const Vec3d normal = normalAt(body, place, std::clamp(0.5 * edge, kLeastWidth * h, kMostWidth * h));
@@ -95,8 +117,7 @@ bool leadsThroughWall(const Distance& solids, const Vec3d& from, int axis, doubl
 }
 
 // Distance to a plane from where it crosses the axes; 0 where it crosses none within kReach cells.
-double distanceAcross(const ShapeDistance& body, const Distance& solids, const Vec3d& x, double here,
-                      double h) {
+double distanceAcross(const Distance& body, const Distance& solids, const Vec3d& x, double here, double h) {
   // Where the body ends at a solid, its surface is at no distance from it; a surface beside a solid is as far
   // from it as x.
   const double apart = std::min(kTouching * h, 0.5 * std::abs(solids(x)));
@@ -129,17 +150,22 @@ double distanceAcross(const ShapeDistance& body, const Distance& solids, const V
 
 }  // namespace
 
-Distance pouredSurface(const ShapeDistance& body, Distance solids, double h) {
+Distance pouredSurface(Distance parts, Distance solids, double h) {
+  const Distance body = [parts = std::move(parts), h](const Vec3d& x) { return withoutJoints(parts, x, h); };
   return [body, solids = std::move(solids), h](const Vec3d& x) {
     double here = body(x);
     const double touching = kTouching * h;
     if (std::abs(here) > kNear * h) return here;
+    const Vec3d outwards = normalAt(body, x, 0.01 * h);
+    const bool covered = isCovered(body, x, here, outwards, h);
     const double room = solids(x);
-    if (room > std::abs(here) + touching) return here;
-    // There is no air between a body and a solid that it almost touches.
+    if (room > std::abs(here) + touching && !covered) return here;
+    // There is no air between a body and a solid that it almost touches. In a corner of several solids, which
+    // has no normal, the body shows the way.
     Vec3d place = x;
     if (room >= 0.0 && room < touching) {
-      const Vec3d beside = x + touching * normalAt(solids, x, 0.01 * h);
+      Vec3d beside = x + touching * normalAt(solids, x, 0.01 * h);
+      if (here >= 0.0 && solids(beside) < 0.5 * touching) beside = x - touching * outwards;
       if ((body(beside) < 0.0) != (here < 0.0)) {
         place = beside;
         here = body(place);
@@ -147,7 +173,7 @@ Distance pouredSurface(const ShapeDistance& body, Distance solids, double h) {
     }
     const Vec3d closest = place - here * normalAt(body, place, 0.01 * h);
     // Where two surfaces are equally near, neither lies along the gradient of the distance.
-    const bool isOn = std::abs(body(closest)) < touching;
+    const bool isOn = !covered && std::abs(body(closest)) < touching;
     if (place == x && isOn && !isAtSolid(body, solids, closest, touching, h, h)) return here;
     if (const double across = distanceAcross(body, solids, place, here, h); across > 0.0)
       return here < 0.0 ? -across : across;

@@ -1,7 +1,7 @@
 // The surface of a poured body of liquid, without the parts of it that lie on solids.
 #pragma once
 
-#include "sim/shapes/shape_distance.h"
+#include "sim/vec3.h"
 
 #include <functional>
 
@@ -13,9 +13,10 @@ namespace fluidtex::sim {
 // the corner between wall and surface the body's own distance would be that to the wall, and cells there
 // would put the surface too low. There it is the distance to where the surface crosses the axes, exact for a
 // plane that crosses each within two cells; farther from the surface it is at least 1.8 cells. A surface that
-// a solid cuts continues into the solid.
+// a solid cuts continues into the solid. Nor is there a surface in a joint, where parts of the body touch.
+// body: signed distance to it, metres, a lower bound in magnitude inside where parts of it overlap or touch.
 // solids: signed distance to them, metres, with the domain's sides. h: cell size, metres.
-std::function<double(const Vec3d&)> pouredSurface(const ShapeDistance& body,
+std::function<double(const Vec3d&)> pouredSurface(std::function<double(const Vec3d&)> body,
                                                   std::function<double(const Vec3d&)> solids, double h);
 
 }  // namespace fluidtex::sim

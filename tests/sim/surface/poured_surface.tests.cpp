@@ -178,3 +178,66 @@ TEST_CASE("poured surface: a pool is level to its rim round a short, inclined cy
     REQUIRE(fastestOf(state) < 0.01 * std::sqrt(options.gravity.length() * h));
   }
 }
+
+namespace {
+
+// Of liquid in a room of 12 cells of one metre: the fastest beside liquid outside solids in three frames, in
+// sqrt(g h).
+double fastestInRoom(std::vector<Shape> liquid, std::vector<Shape> solids) {
+  Options options = tank(12, {});
+  options.size = Vec3d(12.0);
+  options.frameRate = 5.0;
+  options.viscosity = 0.0;
+  for (Shape& shape : liquid) options.liquid.push_back({.shape = std::move(shape)});
+  options.solids.resize(solids.size());
+  for (std::size_t n = 0; n < solids.size(); ++n) options.solids[n].shape = std::move(solids[n]);
+  Solver solver(options);
+  double fastest = 0.0;
+  for (int n = 0; n < 3; ++n) {
+    solver.next();
+    fastest = std::max(fastest, fastestOf(solver.state()));
+  }
+  return fastest / std::sqrt(options.gravity.length());
+}
+
+}  // namespace
+
+TEST_CASE("poured surface: liquid that ends at a wall in the plane of cells' centres is level") {
+  for (const double level : {5.0, 5.25, 5.5}) {
+    for (const double thickness : {0.5, 1.5, 4.0}) {
+      for (const double wall : {4.5, 4.25, 4.0}) {
+        CAPTURE(level, thickness, wall);
+        CHECK(fastestInRoom({{Box{Vec3d(0.0), Vec3d(wall, 12.0, level)}}},
+                            {{Box{Vec3d(wall, -1.0, -1.0), Vec3d(wall + thickness, 13.0, 13.0)}}}) < 0.01);
+      }
+    }
+  }
+}
+
+TEST_CASE("poured surface: liquid in a basin of five boxes whose corners are cells' centres is level") {
+  for (const double wall : {0.5, 1.0, 2.0}) {
+    const double low = 2.5, high = 9.5, outer = low - wall, beyond = high + wall;
+    CAPTURE(wall);
+    CHECK(fastestInRoom({{Box{Vec3d(low), Vec3d(high, high, 5.25)}}},
+                        {{Box{Vec3d(outer), Vec3d(beyond, beyond, low)}},
+                         {Box{Vec3d(outer, outer, low), Vec3d(low, beyond, 10.0)}},
+                         {Box{Vec3d(high, outer, low), Vec3d(beyond, beyond, 10.0)}},
+                         {Box{Vec3d(low, outer, low), Vec3d(high, low, 10.0)}},
+                         {Box{Vec3d(low, high, low), Vec3d(high, beyond, 10.0)}}}) < 0.01);
+  }
+}
+
+TEST_CASE("poured surface: bodies that touch are one, wherever the joint between them lies") {
+  for (const int axis : {0, 2}) {
+    for (const double joint : {4.0, 4.25, 4.5}) {
+      for (const double level : {5.0, 5.25}) {
+        Vec3d end(12.0, 12.0, level), start(0.0);
+        end[axis] = start[axis] = joint;
+        const Shape one{Box{Vec3d(0.0), end}}, other{Box{start, Vec3d(12.0, 12.0, level)}};
+        CAPTURE(axis, joint, level);
+        CHECK(fastestInRoom({one, other}, {}) < 0.03);
+        CHECK(fastestInRoom({{Union{{one, other}}}}, {}) < 0.03);
+      }
+    }
+  }
+}
