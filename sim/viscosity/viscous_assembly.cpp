@@ -182,7 +182,9 @@ void gatherMass(const FaceFields& fields, ViscousSystem& system) {
 // The factor of a difference between an unknown and a given face, distances in cells. With it the wall's drag
 // is that of a linear profile that is 0 a slip length behind the wall, on a sample of this volume.
 float reachFactor(float unknownDistance, float givenDistance, float slip) {
-  const float reach = std::clamp(unknownDistance / (unknownDistance - givenDistance), kMinReach, 1.0f);
+  // Both may lie on the wall itself.
+  const float between = unknownDistance - givenDistance;
+  const float reach = between == 0.0f ? kMinReach : std::clamp(unknownDistance / between, kMinReach, 1.0f);
   return 1.0f / std::sqrt(reach * (reach + slip));
 }
 

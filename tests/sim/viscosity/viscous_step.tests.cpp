@@ -44,6 +44,23 @@ TEST_CASE("viscous step: liquid in a narrow gap between a ball and a wall rests"
   }
 }
 
+TEST_CASE("viscous step: liquid over a no-slip column whose surfaces pass through faces' centres rests") {
+  const double radius = GENERATE(2.0, 2.5);
+  Options options = tank(12, {box(Vec3d(0.0), Vec3d(12.0, 12.0, 6.0))});
+  options.size = Vec3d(12.0);
+  options.viscosity = 1000.0;
+  options.frameRate = 5.0;
+  options.solids.resize(1);
+  options.solids[0].shape = {Cylinder{Vec3d(6.5, 6.5, -1.0), Vec3d(6.5, 6.5, 5.0), radius}};
+  options.solids[0].wall.kind = WallKind::noSlip;
+  CAPTURE(radius);
+  Solver solver(options);
+  for (int n = 0; n < 3; ++n) {
+    solver.next();
+    REQUIRE(fastestOf(solver.state()) < 1e-3);
+  }
+}
+
 TEST_CASE("viscous step: nothing is touched where it is negligible") {
   Options options = tank(8, {box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.5))});
   Solver solver(options);
