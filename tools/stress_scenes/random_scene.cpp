@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kFrames = 20;
 constexpr double kGravity = 9.81;
+// Of all scenes: those whose shapes lie on quarters of cells, as people place them.
+constexpr double kAligned = 0.2;
 
 class Writer {
  public:
@@ -29,9 +31,10 @@ class Writer {
     }
     m_frameRate = std::round(24.0 / std::sqrt(across));
     m_speed = std::sqrt(kGravity * m_size[2]);
+    m_aligned = Dice(~seed, number).chance(kAligned);
     m_still = m_random.chance(0.3);
     m_parts.push_back(fmt::format(
-        "# Scene {} of seed {}.\nframes = {}\nframe_rate = {}\ndomain.size = [{:.6g}, {:.6g}, {:.6g}]\n"
+        "# Scene {} of seed {}.\nframes = {}\nframe_rate = {}\ndomain.size = [{:.9g}, {:.9g}, {:.9g}]\n"
         "domain.resolution = {}\ntexture.exemplar = \"{}/green_scales.png\"\ntexture.points = 2000\n",
         number, seed, kFrames, m_frameRate, m_size[0], m_size[1], m_size[2], cells, FLUIDTEX_EXEMPLARS));
     settings();
@@ -57,6 +60,22 @@ class Writer {
   }
   void table(const std::string& name, const std::string& content) {
     m_parts.push_back(fmt::format("\n[[{}]]\n{}\n", name, content));
+  }
+
+  // On the nearest quarter of a cell where the scene's shapes lie on these: on faces and centres exactly.
+  double placed(double x) const { return m_aligned ? 0.25 * std::round(4.0 * x / m_h) * m_h : x; }
+  Vec3d placed(const Vec3d& x) const { return {placed(x[0]), placed(x[1]), placed(x[2])}; }
+  double sized(double x) const { return m_aligned ? std::max(placed(x), 0.5 * m_h) : x; }
+  std::string box(const Vec3d& low, const Vec3d& high) const {
+    if (!m_aligned) return stress::box(low, high);
+    const Vec3d from = placed(low), least = from + Vec3d(0.5 * m_h), to = placed(high);
+    return stress::box(from, openvdb::math::maxComponent(to, least));
+  }
+  std::string sphere(const Vec3d& center, double radius) const {
+    return stress::sphere(placed(center), sized(radius));
+  }
+  std::string cylinder(const Vec3d& from, const Vec3d& to, double radius) const {
+    return stress::cylinder(placed(from), placed(to), sized(radius));
   }
 
   void settings() {
@@ -329,7 +348,8 @@ class Writer {
   SceneParts m_parts;
   Vec3d m_size;
   double m_h = 0.0, m_frameRate = 24.0, m_speed = 0.0;
-  bool m_still = false;  // nothing should move
+  bool m_still = false;    // nothing should move
+  bool m_aligned = false;  // to quarters of cells
 };
 
 }  // namespace

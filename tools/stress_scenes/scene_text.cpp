@@ -5,7 +5,7 @@
 namespace fluidtex::stress {
 
 std::string text(double x) {
-  return fmt::format("{:.6g}", x);  // as many digits as the domain's size: what reaches its sides does so
+  return fmt::format("{:.9g}", x);  // as many digits as the domain's size: what reaches its sides does so
 }
 
 std::string text(const Vec3d& x) {
