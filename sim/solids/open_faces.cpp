@@ -25,8 +25,19 @@ constexpr double kThinnestWall = 0.25;
 // diagonal, and the error of distances that are interpolated on a lattice.
 constexpr double kClear = 1.2;
 
-// Area of the part of the unit square where the distance is positive; corners in order, no saddle.
-double polygonArea(const std::array<double, 4>& d) {
+// Where distances at the ends of an edge of a cell, in cells, put the surface on it, the distance is no more
+// than this off 0 as long as they are to one smooth surface: a circle of a cell's radius is 1/8 of a cell
+// away from the middle of a chord of that length.
+constexpr double kSmooth = 0.125;
+
+// Where a surface crosses an edge between two corners, as a share of it from the first.
+double crossing(double from, double to) {
+  return from / (from - to);
+}
+
+// Area of the part of the unit square where the distance is positive; corners in order, no saddle. cut:
+// where a surface crosses the edge from each corner to the next.
+double polygonArea(const std::array<double, 4>& d, const std::array<double, 4>& cut) {
   static constexpr double kX[4] = {0, 1, 1, 0}, kY[4] = {0, 0, 1, 1};
   double x[8], y[8];
   int n = 0;
@@ -37,7 +48,7 @@ double polygonArea(const std::array<double, 4>& d) {
       y[n++] = kY[a];
     }
     if ((d[a] > 0.0) != (d[b] > 0.0)) {
-      const double t = d[a] / (d[a] - d[b]);
+      const double t = cut[a];
       x[n] = kX[a] + t * (kX[b] - kX[a]);
       y[n++] = kY[a] + t * (kY[b] - kY[a]);
     }
@@ -59,6 +70,26 @@ double snapped(double fraction) {
   if (fraction < kClosed) return 0.0;
   constexpr double kRounding = 1e-6;
   return fraction > 1.0 - kRounding ? 1.0 : fraction;
+}
+
+std::array<double, 4> straightCuts(const std::array<double, 4>& d) {
+  return {crossing(d[0], d[1]), crossing(d[1], d[2]), crossing(d[2], d[3]), crossing(d[3], d[0])};
+}
+
+// openAreaFraction with the places where a surface cuts the edges; in a saddle, that of the distances alone.
+double openArea(const std::array<double, 4>& d, const std::array<double, 4>& cut) {
+  const auto positive = std::count_if(d.begin(), d.end(), [](double distance) { return distance > 0.0; });
+  if (positive == 0) return 0.0;
+  if (*std::min_element(d.begin(), d.end()) >= 0.0) return 1.0;
+  const bool saddle = positive == 2 && (d[0] > 0.0) == (d[2] > 0.0);
+  if (!saddle) return snapped(polygonArea(d, cut));
+  // The mean decides whether the two equal corners are connected.
+  const bool joined = d[0] + d[1] + d[2] + d[3] > 0.0;
+  double corners = 0.0;
+  for (int a = 0; a < 4; ++a) {
+    if ((d[a] > 0.0) != joined) corners += cornerArea(d[a], d[(a + 1) & 3], d[(a + 3) & 3]);
+  }
+  return snapped(joined ? 1.0 - corners : corners);
 }
 
 // Whether a solid crosses the line between two places outside it, `length` metres apart, with distances low
@@ -94,6 +125,22 @@ class CellPlaces {
       if (std::abs(value) < kOnWall * m_h) value = 0.0;
     }
     return value;
+  }
+  // Where the edge from a corner outside the solids to a neighbour inside them meets the surface, as a share
+  // of the edge. Distances at both ends tell it where they are to one surface. In a gap narrower than a cell
+  // the corner outside may be nearer to the other side; then the edge is followed.
+  double cut(const Coord& outside, const Coord& inside) {
+    const double from = corner(outside), to = corner(inside), straight = crossing(from, to);
+    if (from - to >= (1.0 - kOnWall) * m_h) return straight;
+    const Vec3d start = cornerPlace(outside), way = cornerPlace(inside) - start;
+    if (std::abs(m_distance(start + straight * way)) <= kSmooth * m_h) return straight;
+    double gone = from / m_h;
+    while (gone < 1.0) {
+      const double left = m_distance(start + gone * way) / m_h;
+      if (left < kOnWall) return gone;
+      gone += left;
+    }
+    return 1.0;
   }
   // Each from -1 to 7.
   double centre(const Coord& cell) {
@@ -221,9 +268,19 @@ FaceShares openFaceShares(const SolidDistance& distance, const FloatTree& cellDi
       const bool between = least == 0.0 && most == 0.0 && low > 0.0 && high > 0.0;
       if (most <= 0.0 && !between) continue;
       const unsigned lowSide = sideOf(below) >> (1 << axis), highSide = sideOf(local);
-      for (int n = 0; n < 4; ++n)
-        if ((lowSide & highSide & 1u << corners[n]) == 0) d[n] = -std::abs(d[n]);
-      faces[axis][c] = between ? 1.0f : static_cast<float>(openAreaFraction(d[0], d[1], d[2], d[3]));
+      std::array<bool, 4> otherSide{};
+      for (int n = 0; n < 4; ++n) {
+        otherSide[n] = (lowSide & highSide & 1u << corners[n]) == 0;
+        if (otherSide[n]) d[n] = -std::abs(d[n]);
+      }
+      std::array<double, 4> cut = straightCuts(d);
+      for (int n = 0; n < 4; ++n) {
+        const int m = (n + 1) & 3;
+        if ((d[n] > 0.0) == (d[m] > 0.0) || otherSide[n] || otherSide[m]) continue;
+        const Coord one = cornerOf(local, corners[n]), other = cornerOf(local, corners[m]);
+        cut[n] = d[n] > 0.0 ? places.cut(one, other) : 1.0 - places.cut(other, one);
+      }
+      faces[axis][c] = between ? 1.0f : static_cast<float>(openArea(d, cut));
     }
   }
   return faces;
@@ -231,18 +288,7 @@ FaceShares openFaceShares(const SolidDistance& distance, const FloatTree& cellDi
 
 double openAreaFraction(double d00, double d10, double d11, double d01) {
   const std::array<double, 4> d{d00, d10, d11, d01};
-  const int positive = (d00 > 0.0) + (d10 > 0.0) + (d11 > 0.0) + (d01 > 0.0);
-  if (positive == 0) return 0.0;
-  if (std::min({d00, d10, d11, d01}) >= 0.0) return 1.0;
-  const bool saddle = positive == 2 && (d00 > 0.0) == (d11 > 0.0);
-  if (!saddle) return snapped(polygonArea(d));
-  // The mean decides whether the two equal corners are connected.
-  const bool joined = d00 + d10 + d11 + d01 > 0.0;
-  double corners = 0.0;
-  for (int a = 0; a < 4; ++a) {
-    if ((d[a] > 0.0) != joined) corners += cornerArea(d[a], d[(a + 1) & 3], d[(a + 3) & 3]);
-  }
-  return snapped(joined ? 1.0 - corners : corners);
+  return openArea(d, straightCuts(d));
 }
 
 }  // namespace fluidtex::sim

@@ -136,3 +136,21 @@ TEST_CASE("open faces: a solid whose edge just reaches between two cells leaves 
   CHECK(field->open[2].tree().getValue(Coord(7, 8, 8)) == 0.0f);
   CHECK(field->open[2].tree().getValue(Coord(9, 8, 8)) == 1.0f);
 }
+
+TEST_CASE(
+    "open faces: the open area of a gap narrower than a cell is its width, wherever a corner lies in it") {
+  constexpr double h = 1.0 / 16;
+  constexpr double kGap = 0.6;
+  for (const double corner : {0.05, 0.15, 0.3, 0.45, 0.55}) {  // of a grid plane above the lower block's top
+    const double low = (8.0 - corner) * h;
+    const Box below{Vec3d(-1.0), Vec3d(2.0, 2.0, low)}, above{Vec3d(-1.0, -1.0, low + kGap * h), Vec3d(2.0)};
+    const auto field = Solids(tankWith(16, {solidOf(Shape{below}), solidOf(Shape{above})})).at(0.0);
+    const auto open = [&](int axis, int k) { return field->open[axis].tree().getValue(Coord(8, 8, k)); };
+    CAPTURE(corner);
+    for (const int axis : {0, 1}) {
+      CHECK_THAT(open(axis, 7), WithinAbs(corner, 0.011));
+      CHECK_THAT(open(axis, 8), WithinAbs(kGap - corner, 0.011));
+    }
+    CHECK(open(2, 8) == 1.0f);
+  }
+}
