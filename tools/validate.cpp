@@ -73,7 +73,7 @@ std::string bound(const Row& row, const std::optional<double>& value) {
 }
 
 void printHead() {
-  print("{:<18} {:>5}  {:<28} {:>11} {:>9} {:>9}  {}\n", "test", "cells", "measure", "value", "must", "goal",
+  print("{:<21} {:>5}  {:<28} {:>11} {:>9} {:>9}  {}\n", "test", "cells", "measure", "value", "must", "goal",
         "published");
 }
 
@@ -81,7 +81,7 @@ void printRow(const Row& row) {
   std::string others;
   for (const auto& [value, source] : row.published)
     others += fmt::format("{}{:.3g} ({})", others.empty() ? "" : "; ", value, source);
-  print("{:<18} {:>5}  {:<28} {:>11.4g} {:>9} {:>9}  {}{}\n", row.test, row.resolution, row.measure,
+  print("{:<21} {:>5}  {:<28} {:>11.4g} {:>9} {:>9}  {}{}\n", row.test, row.resolution, row.measure,
         row.value, bound(row, row.must), bound(row, row.goal), row.ok() ? "" : "FAILS  ", others);
   std::fflush(stdout);
 }
@@ -148,7 +148,7 @@ void listCases() {
   for (const Case& c : validation::cases()) {
     std::string resolutions;
     for (const int n : c.resolutions) resolutions += fmt::format(" {}", n);
-    print("{:<18} {:<10} {};{}\n", c.name, c.group, c.title, resolutions);
+    print("{:<21} {:<10} {};{}\n", c.name, c.group, c.title, resolutions);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "tests/validation/case.h"
 
+#include "tests/validation/aligned_cases.h"
 #include "tests/validation/dam_break_cases.h"
 #include "tests/validation/film_cases.h"
 #include "tests/validation/level_set_cases.h"
@@ -31,9 +32,9 @@ Row row(const std::string& test, int resolution, const std::string& measure, dou
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = [] {
     std::vector<Case> list;
-    for (auto* part :
-         {levelSetCases, reinitCases, pressureCases, waveCases, restCases, damBreakCases, marinCases,
-          streamCases, shallowCases, shearCases, viscousFlowCases, filmCases, spreadCases, tensionCases}) {
+    for (auto* part : {levelSetCases, reinitCases, pressureCases, waveCases, restCases, alignedCases,
+                       damBreakCases, marinCases, streamCases, shallowCases, shearCases, viscousFlowCases,
+                       filmCases, spreadCases, tensionCases}) {
       for (Case& c : part()) list.push_back(std::move(c));
     }
     return list;
