@@ -57,6 +57,23 @@ TEST_CASE("surroundings: a pool is at rest, a column, a drop and a pool that mov
   CHECK_FALSE(Surroundings(open, {}).atRest());
 }
 
+TEST_CASE("surroundings: a pool with a gap at a wall is not at rest, however narrow the gap is", "[stress]") {
+  const double cell = 0.05;
+  for (const double gap : {0.03, 0.1, 0.25, 0.4}) {
+    INFO("gap of " << gap << " cells");
+    const double end = 1.0 - gap * cell;
+    CHECK_FALSE(Surroundings(tank(box(Vec3d(0.0), Vec3d(end, 1.0, 0.43))), {}).atRest());
+    sim::Options cut = tank(box(Vec3d(0.0), Vec3d(end, 1.0, 0.43)));
+    addSolid(cut, box(Vec3d(end, -cell, -cell), Vec3d(1.0 + cell)));
+    CHECK(Surroundings(cut, {}).atRest());
+    sim::Options above = tank(box(Vec3d(0.0, 0.0, gap * cell), Vec3d(1.0, 1.0, 0.43)));
+    CHECK_FALSE(Surroundings(above, {}).atRest());
+  }
+  sim::Options two = tank(box(Vec3d(0.0), Vec3d(0.61, 1.0, 0.43)));
+  two.liquid.push_back({box(Vec3d(0.61, 0.0, 0.0), Vec3d(1.0, 1.0, 0.43))});
+  CHECK(Surroundings(two, {}).atRest());
+}
+
 TEST_CASE("surroundings: a column beside an unbounded side may splash to any height", "[stress]") {
   sim::Options options = tank(box(Vec3d(0.0), Vec3d(0.5, 1.0, 0.43)));
   options.sides[0] = sim::Side::unbounded;

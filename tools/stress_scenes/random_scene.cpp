@@ -65,6 +65,8 @@ class Writer {
   // On the nearest quarter of a cell where the scene's shapes lie on these: on faces and centres exactly.
   double placed(double x) const { return m_aligned ? 0.25 * std::round(4.0 * x / m_h) * m_h : x; }
   Vec3d placed(const Vec3d& x) const { return {placed(x[0]), placed(x[1]), placed(x[2])}; }
+  // Where a pool ends that leaves no gap at that far side, even when it is placed.
+  double beyondSide(int axis) const { return m_size[axis] + (m_aligned ? 0.125 * m_h : 0.0); }
   double sized(double x) const { return m_aligned ? std::max(placed(x), 0.5 * m_h) : x; }
   std::string box(const Vec3d& low, const Vec3d& high) const {
     if (!m_aligned) return stress::box(low, high);
@@ -210,7 +212,7 @@ class Writer {
       table("solid", box(from, to) + "\n" + surface());
     }
     if (!full) return;
-    Vec3d end = m_size;
+    Vec3d end(beyondSide(0), beyondSide(1), 0.0);
     end[axis] = at - (m_random.chance(0.5) ? 0.0 : 0.5 * wall);
     end[2] = m_random.number(0.3, 0.8) * std::min(height, 1.0) * m_size[2];
     table("liquid", box(Vec3d(0.0), end));
@@ -237,7 +239,7 @@ class Writer {
     if (kind == 2) divider(true);
     if (kind > 2) {
       const double level = m_random.number(0.15, 0.7) * m_size[2];
-      table("liquid", box(Vec3d(0.0), {m_size[0], m_size[1], level}));
+      table("liquid", box(Vec3d(0.0), {beyondSide(0), beyondSide(1), level}));
       for (int n = m_random.whole(0, 2); n > 0; --n)
         table("solid", shape(Vec3d(0.1 * m_size), Vec3d(0.9 * m_size)) + "\n" + surface());
     }

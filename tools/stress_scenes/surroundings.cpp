@@ -75,8 +75,9 @@ Surroundings::Surroundings(const sim::Options& options, const std::vector<std::s
   const std::vector<float> openNow = distances([&](const Vec3d& x) { return all.distance(x, 0.0); });
 
   std::vector<float> ever(open.size(), INFINITY), first(open.size(), INFINITY);
+  std::vector<sim::ShapeDistance> shapes;
   const auto add = [&](const sim::Shape& shape, double from) {
-    const sim::ShapeDistance distance(shape, options.voxelSize(), domain);
+    const sim::ShapeDistance& distance = shapes.emplace_back(shape, options.voxelSize(), domain);
     const std::vector<float> body = distances([&](const Vec3d& x) { return distance(x); });
     double highest = -INFINITY;
     for (std::size_t n = 0; n < body.size(); ++n) {
@@ -110,11 +111,12 @@ Surroundings::Surroundings(const sim::Options& options, const std::vector<std::s
   const double weight = options.gravity.length();
   m_flood = flood(open, ever, calm ? top + weight * options.voxelSize() : INFINITY);
   if (!calm) return;
-  m_atRest = !m_flood.unbounded;
-  for (std::size_t n = 0; n < ever.size() && m_atRest; ++n) {
-    if (m_flood.reached[n] == 0 || -options.gravity.dot(place(n)) > top - 1.01 * weight * m_step) continue;
-    m_atRest = ever[n] < 0.5 * m_step;
-  }
+  const auto toLiquid = [&](const Vec3d& x) {
+    double distance = INFINITY;
+    for (const sim::ShapeDistance& shape : shapes) distance = std::min(distance, shape(x));
+    return distance;
+  };
+  m_atRest = !m_flood.unbounded && isFilled(open, ever, toLiquid, top - 1.01 * weight * m_step);
   for (int side = 0; side < 6 && m_atRest; ++side) {
     if (sim::isClosed(options.sides[side])) continue;
     const int axis = side / 2, end = side % 2 == 0 ? 0 : m_count[axis] - 1;
@@ -235,6 +237,30 @@ Surroundings::Flood Surroundings::flood(const std::vector<float>& open, const st
     }
   }
   return found;
+}
+
+// open, liquid: distances at the samples; toLiquid: at any place. Below `highest` (of -gravity . x).
+bool Surroundings::isFilled(const std::vector<float>& open, const std::vector<float>& liquid,
+                            const std::function<double(const Vec3d&)>& toLiquid, double highest) const {
+  // Less than this between liquid and a wall moves nothing.
+  const double least = sim::kOnWall * m_options.voxelSize();
+  const std::size_t stride[3] = {static_cast<std::size_t>(m_count[1]) * m_count[2],
+                                 static_cast<std::size_t>(m_count[2]), 1};
+  for (std::size_t n = 0; n < open.size(); ++n) {
+    if (m_flood.reached[n] == 0 || -m_options.gravity.dot(place(n)) > highest) continue;
+    if (liquid[n] > least) return false;
+    for (int side = 0; side < 6; ++side) {
+      const int a = side / 2, sign = side % 2 == 0 ? -1 : 1;
+      const int at = static_cast<int>(n / stride[a]) % m_count[a];
+      const bool last = at == (sign < 0 ? 0 : m_count[a] - 1);
+      const double beyond = last ? open[n] - m_step : open[n + sign * static_cast<std::ptrdiff_t>(stride[a])];
+      if (beyond > 0.0) continue;
+      Vec3d wall = place(n);
+      wall[a] += sign * m_step * open[n] / (open[n] - beyond);
+      if (toLiquid(wall) > least) return false;
+    }
+  }
+  return true;
 }
 
 // source: distances to it; taken: to all liquid that is ever poured or a source's, and to solids.

@@ -74,6 +74,8 @@ class Surroundings {
     bool unbounded = false;  // it can get out through an unbounded side
   };
   Flood flood(const std::vector<float>& open, const std::vector<float>& liquid, double highest) const;
+  bool isFilled(const std::vector<float>& open, const std::vector<float>& liquid,
+                const std::function<double(const Vec3d&)>& toLiquid, double highest) const;
   double roomFrom(const std::vector<float>& open, const std::vector<float>& source,
                   const std::vector<float>& taken) const;
 
