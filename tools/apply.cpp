@@ -7,7 +7,7 @@
 #include "tools/base/atomic_file.h"
 #include "tools/base/console.h"
 #include "tools/base/errors.h"
-#include "tools/commands.h"
+#include "tools/common_options.h"
 #include "tools/formats/format.h"
 #include "tools/frames/image_notes.h"
 #include "tools/output/ply.h"
@@ -119,33 +119,32 @@ void applyMaps(const ApplyWishes& wishes) {
         asTyped(wishes.out.string()), stale);
 }
 
-void addApply(CLI::App& app, int& exitCode) {
-  CLI::App* command =
-      app.add_subcommand("apply", "Add further maps of the exemplar to the surfaces of a finished run");
+Command applyCommand() {
   struct Arguments {
     ApplyWishes wishes;
     std::vector<std::string> maps;
   };
-  auto arguments = std::make_shared<Arguments>();
-  command->add_option("out", arguments->wishes.out, "Folder of the run")->required()->type_name("OUT");
-  command
-      ->add_option("maps", arguments->maps,
-                   "Images over the same picture as the exemplar, in any resolution; `color` replaces the "
-                   "vertices' colours")
-      ->required()
-      ->type_name("NAME=FILE");
-  command
-      ->add_option("--exemplar", arguments->wishes.exemplar,
-                   "The run's exemplar, where it is no longer at its place")
-      ->type_name("IMAGE");
-  command->footer(
-      "Example:\n  fluidtex apply out/dam_break height=scales_height.png roughness=scales_rough.png");
-  command->callback([arguments, &exitCode] {
-    exitCode = guarded([&] {
-      for (const std::string& text : arguments->maps) arguments->wishes.maps.push_back(parseMap(text));
-      applyMaps(arguments->wishes);
-    });
-  });
+  const auto arguments = std::make_shared<Arguments>();
+  ApplyWishes& wishes = arguments->wishes;
+  Command command{"apply", "Add further maps of the exemplar to the surfaces of a finished run"};
+  command.options = {
+      {"out", &wishes.out, "OUT", "Folder of the run", {.required = true}},
+      {"maps",
+       &arguments->maps,
+       "NAME=FILE",
+       "Images over the same picture as the exemplar, in any resolution; `color` replaces the vertices' "
+       "colours",
+       {.required = true}},
+      exemplarOfRun(wishes.exemplar),
+  };
+  command.footer =
+      "Example:\n  fluidtex apply out/dam_break height=scales_height.png roughness=scales_rough.png";
+  command.run = [arguments] {
+    for (const std::string& text : arguments->maps) arguments->wishes.maps.push_back(parseMap(text));
+    applyMaps(arguments->wishes);
+    return kDone;
+  };
+  return command;
 }
 
 }  // namespace fluidtex::tools

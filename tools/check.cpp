@@ -166,23 +166,25 @@ void check(const CheckOptions& options) {
 
 }  // namespace
 
-void addCheck(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("check", "Validate a scene or a cache, and print what is in it");
-  auto options = std::make_shared<CheckOptions>();
-  addSceneOptions(*command, *options);
-  addFormatOptions(*command, *options);
-  command
-      ->add_option("--pairs", options->cache.pairs,
-                   "Of a cache: how many pairs of frames are compared (default: 5)")
-      ->check(CLI::Range(1, 9999))
-      ->type_name("N");
-  command
-      ->add_option("--json", options->cache.json,
-                   "Of a cache: write what the pairs of frames say to this file")
-      ->type_name("FILE");
-  command->footer(
-      "Examples:\n  fluidtex check scenes/dam_break.toml --quality final\n  fluidtex check cache_fluid");
-  command->callback([options, &exitCode] { exitCode = guarded([&] { check(*options); }); });
+Command checkCommand() {
+  const auto options = std::make_shared<CheckOptions>();
+  Command command{"check", "Validate a scene or a cache, and print what is in it"};
+  command.options = sceneOptions(*options);
+  append(command.options, formatOptions(*options));
+  append(command.options, {{"--pairs",
+                            &options->cache.pairs,
+                            "N",
+                            "Of a cache: how many pairs of frames are compared (default: 5)",
+                            {.least = 1, .most = 9999}},
+                           {"--json", &options->cache.json, "FILE",
+                            "Of a cache: write what the pairs of frames say to this file"}});
+  command.footer =
+      "Examples:\n  fluidtex check scenes/dam_break.toml --quality final\n  fluidtex check cache_fluid";
+  command.run = [options] {
+    check(*options);
+    return kDone;
+  };
+  return command;
 }
 
 }  // namespace fluidtex::tools

@@ -1,7 +1,7 @@
-// Subcommands of the program; each adds itself to the command line, and runs if chosen.
+// Subcommands of the program.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "tools/command_line/command.h"
 
 #include <filesystem>
 #include <string>
@@ -20,22 +20,23 @@ struct CommonOptions {
   bool resume = false, noRender = false, noReport = false, follow = false, quiet = false, verbose = false;
 };
 
-void addRun(CLI::App& app, int& exitCode);
-void addSimulate(CLI::App& app, int& exitCode);
-void addTexture(CLI::App& app, int& exitCode);
-void addApply(CLI::App& app, int& exitCode);
-void addCompare(CLI::App& app, int& exitCode);
-void addCheck(CLI::App& app, int& exitCode);
-void addRender(CLI::App& app, int& exitCode);
-void addExport(CLI::App& app, int& exitCode);
-void addMeasure(CLI::App& app, int& exitCode);
-void addVideo(CLI::App& app, int& exitCode);
-void addReport(CLI::App& app, int& exitCode);
-void addView(CLI::App& app, int& exitCode);
-void addValidate(CLI::App& app, int& exitCode);
-void addNew(CLI::App& app, int& exitCode);
-void addDoctor(CLI::App& app, int& exitCode);
-// help, version, completion, man; to be called last, as they tell of the others.
-void addHelp(CLI::App& app, int& exitCode);
+// The subcommands, each in the file of its name.
+Command runCommand();
+Command simulateCommand();
+Command textureCommand();
+Command applyCommand();
+Command compareCommand();
+Command checkCommand();
+Command renderCommand();
+Command exportCommand();
+Command measureCommand();
+Command videoCommand();
+Command reportCommand();
+Command viewCommand();
+Command validateCommand();
+Command newCommand();
+Command doctorCommand();
+// help, version, completion, man, of the program's commands so far; the program has to outlive them.
+void addHelp(Program& program);
 
 }  // namespace fluidtex::tools

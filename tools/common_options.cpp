@@ -132,61 +132,59 @@ std::string qualityNote(const CommonOptions& options, const scenes::Scene& scene
 
 }  // namespace
 
-void addSimulationOptions(CLI::App& command, CommonOptions& options) {
-  command
-      .add_option("scene", options.scene,
-                  "Scene file, - for one on stdin, or a folder or file of another program's cache")
-      ->required()
-      ->type_name("SCENE");
-  command
-      .add_option(
-          "--frames", options.frames,
-          "First and last frame, numbered from 1, such as 1:24; earlier ones are computed, not written")
-      ->type_name("A:B");
-  command.add_option("--threads", options.threads, "How many threads (default: one a core)")
-      ->check(CLI::Range(1, 4096))
-      ->type_name("N");
-  command
-      .add_option("--quality", options.quality,
-                  "preview, default or final: the scene's own [quality] tables; of a cache 10,000, 40,000 or "
-                  "200,000 points")
-      ->check(CLI::IsMember({"preview", "default", "final"}))
-      ->type_name("NAME");
-  command.add_option("--set", options.set, "Sets any key of the scene, dotted; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command.add_flag("--quiet", options.quiet, "No progress, only errors");
-  command.add_flag("--verbose", options.verbose, "More in the log");
+std::vector<Option> simulationOptions(CommonOptions& options) {
+  return {
+      {"scene",
+       &options.scene,
+       "SCENE",
+       "Scene file, - for one on stdin, or a folder or file of another program's cache",
+       {.required = true}},
+      {"--frames", &options.frames, "A:B",
+       "First and last frame, numbered from 1, such as 1:24; earlier ones are computed, not written"},
+      {"--threads",
+       &options.threads,
+       "N",
+       "How many threads (default: one a core)",
+       {.least = 1, .most = 4096}},
+      {"--quality",
+       &options.quality,
+       "NAME",
+       "preview, default or final: the scene's own [quality] tables; of a cache 10,000, 40,000 or 200,000 "
+       "points",
+       {.words = {"preview", "default", "final"}}},
+      {"--set", &options.set, "KEY=VALUE", "Sets any key of the scene, dotted; may be repeated"},
+      {"--quiet", &options.quiet, "", "No progress, only errors"},
+      {"--verbose", &options.verbose, "", "More in the log"},
+  };
 }
 
-void addSceneOptions(CLI::App& command, CommonOptions& options) {
-  addSimulationOptions(command, options);
-  command
-      .add_option("--out", options.out,
-                  "Folder for the results (default: out/NAME, that of the scene or the cache)")
-      ->type_name("DIR");
-  command
-      .add_option("--exemplar", options.exemplar,
-                  "Image to grow the texture from: of a cache, or instead of the scene's")
-      ->type_name("IMAGE");
+std::vector<Option> sceneOptions(CommonOptions& options) {
+  std::vector<Option> all = simulationOptions(options);
+  append(all, {{"--out", &options.out, "DIR",
+                "Folder for the results (default: out/NAME, that of the scene or the cache)"},
+               {"--exemplar", &options.exemplar, "IMAGE",
+                "Image to grow the texture from: of a cache, or instead of the scene's"}});
+  return all;
 }
 
-void addFormatOptions(CLI::App& command, CommonOptions& options) {
-  command
-      .add_option("--format", options.formats,
-                  "Write surfaces as glb, obj, usda or vtp too, with commas between several; ply is always "
-                  "written")
-      ->type_name("NAME")
-      ->delimiter(',')
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command
-      .add_option("--joints", options.joints,
-                  "In glb and usda, where pieces of texture meet: cut (one set of coordinates, hard joints; "
-                  "default) or blend (three, for a material that mixes them)")
-      ->check(CLI::IsMember({"cut", "blend"}))
-      ->type_name("HOW");
+std::vector<Option> formatOptions(CommonOptions& options) {
+  return {
+      {"--format",
+       &options.formats,
+       "NAME",
+       "Write surfaces as glb, obj, usda or vtp too, with commas between several; ply is always written",
+       {.withCommas = true}},
+      {"--joints",
+       &options.joints,
+       "HOW",
+       "In glb and usda, where pieces of texture meet: cut (one set of coordinates, hard joints; default) or "
+       "blend (three, for a material that mixes them)",
+       {.words = {"cut", "blend"}}},
+  };
+}
+
+Option exemplarOfRun(std::filesystem::path& exemplar) {
+  return {"--exemplar", &exemplar, "IMAGE", "The run's exemplar, where it is no longer at its place"};
 }
 
 JointsAs jointsAs(const CommonOptions& options) {

@@ -6,17 +6,21 @@
 #include "tools/commands.h"
 #include "tools/formats/export_mesh.h"
 
+#include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace fluidtex::tools {
 
-void addSceneOptions(CLI::App& command, CommonOptions& options);
+std::vector<Option> sceneOptions(CommonOptions& options);
 // Those that a simulation alone has a use for: no --out, no --exemplar.
-void addSimulationOptions(CLI::App& command, CommonOptions& options);
-
+std::vector<Option> simulationOptions(CommonOptions& options);
 // --format and --joints.
-void addFormatOptions(CLI::App& command, CommonOptions& options);
+std::vector<Option> formatOptions(CommonOptions& options);
+// --exemplar of what is made of a finished run.
+Option exemplarOfRun(std::filesystem::path& exemplar);
+
 JointsAs jointsAs(const CommonOptions& options);
 
 // The scene file, or for "-" what comes on stdin, which is read once. Throws UsageError where nothing comes.

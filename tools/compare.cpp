@@ -98,20 +98,24 @@ void compare(CommonOptions options) {
 
 }  // namespace
 
-void addCompare(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand(
-      "compare", "Run a scene in the paper's variants; contact sheet, video and table side by side");
-  auto options = std::make_shared<CommonOptions>();
-  addSceneOptions(*command, *options);
-  command->get_option("--out")->description("Folder for the results (default: out/SCENE_NAME_compare)");
-  command->add_flag("--resume", options->resume,
-                    "Go on with the variants that an earlier call has left undone");
-  command->add_flag("--no-render", options->noRender, "Only the table, no pictures and no video");
-  command->add_flag("--no-report", options->noReport, "Write no report.html of the variants");
-  command->footer(
+Command compareCommand() {
+  const auto options = std::make_shared<CommonOptions>();
+  Command command{"compare",
+                  "Run a scene in the paper's variants; contact sheet, video and table side by side"};
+  command.options = sceneOptions(*options);
+  named(command.options, "--out").text = "Folder for the results (default: out/SCENE_NAME_compare)";
+  append(command.options,
+         {{"--resume", &options->resume, "", "Go on with the variants that an earlier call has left undone"},
+          {"--no-render", &options->noRender, "", "Only the table, no pictures and no video"},
+          {"--no-report", &options->noReport, "", "Write no report.html of the variants"}});
+  command.footer =
       "Example:\n  fluidtex compare scenes/dam_break.toml --quality preview --out out/compare\n"
-      "Writes compare.jpg, compare.mp4, compare.md and compare.json, and each variant's run beside them.");
-  command->callback([options, &exitCode] { exitCode = guarded([&] { compare(*options); }); });
+      "Writes compare.jpg, compare.mp4, compare.md and compare.json, and each variant's run beside them.";
+  command.run = [options] {
+    compare(*options);
+    return kDone;
+  };
+  return command;
 }
 
 }  // namespace fluidtex::tools

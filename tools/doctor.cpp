@@ -177,14 +177,11 @@ class Doctor {
 
 }  // namespace
 
-void addDoctor(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("doctor", "Print what is installed, what is missing and what for");
-  command->footer("Exit status: 0 where everything that a run needs works, else 2.");
-  command->callback([&exitCode] {
-    int result = kDone;
-    exitCode = guarded([&] { result = Doctor().run(); });
-    if (exitCode == kDone) exitCode = result;
-  });
+Command doctorCommand() {
+  Command command{"doctor", "Print what is installed, what is missing and what for"};
+  command.footer = "Exit status: 0 where everything that a run needs works, else 2.";
+  command.run = [] { return Doctor().run(); };
+  return command;
 }
 
 }  // namespace fluidtex::tools

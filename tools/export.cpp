@@ -31,20 +31,22 @@ void exportRun(const CommonOptions& options) {
 
 }  // namespace
 
-void addExport(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("export", "Write the surfaces of a finished run in other formats");
-  auto options = std::make_shared<CommonOptions>();
-  command->add_option("out", options->out, "Folder of the run")->required()->type_name("OUT");
-  addFormatOptions(*command, *options);
-  command->get_option("--format")
-      ->required()
-      ->description("glb, obj, usda, vtp, with commas between several");
-  command
-      ->add_option("--exemplar", options->exemplar, "The run's exemplar, where it is no longer at its place")
-      ->type_name("IMAGE");
-  command->add_flag("--quiet", options->quiet, "No progress, only errors");
-  command->footer("Example:\n  fluidtex export out/dam_break --format glb,vtp");
-  command->callback([options, &exitCode] { exitCode = guarded([&] { exportRun(*options); }); });
+Command exportCommand() {
+  const auto options = std::make_shared<CommonOptions>();
+  Command command{"export", "Write the surfaces of a finished run in other formats"};
+  command.options = {{"out", &options->out, "OUT", "Folder of the run", {.required = true}}};
+  append(command.options, formatOptions(*options));
+  Option& format = named(command.options, "--format");
+  format.takes.required = true;
+  format.text = "glb, obj, usda, vtp, with commas between several";
+  append(command.options,
+         {exemplarOfRun(options->exemplar), {"--quiet", &options->quiet, "", "No progress, only errors"}});
+  command.footer = "Example:\n  fluidtex export out/dam_break --format glb,vtp";
+  command.run = [options] {
+    exportRun(*options);
+    return kDone;
+  };
+  return command;
 }
 
 }  // namespace fluidtex::tools

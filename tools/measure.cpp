@@ -9,7 +9,7 @@
 #include "tools/base/atomic_file.h"
 #include "tools/base/console.h"
 #include "tools/base/errors.h"
-#include "tools/commands.h"
+#include "tools/common_options.h"
 #include "tools/output/ply.h"
 #include "tools/output/read_ply.h"
 #include "tools/report/write_report.h"
@@ -177,24 +177,28 @@ void measureRun(const MeasureWishes& wishes) {
   Measurer(wishes).run();
 }
 
-void addMeasure(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("measure", "Measure the texture of a finished run");
-  auto wishes = std::make_shared<MeasureWishes>();
-  command->add_option("out", wishes->out, "Folder of the run")->required()->type_name("OUT");
-  command
-      ->add_option("--exemplar", wishes->exemplar, "The run's exemplar, where it is no longer at its place")
-      ->type_name("IMAGE");
-  command->add_option("--json", wishes->json, "Write all figures to this file")->type_name("FILE");
-  command
-      ->add_option("--every", wishes->every,
-                   "Likeness, contrast and pieces on every K-th frame and the last (default: 8); repeats on "
-                   "the first and the "
-                   "last; change on all")
-      ->check(CLI::Range(1, 9999))
-      ->type_name("K");
-  command->add_flag("--quiet", wishes->quiet, "No table, only files");
-  command->footer("Example:\n  fluidtex measure out/dam_break --json measures.json");
-  command->callback([wishes, &exitCode] { exitCode = guarded([&] { measureRun(*wishes); }); });
+Command measureCommand() {
+  const auto wishes = std::make_shared<MeasureWishes>();
+  Command command{"measure", "Measure the texture of a finished run"};
+  command.options = {
+      {"out", &wishes->out, "OUT", "Folder of the run", {.required = true}},
+      exemplarOfRun(wishes->exemplar),
+      {"--json", &wishes->json, "FILE", "Write all figures to this file"},
+      {"--every",
+       &wishes->every,
+       "K",
+       "Likeness, contrast and pieces on every K-th frame and the last (default: 8); repeats on the first "
+       "and "
+       "the last; change on all",
+       {.least = 1, .most = 9999}},
+      {"--quiet", &wishes->quiet, "", "No table, only files"},
+  };
+  command.footer = "Example:\n  fluidtex measure out/dam_break --json measures.json";
+  command.run = [wishes] {
+    measureRun(*wishes);
+    return kDone;
+  };
+  return command;
 }
 
 }  // namespace fluidtex::tools

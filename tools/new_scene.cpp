@@ -152,20 +152,24 @@ void newScene(const NewScene& wishes) {
 
 }  // namespace
 
-void addNew(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("new", "Write a commented scene to begin with");
-  auto wishes = std::make_shared<NewScene>();
-  command
-      ->add_option("name", wishes->name, "The scene's name; NAME.toml is written, and nothing is overwritten")
-      ->required()
-      ->type_name("NAME");
-  command
-      ->add_option(
-          "--exemplar", wishes->exemplar,
-          "Image to grow the texture from (default: one of green scales is written beside the scene)")
-      ->type_name("IMAGE");
-  command->footer("Example:\n  fluidtex new first\n  fluidtex run first.toml --quality preview");
-  command->callback([wishes, &exitCode] { exitCode = guarded([&] { newScene(*wishes); }); });
+Command newCommand() {
+  const auto wishes = std::make_shared<NewScene>();
+  Command command{"new", "Write a commented scene to begin with"};
+  command.options = {
+      {"name",
+       &wishes->name,
+       "NAME",
+       "The scene's name; NAME.toml is written, and nothing is overwritten",
+       {.required = true}},
+      {"--exemplar", &wishes->exemplar, "IMAGE",
+       "Image to grow the texture from (default: one of green scales is written beside the scene)"},
+  };
+  command.footer = "Example:\n  fluidtex new first\n  fluidtex run first.toml --quality preview";
+  command.run = [wishes] {
+    newScene(*wishes);
+    return kDone;
+  };
+  return command;
 }
 
 }  // namespace fluidtex::tools

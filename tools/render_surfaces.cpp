@@ -226,62 +226,64 @@ void renderSurfaces(const RenderOptions& wanted) {
   if (!options.quiet) say("report: {}\n", (out / "report.html").string());
 }
 
-void addCyclesOptions(CLI::App& command, RenderOptions& options) {
-  CLI::Option* cycles =
-      command.add_flag("--cycles", options.byCycles,
-                       "Draw by Blender's path tracer, Cycles, which looks the exemplar up at every place");
-  const auto add = [&](const char* name, auto& value, const char* text, const char* type) {
-    return command.add_option(name, value, text)->type_name(type)->needs(cycles);
+std::vector<Option> cyclesOptions(RenderOptions& options) {
+  const std::string with = "--cycles";
+  return {
+      {with, &options.byCycles, "",
+       "Draw by Blender's path tracer, Cycles, which looks the exemplar up at every place"},
+      {"--shutter",
+       &options.cycles.shutter,
+       "FRAMES",
+       "With --cycles: how many frames the shutter is open, for motion blur (default: 0, none)",
+       {.least = 0.0, .most = 1000.0, .with = with}},
+      {"--shader",
+       &options.cycles.shader,
+       "NAME",
+       "With --cycles: coat, as the program's own pictures have it (default), or principled, Blender's own",
+       {.words = {"coat", "principled"}, .with = with}},
+      {"--map",
+       &options.maps,
+       "KIND=IMAGE",
+       "With --cycles: a picture over the exemplar, of any size, for color, roughness, normal, bump, "
+       "displacement or alpha; may be repeated",
+       {.with = with}},
+      {"--height",
+       &options.cycles.height,
+       "M",
+       "With --map of bump or displacement: of white above black, metres (default: 0.01)",
+       {.with = with}},
+      {"--blend",
+       &options.blend,
+       "FILE",
+       "With --cycles: save it all as a file of Blender's, NAME.blend, and draw nothing",
+       {.ending = ".blend", .with = with}},
   };
-  add("--shutter", options.cycles.shutter,
-      "With --cycles: how many frames the shutter is open, for motion blur (default: 0, none)", "FRAMES")
-      ->check(CLI::Range(0.0, 1000.0));
-  add("--shader", options.cycles.shader,
-      "With --cycles: coat, as the program's own pictures have it (default), or principled, Blender's own",
-      "NAME")
-      ->check(CLI::IsMember({"coat", "principled"}));
-  add("--map", options.maps,
-      "With --cycles: a picture over the exemplar, of any size, for color, roughness, normal, bump, "
-      "displacement or alpha; may be repeated",
-      "KIND=IMAGE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  add("--height", options.cycles.height,
-      "With --map of bump or displacement: of white above black, metres (default: 0.01)", "M");
-  add("--blend", options.blend,
-      "With --cycles: save it all as a file of Blender's, NAME.blend, and draw nothing", "FILE")
-      ->check(CLI::Validator(
-          [](const std::string& file) {
-            return file.ends_with(".blend") ? std::string() : file + ": does not end in .blend";
-          },
-          "", "blend"));
 }
 
 }  // namespace
 
-void addRender(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("render", "Render the surfaces of a finished run anew");
-  auto options = std::make_shared<RenderOptions>();
-  addSceneOptions(*command, options->common);
-  command->add_option("--from", options->from, "Folder of the run whose surfaces are rendered")
-      ->required()
-      ->type_name("DIR");
-  command->add_flag("--missing", options->missing, "Draw only pictures that are not there yet");
-  command->add_flag(
-      "--part", options->part,
-      "Draw beside other processes that draw other --frames into the same folder; pictures only");
-  command->add_flag("--no-report", options->common.noReport, "Write no report.html");
-  addCyclesOptions(*command, *options);
-  command->footer(
+Command renderCommand() {
+  const auto options = std::make_shared<RenderOptions>();
+  Command command{"render", "Render the surfaces of a finished run anew"};
+  command.options = sceneOptions(options->common);
+  append(
+      command.options,
+      {{"--from", &options->from, "DIR", "Folder of the run whose surfaces are rendered", {.required = true}},
+       {"--missing", &options->missing, "", "Draw only pictures that are not there yet"},
+       {"--part", &options->part, "",
+        "Draw beside other processes that draw other --frames into the same folder; pictures only"},
+       {"--no-report", &options->common.noReport, "", "Write no report.html"}});
+  append(command.options, cyclesOptions(*options));
+  command.footer =
       "Examples:\n"
       "  fluidtex render scenes/dam_break.toml --from out/dam_break --out out/closer --set camera.fov=15\n"
-      "  fluidtex render scenes/dam_break.toml --from out/dam_break --out out/cycles --cycles --shutter 0.5");
-  command->callback([options, &exitCode] {
-    exitCode = guarded([&] {
-      options->cycles.maps = mapsOf(options->maps);
-      renderSurfaces(*options);
-    });
-  });
+      "  fluidtex render scenes/dam_break.toml --from out/dam_break --out out/cycles --cycles --shutter 0.5";
+  command.run = [options] {
+    options->cycles.maps = mapsOf(options->maps);
+    renderSurfaces(*options);
+    return kDone;
+  };
+  return command;
 }
 
 }  // namespace fluidtex::tools

@@ -10,18 +10,18 @@
 
 namespace fluidtex::tools {
 
-void addReport(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("report", "Show a run on one page, OUT/report.html");
-  auto out = std::make_shared<std::filesystem::path>();
-  command->add_option("out", *out, "Folder of the run")->required()->type_name("OUT");
-  command->footer("Example:\n  fluidtex report out/dam_break");
-  command->callback([out, &exitCode] {
-    exitCode = guarded([&] {
-      const OutFolder folder(existing(*out));
-      writeReport({*out, *out});
-      print("{}\n", (*out / "report.html").string());
-    });
-  });
+Command reportCommand() {
+  const auto out = std::make_shared<std::filesystem::path>();
+  Command command{"report", "Show a run on one page, OUT/report.html"};
+  command.options = {{"out", out.get(), "OUT", "Folder of the run", {.required = true}}};
+  command.footer = "Example:\n  fluidtex report out/dam_break";
+  command.run = [out] {
+    const OutFolder folder(existing(*out));
+    writeReport({*out, *out});
+    print("{}\n", (*out / "report.html").string());
+    return kDone;
+  };
+  return command;
 }
 
 }  // namespace fluidtex::tools

@@ -75,44 +75,45 @@ void runInto(const std::filesystem::path& out, const scenes::Scene& scene, const
 
 namespace {
 
-void addRunOptions(CLI::App& command, const std::shared_ptr<CommonOptions>& options, int& exitCode) {
-  addSceneOptions(command, *options);
-  command.add_flag("--resume", options->resume,
-                   "Go on from the last frame that an earlier, unfinished run has left in the folder");
-  command.add_flag(
-      "--follow", options->follow,
-      "Wait for files of another program that still runs; --set frames=N says how many there will be");
-  command.add_flag("--no-render", options->noRender, "Write surfaces only, no pictures and no video");
-  command.add_flag("--no-report", options->noReport, "Write no report.html");
-  addFormatOptions(command, *options);
-  command.callback([options, &exitCode] {
-    exitCode = guarded([&] {
-      const scenes::Scene scene = loadScene(*options);
-      runInto(options->out.empty() ? std::filesystem::path("out") / scene.name : options->out, scene,
-              *options);
-    });
-  });
+// A command that does as `run`; its footer is missing.
+Command runningCommand(const std::string& name, const std::string& text) {
+  const auto options = std::make_shared<CommonOptions>();
+  Command command{name, text};
+  command.options = sceneOptions(*options);
+  append(command.options,
+         {{"--resume", &options->resume, "",
+           "Go on from the last frame that an earlier, unfinished run has left in the folder"},
+          {"--follow", &options->follow, "",
+           "Wait for files of another program that still runs; --set frames=N says how many there will be"},
+          {"--no-render", &options->noRender, "", "Write surfaces only, no pictures and no video"},
+          {"--no-report", &options->noReport, "", "Write no report.html"}});
+  append(command.options, formatOptions(*options));
+  command.run = [options] {
+    const scenes::Scene scene = loadScene(*options);
+    runInto(options->out.empty() ? std::filesystem::path("out") / scene.name : options->out, scene, *options);
+    return kDone;
+  };
+  return command;
 }
 
 }  // namespace
 
-void addRun(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("run", "Simulate, texture, render and write, frame by frame");
-  addRunOptions(*command, std::make_shared<CommonOptions>(), exitCode);
-  command->footer(
+Command runCommand() {
+  Command command = runningCommand("run", "Simulate, texture, render and write, frame by frame");
+  command.footer =
       "Example:\n"
       "  fluidtex run scenes/dam_break.toml --quality preview --exemplar bark.jpg --set texture.points=20000 "
-      "--out out/bark");
+      "--out out/bark";
+  return command;
 }
 
-void addTexture(CLI::App& app, int& exitCode) {
-  CLI::App* command =
-      app.add_subcommand("texture", "Texture and render the liquid of another program's cache");
-  addRunOptions(*command, std::make_shared<CommonOptions>(), exitCode);
-  command->footer(
+Command textureCommand() {
+  Command command = runningCommand("texture", "Texture and render the liquid of another program's cache");
+  command.footer =
       "Examples:\n"
       "  fluidtex texture cache_fluid --exemplar lava.jpg\n"
-      "  fluidtex texture 'water_####.vdb' --exemplar bark.jpg --set files.up=y --out out/water");
+      "  fluidtex texture 'water_####.vdb' --exemplar bark.jpg --set files.up=y --out out/water";
+  return command;
 }
 
 }  // namespace fluidtex::tools

@@ -100,35 +100,34 @@ void simulate(const scenes::Scene& scene, const CommonOptions& options, const fs
 
 }  // namespace
 
-void addSimulate(CLI::App& app, int& exitCode) {
-  CLI::App* command =
-      app.add_subcommand("simulate", "Simulate only, and write a cache that texture goes on from");
+Command simulateCommand() {
   struct Arguments {
     CommonOptions options;
     fs::path cache;
   };
-  auto arguments = std::make_shared<Arguments>();
-  addSimulationOptions(*command, arguments->options);
-  command->add_option("--cache", arguments->cache, "Folder for the frames")->required()->type_name("DIR");
-  command->add_flag(
-      "--resume", arguments->options.resume,
-      "Go on from the last frame that an earlier, unfinished simulation has left in the folder");
-  command->footer(
+  const auto arguments = std::make_shared<Arguments>();
+  Command command{"simulate", "Simulate only, and write a cache that texture goes on from"};
+  command.options = simulationOptions(arguments->options);
+  append(command.options,
+         {{"--cache", &arguments->cache, "DIR", "Folder for the frames", {.required = true}},
+          {"--resume", &arguments->options.resume, "",
+           "Go on from the last frame that an earlier, unfinished simulation has left in the folder"}});
+  command.footer =
       "Example:\n"
       "  fluidtex simulate scenes/dam_break.toml --cache caches/dam_break\n"
-      "  fluidtex run scenes/dam_break.toml --set motion.flow=files --set files.path=caches/dam_break");
-  command->callback([arguments, &exitCode] {
-    exitCode = guarded([&] {
-      const CommonOptions& options = arguments->options;
-      const scenes::Scene scene = loadScene(options);
-      if (scene.motion.flow == sim::MotionKind::files)
-        throw UsageError(options.scene.string() +
-                         ": its liquid comes out of files; there is nothing to simulate");
-      const int threads = options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
-      const tbb::global_control control(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
-      atItsLine(options, scene, [&] { simulate(scene, options, arguments->cache); });
-    });
-  });
+      "  fluidtex run scenes/dam_break.toml --set motion.flow=files --set files.path=caches/dam_break";
+  command.run = [arguments] {
+    const CommonOptions& options = arguments->options;
+    const scenes::Scene scene = loadScene(options);
+    if (scene.motion.flow == sim::MotionKind::files)
+      throw UsageError(options.scene.string() +
+                       ": its liquid comes out of files; there is nothing to simulate");
+    const int threads = options.threads > 0 ? options.threads : tbb::this_task_arena::max_concurrency();
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+    atItsLine(options, scene, [&] { simulate(scene, options, arguments->cache); });
+    return kDone;
+  };
+  return command;
 }
 
 }  // namespace fluidtex::tools

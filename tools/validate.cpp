@@ -225,39 +225,30 @@ int validate(const ValidateOptions& options) {
 
 }  // namespace
 
-void addValidate(CLI::App& app, int& exitCode) {
-  CLI::App* command =
-      app.add_subcommand("validate", "Run the reference tests and print each figure beside its bar");
-  auto options = std::make_shared<ValidateOptions>();
-  command
-      ->add_option("names", options->names,
-                   "Tests, or sets of them (level_set, fluid, quick); all when none is named")
-      ->type_name("NAME");
-  command->add_option("--json", options->json, "Write the figures to this file")->type_name("FILE");
-  command->add_option("--plots", options->plots, "Write the plots into this folder, as SVG")
-      ->type_name("DIR");
-  command
-      ->add_option("--docs", options->page,
-                   "Bring the tables of this page up to date (docs/results/validation.md)")
-      ->type_name("PAGE");
-  command
-      ->add_option("--figures", options->figures,
-                   "The same for the page of figures without a bar (docs/results/figures.md)")
-      ->type_name("PAGE");
-  command->add_option("--resolution", options->resolution, "Run at this resolution only")
-      ->check(CLI::Range(8, 4096))
-      ->type_name("N");
-  command->add_option("--threads", options->threads, "Threads to use; one a core where not given")
-      ->check(CLI::Range(1, 4096))
-      ->type_name("N");
-  command->add_flag("--list", options->list, "Print the tests and their resolutions");
-  command->footer(
-      "Example:\n  fluidtex validate zalesak vortex_8 --plots docs/validation --json figures.json");
-  command->callback([options, &exitCode] {
-    int result = kDone;
-    exitCode = guarded([&] { result = validate(*options); });
-    if (exitCode == kDone) exitCode = result;
-  });
+Command validateCommand() {
+  const auto options = std::make_shared<ValidateOptions>();
+  Command command{"validate", "Run the reference tests and print each figure beside its bar"};
+  command.options = {
+      {"names", &options->names, "NAME",
+       "Tests, or sets of them (level_set, fluid, quick); all when none is named"},
+      {"--json", &options->json, "FILE", "Write the figures to this file"},
+      {"--plots", &options->plots, "DIR", "Write the plots into this folder, as SVG"},
+      {"--docs", &options->page, "PAGE",
+       "Bring the tables of this page up to date (docs/results/validation.md)"},
+      {"--figures", &options->figures, "PAGE",
+       "The same for the page of figures without a bar (docs/results/figures.md)"},
+      {"--resolution", &options->resolution, "N", "Run at this resolution only", {.least = 8, .most = 4096}},
+      {"--threads",
+       &options->threads,
+       "N",
+       "Threads to use; one a core where not given",
+       {.least = 1, .most = 4096}},
+      {"--list", &options->list, "", "Print the tests and their resolutions"},
+  };
+  command.footer =
+      "Example:\n  fluidtex validate zalesak vortex_8 --plots docs/validation --json figures.json";
+  command.run = [options] { return validate(*options); };
+  return command;
 }
 
 }  // namespace fluidtex::tools

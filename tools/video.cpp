@@ -52,18 +52,24 @@ void makeVideo(VideoOptions options) {
 
 }  // namespace
 
-void addVideo(CLI::App& app, int& exitCode) {
-  CLI::App* command = app.add_subcommand("video", "Make a video of pictures 0001.png, 0002.png, ...");
-  auto options = std::make_shared<VideoOptions>();
-  command->add_option("pictures", options->pictures, "Their folder")->required()->type_name("PICTURES");
-  command->add_option("--out", options->out, "The video (default: PICTURES.mp4)")->type_name("FILE");
-  command
-      ->add_option("--rate", options->rate,
-                   "Frames a second (default: of the run in whose folder PICTURES lies)")
-      ->type_name("N")
-      ->check(CLI::Range(0.01, 1000.0));
-  command->footer("Example:\n  fluidtex video out/dam_break/frames");
-  command->callback([options, &exitCode] { exitCode = guarded([&] { makeVideo(*options); }); });
+Command videoCommand() {
+  const auto options = std::make_shared<VideoOptions>();
+  Command command{"video", "Make a video of pictures 0001.png, 0002.png, ..."};
+  command.options = {
+      {"pictures", &options->pictures, "PICTURES", "Their folder", {.required = true}},
+      {"--out", &options->out, "FILE", "The video (default: PICTURES.mp4)"},
+      {"--rate",
+       &options->rate,
+       "N",
+       "Frames a second (default: of the run in whose folder PICTURES lies)",
+       {.least = 0.01, .most = 1000.0}},
+  };
+  command.footer = "Example:\n  fluidtex video out/dam_break/frames";
+  command.run = [options] {
+    makeVideo(*options);
+    return kDone;
+  };
+  return command;
 }
 
 }  // namespace fluidtex::tools

@@ -8,28 +8,31 @@
 
 namespace fluidtex::tools {
 
-void addView(CLI::App& app, int& exitCode) {
-  CLI::App* command =
-      app.add_subcommand("view", "Serve the page of a run to this machine's browser while it goes on");
+Command viewCommand() {
   struct Wishes {
     std::filesystem::path out;
     int port = 0;
   };
-  auto wishes = std::make_shared<Wishes>();
-  command->add_option("out", wishes->out, "Folder of the run")->required()->type_name("OUT");
-  command->add_option("--port", wishes->port, "Port to listen on (default: any that is free)")
-      ->check(CLI::Range(1, 65535))
-      ->type_name("N");
-  command->footer("Example:\n  fluidtex view out/dam_break --port 8080");
-  command->callback([wishes, &exitCode] {
-    exitCode = guarded([&] {
-      serveRun(wishes->out, wishes->port, [](int port) {
-        print("http://127.0.0.1:{}/\n", port);
-        finishPrinting();
-        say("Open this address in a browser of this machine; Ctrl-C ends.\n");
-      });
+  const auto wishes = std::make_shared<Wishes>();
+  Command command{"view", "Serve the page of a run to this machine's browser while it goes on"};
+  command.options = {
+      {"out", &wishes->out, "OUT", "Folder of the run", {.required = true}},
+      {"--port",
+       &wishes->port,
+       "N",
+       "Port to listen on (default: any that is free)",
+       {.least = 1, .most = 65535}},
+  };
+  command.footer = "Example:\n  fluidtex view out/dam_break --port 8080";
+  command.run = [wishes] {
+    serveRun(wishes->out, wishes->port, [](int port) {
+      print("http://127.0.0.1:{}/\n", port);
+      finishPrinting();
+      say("Open this address in a browser of this machine; Ctrl-C ends.\n");
     });
-  });
+    return kDone;
+  };
+  return command;
 }
 
 }  // namespace fluidtex::tools

@@ -21,12 +21,12 @@ struct Finished {
   std::string all() const { return out + err; }
 };
 
-class Program {
+class RunningProgram {
  public:
   // `fluidtex ARGS...`, in the folder `from` where given, with `path` in front of PATH where given. `setUp`:
   // done in the new process, last of all.
-  explicit Program(const std::vector<std::string>& args, const std::filesystem::path& from = {},
-                   const std::filesystem::path& path = {}, const std::function<void()>& setUp = {}) {
+  explicit RunningProgram(const std::vector<std::string>& args, const std::filesystem::path& from = {},
+                          const std::filesystem::path& path = {}, const std::function<void()>& setUp = {}) {
     const std::string searched = path.empty() ? "" : path.string() + ":" + std::getenv("PATH");
     const std::string cache = (m_scratch.path / "cache").string();
     m_child = fork();
@@ -81,12 +81,12 @@ class Program {
 };
 
 inline Finished runProgram(const std::vector<std::string>& args, const std::filesystem::path& from = {}) {
-  return Program(args, from).wait();
+  return RunningProgram(args, from).wait();
 }
 
 // The same, with what `setUp` does in the new process: limits, other streams, variables.
 inline Finished runProgramWith(const std::function<void()>& setUp, const std::vector<std::string>& args) {
-  return Program(args, {}, {}, setUp).wait();
+  return RunningProgram(args, {}, {}, setUp).wait();
 }
 
 inline const std::string kSmallScene = FLUIDTEX_SOURCE "/tests/tools/small.toml";

@@ -36,7 +36,7 @@ TEST_CASE("fluidtex render --part: the run's own bytes, from several processes i
     args.insert(args.end(), {"--part", "--frames", frames});
     return args;
   };
-  const Program first(part("1:2")), second(part("3"));
+  const RunningProgram first(part("1:2")), second(part("3"));
   well(first.wait());
   well(second.wait());
   CHECK_FALSE(fs::exists(fs::path(out) / "small.mp4"));

@@ -24,31 +24,47 @@ std::string quoted(const std::string& text, const std::string& special = "",
   return result + "'";
 }
 
-std::vector<std::string> namesOf(const std::vector<DescribedOption>& options) {
+// What a value of an option is, for those who offer some.
+enum class ValueKind { none, any, words, keys, files, folders };
+
+bool isOneOf(const std::string& word, std::initializer_list<const char*> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+ValueKind kindOf(const Option& option) {
+  if (option.value.empty()) return ValueKind::none;
+  if (!option.takes.words.empty()) return ValueKind::words;
+  if (option.value == "KEY=VALUE") return ValueKind::keys;
+  if (isOneOf(option.value, {"DIR", "OUT"})) return ValueKind::folders;
+  if (isOneOf(option.value, {"SCENE", "IMAGE", "FILE", "PAGE", "NAME=FILE", "KIND=IMAGE"}))
+    return ValueKind::files;
+  return ValueKind::any;
+}
+
+std::vector<std::string> namesOf(const std::vector<Option>& options) {
   std::vector<std::string> names;
-  for (const DescribedOption& option : options)
-    names.insert(names.end(), option.names.begin(), option.names.end());
+  for (const Option& option : options)
+    for (const std::string& name : namesOf(option)) names.push_back(name);
   return names;
 }
 
-std::vector<std::string> namesOf(const DescribedProgram& program) {
+std::vector<std::string> namesOf(const Program& program) {
   std::vector<std::string> names;
-  for (const DescribedCommand& command : program.commands) names.push_back(command.name);
+  for (const Command& command : program.commands) names.push_back(command.name);
   return names;
 }
 
-const DescribedOption* firstByPlace(const DescribedCommand& command) {
-  const auto found = std::find_if(command.options.begin(), command.options.end(),
-                                  [](const DescribedOption& option) { return option.byPlace(); });
+const Option* firstByPlace(const Command& command) {
+  const auto found = std::find_if(command.options.begin(), command.options.end(), isByPlace);
   return found == command.options.end() ? nullptr : &*found;
 }
 
 // bash
 
-std::string bashOffer(const DescribedOption& option) {
-  switch (option.kind) {
+std::string bashOffer(const Option& option) {
+  switch (kindOf(option)) {
     case ValueKind::words:
-      return "_fluidtex_words " + quoted(joined(option.words, " "));
+      return "_fluidtex_words " + quoted(joined(option.takes.words, " "));
     case ValueKind::keys:
       return "_fluidtex_keys";
     case ValueKind::files:
@@ -60,18 +76,18 @@ std::string bashOffer(const DescribedOption& option) {
   }
 }
 
-std::string bashScript(const DescribedProgram& program, const std::vector<std::string>& keys) {
+std::string bashScript(const Program& program, const std::vector<std::string>& keys) {
   std::string values, options, places;
-  for (const DescribedCommand& command : program.commands) {
-    for (const DescribedOption& option : command.options) {
-      if (option.byPlace() || option.value.empty()) continue;
+  for (const Command& command : program.commands) {
+    for (const Option& option : allOptions(command)) {
+      if (isByPlace(option) || option.value.empty()) continue;
       std::vector<std::string> patterns;
-      for (const std::string& name : option.names) patterns.push_back(command.name + " " + name);
+      for (const std::string& name : namesOf(option)) patterns.push_back(command.name + " " + name);
       values += fmt::format("    \"{}\") {}; return ;;\n", joined(patterns, "\" | \""), bashOffer(option));
     }
     options += fmt::format("    -*,{}) _fluidtex_words {} ;;\n", command.name,
-                           quoted(joined(namesOf(command.options), " ")));
-    if (const DescribedOption* place = firstByPlace(command))
+                           quoted(joined(namesOf(allOptions(command)), " ")));
+    if (const Option* place = firstByPlace(command))
       places += fmt::format("    *,{}) {} ;;\n", command.name, bashOffer(*place));
   }
   return fmt::format(
@@ -104,16 +120,16 @@ _fluidtex() {{
 }}
 complete -F _fluidtex fluidtex
 )",
-      joined(namesOf(program), " | "), values, quoted(joined(namesOf(program.options), " ")),
+      joined(namesOf(program), " | "), values, quoted(joined(namesOf(allOptions(program)), " ")),
       quoted(joined(namesOf(program), " ")), options, places, quoted(joined(keys, " ")));
 }
 
 // zsh
 
-std::string zshAction(const DescribedOption& option) {
-  switch (option.kind) {
+std::string zshAction(const Option& option) {
+  switch (kindOf(option)) {
     case ValueKind::words:
-      return "(" + joined(option.words, " ") + ")";
+      return "(" + joined(option.takes.words, " ") + ")";
     case ValueKind::keys:
       return "_fluidtex_keys";
     case ValueKind::files:
@@ -125,25 +141,25 @@ std::string zshAction(const DescribedOption& option) {
   }
 }
 
-std::string zshSpecs(const DescribedCommand& command) {
+std::string zshSpecs(const Command& command) {
   std::string specs;
   int place = 0;
-  for (const DescribedOption& option : command.options) {
+  for (const Option& option : allOptions(command)) {
     const std::string value = option.value.empty() ? "" : ":" + option.value + ":" + zshAction(option);
-    if (option.byPlace()) {
-      specs += " \\\n        " + quoted((option.repeated ? "*" : std::to_string(++place)) + value);
+    if (isByPlace(option)) {
+      specs += " \\\n        " + quoted((isRepeated(option) ? "*" : std::to_string(++place)) + value);
       continue;
     }
-    for (const std::string& name : option.names)
-      specs += " \\\n        " + quoted((option.repeated ? "*" : "") + name) + "'['" +
+    for (const std::string& name : namesOf(option))
+      specs += " \\\n        " + quoted((isRepeated(option) ? "*" : "") + name) + "'['" +
                quoted(option.text, ":[]\\") + "']'" + quoted(value);
   }
   return specs;
 }
 
-std::string zshScript(const DescribedProgram& program, const std::vector<std::string>& keys) {
+std::string zshScript(const Program& program, const std::vector<std::string>& keys) {
   std::string commands, cases;
-  for (const DescribedCommand& command : program.commands) {
+  for (const Command& command : program.commands) {
     commands += "    " + quoted(command.name + ":" + command.text) + "\n";
     cases += fmt::format("    {})\n      _arguments -s{} ;;\n", command.name, zshSpecs(command));
   }
@@ -171,17 +187,17 @@ _fluidtex() {{
 }}
 if [[ $funcstack[1] == _fluidtex ]]; then _fluidtex "$@"; else compdef _fluidtex fluidtex; fi
 )",
-      joined(keys, " "), commands, joined(namesOf(program.options), " "), cases);
+      joined(keys, " "), commands, joined(namesOf(allOptions(program)), " "), cases);
 }
 
 // fish
 
-std::string fishOffer(const DescribedOption& option) {
-  switch (option.kind) {
+std::string fishOffer(const Option& option) {
+  switch (kindOf(option)) {
     case ValueKind::none:
       return "";
     case ValueKind::words:
-      return " -x -a " + quoted(joined(option.words, " "), "\\", "\\'");
+      return " -x -a " + quoted(joined(option.takes.words, " "), "\\", "\\'");
     case ValueKind::keys:
       return " -x -a '$__fluidtex_keys'";
     case ValueKind::files:
@@ -194,32 +210,32 @@ std::string fishOffer(const DescribedOption& option) {
   return "";
 }
 
-std::string fishLine(const std::string& condition, const DescribedOption& option) {
+std::string fishLine(const std::string& condition, const Option& option) {
   std::string line = "complete -c fluidtex -n " + quoted(condition);
-  for (const std::string& name : option.names)
+  for (const std::string& name : namesOf(option))
     line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-  return line + fishOffer(option) + (option.byPlace() ? "" : " -d " + quoted(option.text, "\\", "\\'")) +
+  return line + fishOffer(option) + (isByPlace(option) ? "" : " -d " + quoted(option.text, "\\", "\\'")) +
          "\n";
 }
 
-std::string fishScript(const DescribedProgram& program, const std::vector<std::string>& keys) {
+std::string fishScript(const Program& program, const std::vector<std::string>& keys) {
   std::string script =
       "# fish completion of fluidtex, made by: fluidtex completion fish\ncomplete -c fluidtex -f\n";
   script += "set -g __fluidtex_keys " + joined(keys, " ") + "\n";
-  for (const DescribedOption& option : program.options) script += fishLine("__fish_use_subcommand", option);
-  for (const DescribedCommand& command : program.commands)
+  for (const Option& option : allOptions(program)) script += fishLine("__fish_use_subcommand", option);
+  for (const Command& command : program.commands)
     script += fmt::format("complete -c fluidtex -n __fish_use_subcommand -a {} -d {}\n", command.name,
                           quoted(command.text, "\\", "\\'"));
-  for (const DescribedCommand& command : program.commands)
-    for (const DescribedOption& option : command.options)
-      if (!option.byPlace() || option.kind != ValueKind::any)
+  for (const Command& command : program.commands)
+    for (const Option& option : allOptions(command))
+      if (!isByPlace(option) || kindOf(option) != ValueKind::any)
         script += fishLine("__fish_seen_subcommand_from " + command.name, option);
   return script;
 }
 
 }  // namespace
 
-std::string completionScript(const DescribedProgram& program, const std::vector<std::string>& keys,
+std::string completionScript(const Program& program, const std::vector<std::string>& keys,
                              const std::string& shell) {
   if (shell == "zsh") return zshScript(program, keys);
   return shell == "fish" ? fishScript(program, keys) : bashScript(program, keys);

@@ -39,22 +39,22 @@ std::string italic(const std::string& text) {
 }
 
 // "-V, --version", "--out DIR", "SCENE".
-std::string headOf(const DescribedOption& option) {
+std::string headOf(const Option& option) {
   std::string head;
-  for (const std::string& name : option.names) head += (head.empty() ? "" : ", ") + bold(name);
+  for (const std::string& name : namesOf(option)) head += (head.empty() ? "" : ", ") + bold(name);
   if (!option.value.empty()) head += (head.empty() ? "" : " ") + italic(option.value);
-  return option.byPlace() && option.repeated ? head + " ..." : head;
+  return isByPlace(option) && isRepeated(option) ? head + " ..." : head;
 }
 
-std::string usageOf(const DescribedProgram& program, const DescribedCommand& command) {
+std::string usageOf(const Program& program, const Command& command) {
   std::string usage = bold(program.name + " " + command.name);
-  for (const DescribedOption& option : command.options) {
-    if (!option.byPlace()) continue;
+  for (const Option& option : allOptions(command)) {
+    if (!isByPlace(option)) continue;
     const std::string head = headOf(option);
-    usage += " " + (option.required ? head : "[" + head + "]");
+    usage += " " + (option.takes.required ? head : "[" + head + "]");
   }
-  for (const DescribedOption& option : command.options)
-    if (!option.byPlace() && option.required) usage += " " + headOf(option);
+  for (const Option& option : allOptions(command))
+    if (!isByPlace(option) && option.takes.required) usage += " " + headOf(option);
   return usage + " [" + italic("OPTION") + " ...]";
 }
 
@@ -74,26 +74,26 @@ std::string footerOf(const std::string& footer) {
   return typed ? page + ".EE\n" : page;
 }
 
-std::string optionsOf(const DescribedCommand& command) {
+std::string listOf(const std::vector<Option>& options) {
   std::string page;
-  for (const DescribedOption& option : command.options)
+  for (const Option& option : options)
     page += fmt::format(".TP\n{}\n{}\n", headOf(option), escaped(option.text));
   return page;
 }
 
 }  // namespace
 
-std::string manualPage(const DescribedProgram& program, const std::string& version) {
-  std::string page = fmt::format(".TH FLUIDTEX 1 \"\" \"{}\" \"User Commands\"\n", escaped(version));
+std::string manualPage(const Program& program) {
+  std::string page = fmt::format(".TH FLUIDTEX 1 \"\" \"{}\" \"User Commands\"\n", escaped(program.version));
   page +=
       fmt::format(".SH NAME\n{} \\- simulates liquids and covers their surface with texture\n", program.name);
   page += ".SH SYNOPSIS\n";
-  for (const DescribedCommand& command : program.commands) page += usageOf(program, command) + "\n.br\n";
+  for (const Command& command : program.commands) page += usageOf(program, command) + "\n.br\n";
   page += bold(program.name) + " " + bold("--help") + " | " + bold("--version") + "\n";
-  page += ".SH DESCRIPTION\n" + escaped(program.text) + "\n" + optionsOf(program) + ".SH COMMANDS\n";
-  for (const DescribedCommand& command : program.commands)
-    page += fmt::format(".SS {}\n{}.\n{}{}", escaped(command.name), escaped(command.text), optionsOf(command),
-                        footerOf(command.footer));
+  page += ".SH DESCRIPTION\n" + escaped(program.text) + "\n" + listOf(allOptions(program)) + ".SH COMMANDS\n";
+  for (const Command& command : program.commands)
+    page += fmt::format(".SS {}\n{}.\n{}{}", escaped(command.name), escaped(command.text),
+                        listOf(allOptions(command)), footerOf(command.footer));
   return page + ".SH NOTES\n" + footerOf(program.footer);
 }
 

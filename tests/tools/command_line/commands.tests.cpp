@@ -12,7 +12,7 @@ using Catch::StartsWith;
 namespace {
 
 Finished fromStdin(const fs::path& file, const std::vector<std::string>& args, const fs::path& from) {
-  return Program(args, from, {}, [file] { dup2(open(file.c_str(), O_RDONLY), STDIN_FILENO); }).wait();
+  return RunningProgram(args, from, {}, [file] { dup2(open(file.c_str(), O_RDONLY), STDIN_FILENO); }).wait();
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ TEST_CASE("command line: what is there and works, and what does not", "[tools][c
   const Scratch scratch;
   std::ofstream(scratch.path / "ffmpeg") << "#!/bin/sh\necho Unknown encoder >&2\nexit 1\n";
   fs::permissions(scratch.path / "ffmpeg", fs::perms::owner_all);
-  const Finished ill = Program({"doctor"}, {}, scratch.path).wait();
+  const Finished ill = RunningProgram({"doctor"}, {}, scratch.path).wait();
   CHECK(ill.exitCode == 2);
   CHECK_THAT(ill.out,
              Contains("FAILS    makes videos") && Contains("Unknown encoder") && Contains("apt-get"));

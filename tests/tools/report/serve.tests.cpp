@@ -35,7 +35,7 @@ int freePort() {
 // fluidtex view OUT, until the end of this object.
 struct Viewed {
   int port = freePort();
-  Program program;
+  RunningProgram program;
   httplib::Client client;
   explicit Viewed(const std::filesystem::path& out)
       : program({"view", out.string(), "--port", std::to_string(port)}), client("127.0.0.1", port) {

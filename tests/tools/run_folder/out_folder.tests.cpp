@@ -93,7 +93,7 @@ TEST_CASE("fluidtex: two into one folder, the second is refused and the first go
   const fs::path out = scratch.path / "out";
   const std::vector<std::string> run{"run",        kSmallScene, "--no-render", "--set",
                                      "frames=500", "--out",     out.string()};
-  const Program first(run);
+  const RunningProgram first(run);
   first.waitForLines(out / "state" / "journal.txt", 0, 2);  // a surface and its frame
   const std::string log = readBytes(out / "log.txt");
   std::vector<std::string> resume = run;

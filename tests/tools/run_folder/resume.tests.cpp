@@ -44,8 +44,8 @@ TEST_CASE("fluidtex run --resume: killed at any moment, it ends with the bytes o
                                                     {1, 25}, {1, 40}, {1, 55},  {2, 1}, {1, 3}, {1, 70}};
   int kills = 0;
   for (const auto& [lines, delay] : moments) {
-    const long before = Program::countLines(log);
-    const Program program({"run", kSmallScene, "--out", broken.string(), "--resume"});
+    const long before = RunningProgram::countLines(log);
+    const RunningProgram program({"run", kSmallScene, "--out", broken.string(), "--resume"});
     program.waitForLines(log, before, lines);
     std::this_thread::sleep_for(std::chrono::milliseconds(delay));
     program.signal(SIGKILL);
@@ -78,7 +78,7 @@ TEST_CASE("fluidtex run --resume: interrupted, it exits with 130 and goes on to 
   REQUIRE(runProgram({"run", kSmallScene, "--frames", "1:3", "--out", whole.string()}).exitCode == 0);
   // Many more frames than can be done before the signal comes; the camera does not turn, so that it may have
   // fewer afterwards.
-  const Program program({"run", kSmallScene, "--set", "frames=500", "--out", broken.string()});
+  const RunningProgram program({"run", kSmallScene, "--set", "frames=500", "--out", broken.string()});
   program.waitForLines(broken / "log.txt", 0, 3);
   program.signal(SIGINT);
   const Finished interrupted = program.wait();
@@ -100,7 +100,7 @@ TEST_CASE("fluidtex run: interrupted while the video is written, it exits with 1
   std::ofstream(encoder) << "#!/bin/sh\nkill -INT $PPID\nexit 255\n";
   fs::permissions(encoder, fs::perms::owner_all);
   const Words args = {"run", kSmallScene, "--frames", "1:1", "--out", (scratch.path / "out").string()};
-  const Finished run = Program(args, {}, encoder.parent_path()).wait();
+  const Finished run = RunningProgram(args, {}, encoder.parent_path()).wait();
   INFO(run.all());
   CHECK(run.exitCode == 130);
   CHECK_FALSE(fs::exists(scratch.path / "out" / "small.mp4"));
