@@ -122,6 +122,19 @@ TEST_CASE("surroundings: volumes are those of the shapes outside of solids", "[s
   CHECK(Surroundings(options, {}).pouredVolume() == Approx(expected).epsilon(0.003));
 }
 
+TEST_CASE("surroundings: a front gives its area times its speed, wherever it lies among the samples",
+          "[stress]") {
+  const double cell = 0.05, side = 3.5 * cell;
+  sim::Options options = tank({sim::Sphere{Vec3d(0.5), 0.2}});
+  const Surroundings surroundings(options, {});
+  for (const double at : {0.0, 0.1, 0.25, 0.4, 0.6, 0.75}) {
+    INFO("at " << at << " of a cell");
+    const Vec3d low = Vec3d(0.3) + Vec3d(at * cell);
+    const double rate = surroundings.frontRate(box(low, low + Vec3d(side)), Vec3d(0.0, 0.0, -2.0), 0.0);
+    CHECK(rate == Approx(2.0 * side * side).epsilon(0.02));
+  }
+}
+
 TEST_CASE("surroundings: a shape's surface is what of it lies in the open", "[stress]") {
   sim::Options options = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.5)));
   const sim::Shape drain = box(Vec3d(0.21, 0.32, 0.13), Vec3d(0.74, 0.85, 0.49));

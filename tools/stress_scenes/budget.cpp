@@ -107,12 +107,15 @@ double VolumeBudget::start(double volume) {
   m_low = m_high = volume;
   const double allowed = tolerance() + kOfSurface * m_options.voxelSize() * m_surroundings.pouredSurface() +
                          m_surroundings.besideThinWalls();
-  // What drains take away at once may be missing.
-  double drained = 0.0;
+  // What drains take away at once may be missing, and what cells do not see of a source: unlike liquid that
+  // is poured it owes nothing, as it is filled again in each step.
+  double missing = 0.0;
   for (const sim::Drain& drain : m_options.drains)
-    if (drain.from <= 0.0) drained += m_surroundings.volumeIn(drain.shape, 0.0);
+    if (drain.from <= 0.0) missing += m_surroundings.volumeIn(drain.shape, 0.0);
+  for (const sim::Source& source : m_options.sources)
+    if (source.from <= 0.0) missing += m_surroundings.volumeIn(source.shape, 0.0);
   if (volume > poured + allowed) return volume - poured;
-  const double low = poured - drained - m_surroundings.inNarrowGaps() - allowed;
+  const double low = poured - missing - m_surroundings.inNarrowGaps() - allowed;
   return volume < low ? volume - poured : 0.0;
 }
 

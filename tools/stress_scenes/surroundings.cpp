@@ -335,7 +335,7 @@ double Surroundings::frontRate(const sim::Shape& shape, const Vec3d& velocity, d
                                  static_cast<std::size_t>(m_count[2]), 1};
   double rate = 0.0;
   for (std::size_t n = 0; n < inside.size(); ++n) {
-    if (std::abs(inside[n]) > m_step) continue;
+    if (std::abs(inside[n]) > 1.5 * m_step) continue;  // both neighbours are within or without
     double out = 0.0;
     for (int a = 0; a < 3; ++a) {
       const int at = static_cast<int>(n / stride[a]) % m_count[a];
