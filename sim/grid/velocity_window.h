@@ -146,12 +146,6 @@ struct VelocityWindow {
     return Vec3f(lane0(velocity), lane1(velocity), lane2(velocity));
   }
 
-  // At the centre of one of the leaf's voxels; halo >= 1.
-  Vec3f atCentre(int offset) const {
-    const Lanes velocity = startAtCentre(offset).velocity;
-    return Vec3f(lane0(velocity), lane1(velocity), lane2(velocity));
-  }
-
   // The place to which the velocity moves x; step: dt / h, negative to trace back.
   Vec3f trace(const Vec3f& x, float step) const {
     const Start start{lanes(x[0], x[1], x[2]), velocityAt(x)};

@@ -9,7 +9,6 @@
 #include "sim/velocity/acceleration.h"
 #include "sim/velocity/advect_velocity.h"
 #include "sim/velocity/air_layers.h"
-#include "sim/velocity/bodies.h"
 #include "sim/velocity/extrapolate.h"
 #include "sim/volume/regained_surface.h"
 #include "sim/volume/volume_deficit.h"
@@ -47,17 +46,9 @@ void restBesideSources(Velocity& velocity, const FloatGrid& phi, const RunningFl
   }
 }
 
-std::vector<const FloatGrid*> openingsOf(const RunningFlows& flows) {
-  std::vector<const FloatGrid*> openings = flows.drains;
-  for (const auto& [source, factor] : flows.sources) openings.push_back(source->phi.get());
-  return openings;
-}
-
 // Advects the velocity into `next`, whose surface and leaves are known. Half of the forces act along the path
 // with their values at its start; the later stages of the step add them with their values at its end. Half
-// the difference makes the step second-order in time. The end's are not known yet, and those of the start at
-// the same place stand for them: in a body that moves, those of another part of it. A body that nothing holds
-// gets no momentum from the difference, since its inner forces add up to nothing at either end.
+// the difference makes the step second-order in time.
 void carryVelocity(const Liquid& liquid, Liquid& next, const SolidField& solid, const RunningFlows& flows,
                    double dt) {
   const bool before = liquid.acceleration.component[0] != nullptr;
@@ -65,10 +56,7 @@ void carryVelocity(const Liquid& liquid, Liquid& next, const SolidField& solid, 
   extendLinearly(carried, *liquid.phi, solid.visibility.get());
   restBesideSources(carried, *liquid.phi, flows);
   advectVelocity(liquid.velocity, carried, next.velocity, *next.phi, *solid.phi, dt, solid.visibility.get());
-  if (!before) return;
-  const Bodies bodies = bodiesOf(*next.phi, next.velocity[0].constTree(), solid, openingsOf(flows));
-  const auto change = meanChangeAlong(liquid.acceleration, liquid.velocity, next.velocity, bodies, dt);
-  add(next.velocity, liquid.acceleration, bodies, change, -0.5 * dt);
+  if (before) next.velocity = plus(next.velocity, liquid.acceleration, -0.5 * dt);
 }
 
 // Advects the temperature into `next`, whose surface and leaves are known, and conducts it. False where that
