@@ -69,7 +69,18 @@ void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& or
   const float h = static_cast<float>(solid.voxelSize);
   openShares(solid, origin, liquid);
   const LeafPatch p = patchOf(phi.constTree(), origin), s = patchOf(solid.phi->constTree(), origin);
-  const auto isLiquid = [&](int at) { return p[at] < 0.0f && s[at] > 0.0f; };
+  // Whether a cell shows liquid beside the cell at an offset, on a side. Its centre may be in a solid, as
+  // over a floor that is thinly covered, where it has an open part on this side of the solid.
+  const auto isLiquidBeside = [&](int i, int side) {
+    const int axis = side / 2, stride = kPatchStride[axis];
+    const int at = side % 2 == 0 ? patchIndex(i) - stride : patchIndex(i) + stride;
+    if (p[at] >= 0.0f) return false;
+    if (s[at] > 0.0f) return true;
+    if (s[at] <= -0.5f * h) return false;
+    Coord face = origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7);
+    if (side % 2 != 0) ++face[axis];
+    return solid.open.component[axis]->constTree().getValue(face) > 0.0f;
+  };
   for (int i = 0; i < kLeafSize; ++i) {
     const int at = patchIndex(i);
     if (p[at] >= 0.5f * h) {
@@ -82,7 +93,7 @@ void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& or
                     : shareWithin(liquid[i], wet, cosineBetween(p, s, at, h));
     if (p[at] < 0.0f || liquid[i] == 0.0f || counts == Counts::unseen) continue;
     bool beside = false;
-    for (const int stride : kPatchStride) beside = beside || isLiquid(at - stride) || isLiquid(at + stride);
+    for (int side = 0; side < 6 && !beside; ++side) beside = isLiquidBeside(i, side);
     if (!beside) liquid[i] = 0.0f;
   }
 }

@@ -66,6 +66,49 @@ TEST_CASE("cell volume: of a film between wall and air only what lies between co
   CHECK(liquidVolume(*phi, *solid) == Catch::Detail::Approx(0.3 * h).epsilon(0.01));
 }
 
+TEST_CASE("cell volume: a film on a floor above a cell's centre counts up to its surface") {
+  // The floor takes more than half of a layer of cells, and the film ends in the next layer, below its
+  // centres.
+  Options options = tank(16, {});
+  options.solids.resize(1);
+  const double h = 1.0 / 16, floor = 5.6 * h;
+  options.solids[0].shape = {Box{Vec3d(-1.0), Vec3d(2.0, 2.0, floor)}};
+  const auto solid = Solids(options).at(0.0);
+  const FloatGrid::Ptr phi = makePhi(h, 4 * h);
+  unite(
+      *phi, [&](const Vec3d& x) { return x[2] - floor - 0.6 * h; }, firstCells(Coord(16)));
+  CHECK(liquidVolume(*phi, *solid) == Catch::Detail::Approx(0.6 * h).epsilon(1e-3));
+}
+
+TEST_CASE("cell volume: liquid below a thin plate does not count above it") {
+  // A layer of cells has its centres in the plate, and its room below.
+  Options options = tank(16, {});
+  options.solids.resize(1);
+  const double h = 1.0 / 16, low = 5.25 * h;
+  options.solids[0].shape = {Box{Vec3d(-1.0, -1.0, low), Vec3d(2.0, 2.0, 5.95 * h)}};
+  const auto solid = Solids(options).at(0.0);
+  const FloatGrid::Ptr phi = makePhi(h, 4 * h);
+  unite(
+      *phi, [&](const Vec3d& x) { return x[2] < 6.0 * h ? -2.0 * h : x[2] - 6.3 * h; },
+      firstCells(Coord(16)));
+  CHECK(liquidVolume(*phi, *solid) == Catch::Detail::Approx(low).epsilon(1e-3));
+}
+
+TEST_CASE("volume: a pool that just covers a block shows all of its liquid and stays at rest") {
+  // The block's top takes more than half of a layer of cells, and the level is below the next layer's
+  // centres.
+  const double h = 1.0 / 16, level = 7.08 * h;
+  Options options = tank(16, {box(Vec3d(0.0), Vec3d(1.0, 1.0, level))});
+  options.solids.resize(1);
+  options.solids[0].shape = {Box{Vec3d(-1.0), Vec3d(0.55, 2.0, 6.66 * h)}};
+  Solver solver(options);
+  for (int n = 0; n < 10; ++n) {
+    const FrameStats stats = solver.next().stats;
+    CHECK(std::abs(stats.deficit) < 1e-4 * stats.volume);
+    CHECK(fastestOf(solver.state()) < 1e-2);
+  }
+}
+
 TEST_CASE("volume: surface and deficit together stay where liquid separates from solids that cut cells") {
   Options options = tank(32, {});
   options.size = Vec3d(1.0, 0.51601, 0.9577);
