@@ -51,6 +51,25 @@ TEST_CASE("stress: the mass that is measured is that of the volume, of thin shee
   }
 }
 
+TEST_CASE("stress: a film on a wall is thin as the sheet is of which it is half, a pool is not", "[stress]") {
+  const double h = 1.0 / 16;
+  const auto thin = [&](double low, double high) {
+    sim::Options options;
+    options.resolution = 16;
+    options.gravity = Vec3d(0.0);
+    options.liquid.push_back({{sim::Box{Vec3d(0.0, 0.0, low * h), Vec3d(1.0, 1.0, high * h)}}});
+    sim::Solver solver(options);
+    const sim::Frame frame = solver.next();
+    sim::Solids solids(options);
+    const auto field = solids.around({solver.state().phi.get()}, frame.time, solids.active(frame.time));
+    return stress::measure(solver.state(), *field, options).thin;
+  };
+  CHECK(thin(0.0, 1.2) == Approx(1.2 * h).epsilon(1e-3));
+  CHECK(thin(6.8, 9.2) == Approx(2.4 * h).epsilon(1e-3));
+  CHECK(thin(0.0, 2.7) == 0.0);
+  CHECK(thin(5.3, 10.7) == 0.0);
+}
+
 TEST_CASE("stress: what a sheet loses and regains as it flies has its motion, liquid at rest has none",
           "[stress]") {
   sim::Options options;

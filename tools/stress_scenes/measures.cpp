@@ -63,10 +63,13 @@ CellMotion motionIn(const Accessor (&face)[3], const Coord& cell) {
   return found;
 }
 
-// Whether the liquid here is part of a sheet or a thread of a cell or two.
-bool isThin(const Accessor& phi, const Coord& cell, double h) {
-  for (int n = 0; n < 27; ++n)
-    if (phi.getValue(cell.offsetBy(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1)) < -h) return false;
+// Whether the liquid here is part of a sheet or a thread of a cell or two, or of a film on a wall, which is
+// half such a sheet. Behind walls phi goes on, and deeper than any liquid there.
+bool isThin(const Accessor& phi, const Accessor& solid, const Coord& cell, double h) {
+  for (int n = 0; n < 27; ++n) {
+    const Coord beside = cell.offsetBy(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
+    if (phi.getValue(beside) < -h && solid.getValue(beside) > 0.0f) return false;
+  }
   return true;
 }
 
@@ -102,7 +105,7 @@ Measures measure(const sim::State& state, const sim::SolidField& field, const si
     const auto [velocity, squares, known] = motionIn(face, cell);
     const double mass = options.density * share * cube;
     found.mass += mass;
-    if (isThin(phi, cell, h)) found.thin += share * cube;
+    if (isThin(phi, solid, cell, h)) found.thin += share * cube;
     found.kinetic += 0.5 * mass * squares;
     found.potential += mass * (high - floor);
     found.falling += mass * options.gravity.dot(velocity);
