@@ -17,7 +17,8 @@ void openShares(const SolidField& solid, const Coord& origin, LeafShares& open);
 // Volume fraction of each cell of a block that is liquid: inside phi's surface and outside solids. Computed
 // from the two distances at the centre and the angle between the surface and the solid.
 // seen: a cell whose centre is not liquid counts only beside one whose centre is, since elsewhere there is no
-// surface (a film thinner than a cell is unresolved). unseen: it counts everywhere.
+// surface (a film thinner than a cell is unresolved); phi is extrapolated to centres in solids, and counts in
+// cells that are open towards this one. unseen: it counts everywhere.
 enum class Counts { seen, unseen };
 void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& origin, LeafShares& liquid,
                   Counts counts = Counts::seen);
