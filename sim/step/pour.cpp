@@ -79,10 +79,10 @@ void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& af
 }
 
 bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options, StepReport* report,
-            const RunningFlows& flows) {
+            const RunningFlows& flows, const MaskGrid& known) {
   FloatGrid& phi = *liquid.phi;
   applyFlows(phi, liquid.markers, flows);
-  settleSurface(phi, solid);
+  settleSurface(phi, solid, known);
   liquid.markers =
       seedMarkers(phi, *solid.phi, markerSeed(options.seed, liquid.steps), solid.visibility.get());
 

@@ -22,8 +22,10 @@ void pour(Liquid& liquid, const ShapeDistance& body, const std::function<double(
 void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& after);
 
 // Makes phi a distance and the velocity divergence-free after pouring or a change of solids or of flows.
-// Gravity and viscosity act for `kick` seconds. False when a solve does not converge.
+// Gravity and viscosity act for `kick` seconds. known: as settleSurface() takes it. False when a solve does
+// not converge.
 [[nodiscard]] bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options,
-                          StepReport* report = nullptr, const RunningFlows& flows = {});
+                          StepReport* report = nullptr, const RunningFlows& flows = {},
+                          const MaskGrid& known = {});
 
 }  // namespace fluidtex::sim

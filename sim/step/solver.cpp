@@ -185,6 +185,13 @@ void Solver::applyEvents() {
     changed = true;
   }
   if (!changed) return;
+  const auto nearest = [&](const Vec3d& x) {
+    double least = kForever;
+    for (const auto& [body, shape] : due) least = std::min(least, shape(x));
+    return least;
+  };
+  const MaskGrid known =
+      beyondOwnSurface(dueLiquid, *liquid.phi, *m_solid->phi, nearest, m_solids->distanceAt(now));
   // Redistancing loses thin liquid, much of it in the middle of a splash.
   const bool start = m_state.frame == 0;
   const FloatGrid::Ptr whole = liquid.phi->deepCopy();
@@ -195,7 +202,7 @@ void Solver::applyEvents() {
   for (int halving = 0;; ++halving) {
     Liquid settled = liquid;
     settled.phi = liquid.phi->deepCopy();
-    if (settle(settled, *m_solid, kick, m_options, &report, flows)) {
+    if (settle(settled, *m_solid, kick, m_options, &report, flows, known)) {
       liquid = std::move(settled);
       break;
     }
@@ -216,13 +223,8 @@ void Solver::applyEvents() {
                                    *m_solid, flows, 0.0);
   }
   if (!due.empty()) {
-    const auto distance = [&](const Vec3d& x) {
-      double nearest = kForever;
-      for (const auto& [body, shape] : due) nearest = std::min(nearest, shape(x));
-      return nearest;
-    };
     liquid.deficit =
-        withPoured(liquid.deficit.get(), {dueLiquid, *whole, distance, start}, *liquid.phi, *m_solid, flows);
+        withPoured(liquid.deficit.get(), {dueLiquid, *whole, nearest, start}, *liquid.phi, *m_solid, flows);
   }
   store(m_state, std::move(liquid), h);
   m_state.poured = std::move(poured);

@@ -1,10 +1,14 @@
 #include "sim/surface/poured_surface.h"
 
+#include "sim/grid/leaf_table.h"
 #include "sim/grid/normal.h"
+
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace fluidtex::sim {
 namespace {
@@ -180,6 +184,32 @@ Distance pouredSurface(Distance parts, Distance solids, double h) {
     // The body ends at the solid here; its own surface is farther away.
     return here < 0.0 ? std::min(here, -kNear * h) : here;
   };
+}
+
+MaskGrid beyondOwnSurface(const FloatGrid& poured, const FloatGrid& phi, const FloatGrid& solidPhi,
+                          const Distance& body, const Distance& solids) {
+  const double h = phi.voxelSize()[0];
+  const auto leaves = leavesOf(poured.constTree());
+  std::vector<std::vector<Coord>> found(leaves.size());
+  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
+    const Coord& origin = leaves[n]->origin();
+    float phiScratch[kLeafSize], solidScratch[kLeafSize];
+    const float* all = leafValues(phi.constTree(), origin, phiScratch);
+    const float* depth = leafValues(solidPhi.constTree(), origin, solidScratch);
+    for (int i = 0; i < kLeafSize; ++i) {
+      const float here = leaves[n]->getValue(i);
+      if (depth[i] > 0.0f || depth[i] <= -h || std::abs(here) > kNear * h || all[i] != here) continue;
+      const Coord cell = leaves[n]->offsetToGlobalCoord(i);
+      const Vec3d x = phi.indexToWorld(cell);
+      const Vec3d closest = x - here * normalAt(body, x, 0.01 * h);
+      if (std::abs(body(closest)) < kTouching * h && solids(closest) > kTouching * h)
+        found[n].push_back(cell);
+    }
+  });
+  MaskGrid cells;
+  for (const auto& part : found)
+    for (const Coord& cell : part) cells.tree().setValueOn(cell);
+  return cells;
 }
 
 }  // namespace fluidtex::sim

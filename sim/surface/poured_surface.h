@@ -1,6 +1,7 @@
 // The surface of a poured body of liquid, without the parts of it that lie on solids.
 #pragma once
 
+#include "sim/grid/grids.h"
 #include "sim/vec3.h"
 
 #include <functional>
@@ -18,5 +19,12 @@ namespace fluidtex::sim {
 // solids: signed distance to them, metres, with the domain's sides. h: cell size, metres.
 std::function<double(const Vec3d&)> pouredSurface(std::function<double(const Vec3d&)> body,
                                                   std::function<double(const Vec3d&)> solids, double h);
+
+// Cells in solids, less than a cell deep, whose phi is the distance to a place on the body's surface outside
+// solids, which needs no extrapolation: the body ends before the solid, or goes on in it.
+// poured: the body's distance at cell centres; phi: of all liquid; body, solids: as above.
+MaskGrid beyondOwnSurface(const FloatGrid& poured, const FloatGrid& phi, const FloatGrid& solidPhi,
+                          const std::function<double(const Vec3d&)>& body,
+                          const std::function<double(const Vec3d&)>& solids);
 
 }  // namespace fluidtex::sim

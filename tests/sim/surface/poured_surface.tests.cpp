@@ -77,6 +77,24 @@ TEST_CASE("poured surface: liquid that ends at a round or square wall starts lev
   }
 }
 
+TEST_CASE("poured surface: a block that ends less than a cell before a wall keeps its volume") {
+  // Cells between the block's top and the ceiling, which lies in the middle of a cell or elsewhere.
+  for (const double ceiling : {0.1, 0.42, 0.8}) {
+    for (const double gap : {0.2, 0.45, 0.64, 0.9}) {
+      Options options = tank(16, {});
+      const double h = options.voxelSize();
+      options.size[2] = (9.0 + ceiling) * h;
+      const Box block{Vec3d(0.2, 0.3, 0.25), Vec3d(0.6, 0.7, options.size[2] - gap * h)};
+      options.liquid = {{Shape{block}}};
+      const Frame frame = Solver(options).next();
+      const Vec3d sides = block.max - block.min;
+      CAPTURE(ceiling, gap);
+      CHECK(frame.stats.volume + frame.stats.deficit ==
+            Catch::Detail::Approx(sides[0] * sides[1] * sides[2]).epsilon(0.025));
+    }
+  }
+}
+
 TEST_CASE("poured surface: a pool stays level round a ball that dips into it") {
   // Cells, from a ball that all but touches the level to half of it.
   for (const double radius : {2.8, 18.0}) {
