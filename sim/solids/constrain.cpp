@@ -131,7 +131,15 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
           // normal, and nothing reads it.
           const bool within = *here < 0.0f && *below < 0.0f && here[kBlockStride[axis]] > *here;
           if (isInThinWall(sight, offset, axis) || (within && wall.getValue(shifted(c, axis, -2)) > *below)) {
-            changes[n].push_back({own[axis]->buffer().data() + offset, speed[axis][at] - velocity[axis]});
+            // Where one side alone has liquid, and it leaves the wall, its velocity.
+            const int stride = kBlockStride[axis];
+            const bool wetAbove = liquid[at] < 0.0f, wetBelow = liquid[at - stride] < 0.0f;
+            const float still = speed[axis][at] - velocity[axis];
+            float away = 0.0f;
+            if (wetAbove != wetBelow && leaving.isValueOn(wetAbove ? c : shifted(c, axis, -1)))
+              away = speed[axis][wetAbove ? at + stride : at - stride] - still;
+            if (wetAbove ? away < 0.0f : away > 0.0f) away = 0.0f;
+            changes[n].push_back({own[axis]->buffer().data() + offset, still + away});
             continue;
           }
           const float length = normal.length();

@@ -38,10 +38,17 @@ bool isFlat(const Window& window) {
   return std::all_of(first, last, [value = *first](float v) { return v == value; });
 }
 
-// Whether a surface lies on a solid's; both distances in metres.
-bool liesOnSolid(float phi, float solid, float h) {
+// Whether the surface lies on a thin wall, in a cell and beside it along the wall. solid: the wall's
+// distance.
+bool liesOnSolid(const Stencil& phi, const VisibleCells& visible, float solid, float h) {
   constexpr float kSame = 0.05f;  // of a cell
-  return phi < 0.0f && std::abs(phi + solid) < kSame * h;
+  constexpr int kMiddle = VisibleCells::kMiddle;
+  if (phi[kMiddle] >= 0.0f || std::abs(phi[kMiddle] + solid) > kSame * h) return false;
+  for (const int stride : VisibleCells::kStride) {
+    if (!visible.sees(kMiddle - stride) || !visible.sees(kMiddle + stride)) continue;  // not along the wall
+    if (std::min(phi[kMiddle - stride], phi[kMiddle + stride]) < -solid - kSame * h) return false;
+  }
+  return true;
 }
 
 // phi at a place as seen from a cell to which not all cells around it are visible. solid: the solids'
@@ -50,8 +57,7 @@ float oneSided(const Window& window, const Coord& cell, const Vec3f& x, const Vi
                float solid, float h, bool leaves) {
   Stencil values;
   const Vec3f local = window.around(cell, x, values);
-  const bool behind = std::max({std::abs(local[0]), std::abs(local[1]), std::abs(local[2])}) > 0.5f;
-  if (leaves && behind && liesOnSolid(values[VisibleCells::kMiddle], solid, h))
+  if (leaves && liesOnSolid(values, visible, solid, h))
     riseBehind(values, visible, h);
   else
     extrapolateBehind(values, visible, leaves ? kAlongWall * h : std::numeric_limits<float>::infinity());
