@@ -223,8 +223,8 @@ void Solver::applyEvents() {
                                    *m_solid, flows, 0.0);
   }
   if (!due.empty()) {
-    liquid.deficit =
-        withPoured(liquid.deficit.get(), {dueLiquid, *whole, nearest, start}, *liquid.phi, *m_solid, flows);
+    const PouredLiquid bodies{dueLiquid, *whole, nearest, m_solids->distanceAt(now), start};
+    liquid.deficit = withPoured(liquid.deficit.get(), bodies, *liquid.phi, *m_solid, flows);
   }
   store(m_state, std::move(liquid), h);
   m_state.poured = std::move(poured);

@@ -30,6 +30,22 @@ float shareOf(const std::function<double(const Vec3d&)>& body, float far, const 
   return static_cast<float>(std::abs(fine - coarse) > kSlanted ? fine : coarse);
 }
 
+// The share of a cell inside a body and outside solids, both known anywhere.
+float openShareOf(const PouredLiquid& poured, const Vec3d& middle, float h) {
+  constexpr int kParts = 4;  // along each axis
+  const double step = double(h) / kParts;
+  double share = 0.0;
+  for (int i = 0; i < kParts; ++i) {
+    for (int j = 0; j < kParts; ++j) {
+      for (int k = 0; k < kParts; ++k) {
+        const Vec3d x = middle + step * (Vec3d(i, j, k) + Vec3d(0.5) - Vec3d(0.5 * kParts));
+        share += std::clamp(0.5 - std::max(poured.distance(x), -poured.solids(x)) / step, 0.0, 1.0);
+      }
+    }
+  }
+  return static_cast<float>(share / (kParts * kParts * kParts));
+}
+
 }  // namespace
 
 FloatGrid::Ptr withPoured(const FloatGrid* deficit, const PouredLiquid& poured, const FloatGrid& settled,
@@ -58,8 +74,9 @@ FloatGrid::Ptr withPoured(const FloatGrid* deficit, const PouredLiquid& poured, 
       const float shown = poured.start ? after[i] : seen[i];
       const bool isUnseen = shown == 0.0f && whole[i] > 0.0f && far < 0.5f * h;
       if (!inOpen && !isUnseen) continue;
-      const float share = shareOf(poured.distance, far, settled.indexToWorld(cell), h);
-      more[n][i] = inOpen ? share - after[i] : std::min(whole[i], share);
+      const Vec3d middle = settled.indexToWorld(cell);
+      more[n][i] = inOpen ? shareOf(poured.distance, far, middle, h) - after[i]
+                          : std::min(whole[i], openShareOf(poured, middle, h));
     }
     const auto none = [&](const FloatGrid& shape, float near) {
       float values[kLeafSize];

@@ -13,6 +13,7 @@ struct PouredLiquid {
   const FloatGrid& bodies;                       // distance to them, metres, in leaves around them
   const FloatGrid& phi;                          // with the liquid that was there before, not yet settled
   std::function<double(const Vec3d&)> distance;  // the same as `bodies`, anywhere
+  std::function<double(const Vec3d&)> solids;    // distance to solids, metres, anywhere
   bool start;                                    // no liquid was there before
 };
 

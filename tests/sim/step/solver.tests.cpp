@@ -266,6 +266,19 @@ TEST_CASE("solver: a film that is poured on a wall and flies off it is all there
   CHECK(start.volume + start.deficit == Approx(surface - wall).epsilon(0.01));
 }
 
+TEST_CASE("solver: of a body that begins in a wall nothing is owed on the wall's other side") {
+  // The body begins at the centre of a cell that is open on the other side, up to a quarter of it.
+  Options options;
+  options.size = Vec3d(16.0);
+  options.resolution = 16;
+  Solid wall;
+  wall.shape = {Box{Vec3d(6.25, -1.0, -1.0), Vec3d(9.3, 17.0, 17.0)}};
+  options.solids.push_back(wall);
+  options.liquid.push_back({{Box{Vec3d(6.5, 0.0, 0.0), Vec3d(16.0, 16.0, 5.0)}}});
+  const Frame frame = Solver(options).next();
+  CHECK(frame.stats.volume + frame.stats.deficit == Approx(6.7 * 16.0 * 5.0).epsilon(0.01));
+}
+
 TEST_CASE("solver: a film on a wall falls when no liquid feeds it, on the floor it stays") {
   const double h = 1.0 / 24;
   const Frame onWall = frameAfter(tank(24, {box(Vec3d(0.0, 0.3, 0.5), Vec3d(0.3 * h, 0.7, 0.9))}), 4);

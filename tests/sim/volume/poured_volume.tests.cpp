@@ -12,12 +12,16 @@ using namespace fluidtex::sim;
 
 namespace {
 
+double noSolids(const Vec3d&) {
+  return 1.0;
+}
+
 // The deficit of a body that is poured into an empty tank.
 double deficitOf(const std::function<double(const Vec3d&)>& distance, bool start) {
   const SolidField solid = box();
   const FloatGrid::Ptr bodies = phiOf(distance), settled = bodies->deepCopy();
   settleSurface(*settled, solid);
-  const PouredLiquid poured{*bodies, *bodies, distance, start};
+  const PouredLiquid poured{*bodies, *bodies, distance, noSolids, start};
   const FloatGrid::Ptr deficit = withPoured(nullptr, poured, *settled, solid, {});
   return deficit ? totalDeficit(*deficit) : 0.0;
 }
@@ -49,7 +53,7 @@ TEST_CASE("poured volume: what was there before is kept", "[sim]") {
   earlier->setTransform(cellTransform(kVoxel));
   earlier->tree().setValueOn(Coord(2, 2, 2), 0.5f);
   const FloatGrid::Ptr deficit =
-      withPoured(earlier.get(), {*bodies, *bodies, ball, false}, *settled, solid, {});
+      withPoured(earlier.get(), {*bodies, *bodies, ball, noSolids, false}, *settled, solid, {});
   REQUIRE(deficit);
   CHECK(deficit->tree().getValue(Coord(2, 2, 2)) == 0.5f);
 }
