@@ -53,6 +53,16 @@ bool isInThinWall(const Visibility::Leaf* sight, int offset, int axis) {
   return sight != nullptr && !(*sight)[offset].sees(VisibleCells::kMiddle - VisibleCells::kStride[axis]);
 }
 
+// The side of a face in a thin wall, 1 above and -1 below, that alone has liquid which leaves the wall; 0 for
+// none: both sides read the face's velocity. phi: at the cell above it.
+template <class Leaves>
+int sideThatLeaves(const float* phi, int stride, const Leaves& leaves) {
+  const bool above = phi[0] < 0.0f, below = phi[-stride] < 0.0f;
+  if (above == below) return 0;
+  const int side = above ? 1 : -1;
+  return leaves(side) ? side : 0;
+}
+
 // A leaf's active faces that are closed, or almost closed, and not known.
 FloatLeaf::NodeMaskType closedFaces(const FloatLeaf& leaf, const FloatTree& open, const MaskTree& known) {
   float scratch[kLeafSize];
@@ -131,15 +141,13 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
           // normal, and nothing reads it.
           const bool within = *here < 0.0f && *below < 0.0f && here[kBlockStride[axis]] > *here;
           if (isInThinWall(sight, offset, axis) || (within && wall.getValue(shifted(c, axis, -2)) > *below)) {
-            // Where one side alone has liquid, and it leaves the wall, its velocity.
-            const int stride = kBlockStride[axis];
-            const bool wetAbove = liquid[at] < 0.0f, wetBelow = liquid[at - stride] < 0.0f;
+            const int side = sideThatLeaves(liquid.data() + at, kBlockStride[axis], [&](int from) {
+              return leaving.isValueOn(from > 0 ? c : shifted(c, axis, -1));
+            });
             const float still = speed[axis][at] - velocity[axis];
-            float away = 0.0f;
-            if (wetAbove != wetBelow && leaving.isValueOn(wetAbove ? c : shifted(c, axis, -1)))
-              away = speed[axis][wetAbove ? at + stride : at - stride] - still;
-            if (wetAbove ? away < 0.0f : away > 0.0f) away = 0.0f;
-            changes[n].push_back({own[axis]->buffer().data() + offset, still + away});
+            const float there = side == 0 ? still : speed[axis][at + side * kBlockStride[axis]];
+            changes[n].push_back({own[axis]->buffer().data() + offset,
+                                  side > 0 ? std::max(still, there) : std::min(still, there)});
             continue;
           }
           const float length = normal.length();

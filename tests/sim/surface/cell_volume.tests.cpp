@@ -5,9 +5,27 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 using namespace fluidtex::sim;
+
+namespace {
+
+// Liquid in a column of a tank of 16 cells with a plate across it, all in cells. phi: by height.
+double cellsShown(double plateLow, double plateHigh, const std::function<double(double)>& phiAt) {
+  constexpr double h = 1.0 / 16;
+  Options options = tank(16, {});
+  options.solids.resize(1);
+  options.solids[0].shape = {Box{Vec3d(-1.0, -1.0, plateLow * h), Vec3d(2.0, 2.0, plateHigh * h)}};
+  const auto solid = Solids(options).at(0.0);
+  const FloatGrid::Ptr phi = makePhi(h, 4 * h);
+  unite(
+      *phi, [&](const Vec3d& x) { return h * phiAt(x[2] / h); }, firstCells(Coord(16)));
+  return liquidVolume(*phi, *solid) / h;
+}
+
+}  // namespace
 
 TEST_CASE("cell volume: a film that no cell centre is in is not counted, one with a centre is") {
   Options options = tank(8, {});
@@ -55,43 +73,19 @@ TEST_CASE("cell volume: walls between one cell and two leave cells their open pa
 
 TEST_CASE("cell volume: of a film between wall and air only what lies between counts") {
   // A floor in the middle of a layer of cells, and liquid 0.3 cells deep on it.
-  Options options = tank(16, {});
-  options.solids.resize(1);
-  const double h = 1.0 / 16, floor = 5.4 * h;
-  options.solids[0].shape = {Box{Vec3d(-1.0), Vec3d(2.0, 2.0, floor)}};
-  const auto solid = Solids(options).at(0.0);
-  const FloatGrid::Ptr phi = makePhi(h, 4 * h);
-  unite(
-      *phi, [&](const Vec3d& x) { return x[2] - floor - 0.3 * h; }, firstCells(Coord(16)));
-  CHECK(liquidVolume(*phi, *solid) == Catch::Detail::Approx(0.3 * h).epsilon(0.01));
+  CHECK(cellsShown(-16.0, 5.4, [](double z) { return z - 5.7; }) == Catch::Detail::Approx(0.3).epsilon(0.01));
 }
 
 TEST_CASE("cell volume: a film on a floor above a cell's centre counts up to its surface") {
   // The floor takes more than half of a layer of cells, and the film ends in the next layer, below its
   // centres.
-  Options options = tank(16, {});
-  options.solids.resize(1);
-  const double h = 1.0 / 16, floor = 5.6 * h;
-  options.solids[0].shape = {Box{Vec3d(-1.0), Vec3d(2.0, 2.0, floor)}};
-  const auto solid = Solids(options).at(0.0);
-  const FloatGrid::Ptr phi = makePhi(h, 4 * h);
-  unite(
-      *phi, [&](const Vec3d& x) { return x[2] - floor - 0.6 * h; }, firstCells(Coord(16)));
-  CHECK(liquidVolume(*phi, *solid) == Catch::Detail::Approx(0.6 * h).epsilon(1e-3));
+  CHECK(cellsShown(-16.0, 5.6, [](double z) { return z - 6.2; }) == Catch::Detail::Approx(0.6).epsilon(1e-3));
 }
 
 TEST_CASE("cell volume: liquid below a thin plate does not count above it") {
   // A layer of cells has its centres in the plate, and its room below.
-  Options options = tank(16, {});
-  options.solids.resize(1);
-  const double h = 1.0 / 16, low = 5.25 * h;
-  options.solids[0].shape = {Box{Vec3d(-1.0, -1.0, low), Vec3d(2.0, 2.0, 5.95 * h)}};
-  const auto solid = Solids(options).at(0.0);
-  const FloatGrid::Ptr phi = makePhi(h, 4 * h);
-  unite(
-      *phi, [&](const Vec3d& x) { return x[2] < 6.0 * h ? -2.0 * h : x[2] - 6.3 * h; },
-      firstCells(Coord(16)));
-  CHECK(liquidVolume(*phi, *solid) == Catch::Detail::Approx(low).epsilon(1e-3));
+  const auto liquid = [](double z) { return z < 6.0 ? -2.0 : z - 6.3; };
+  CHECK(cellsShown(5.25, 5.95, liquid) == Catch::Detail::Approx(5.25).epsilon(1e-3));
 }
 
 TEST_CASE("volume: a pool that just covers a block shows all of its liquid and stays at rest") {

@@ -1,5 +1,6 @@
 #include "sim/volume/poured_volume.h"
 
+#include "sim/step/solver.h"
 #include "sim/surface/settle_surface.h"
 #include "sim/volume/deficit_grid.h"
 #include "tests/sim/volume/ball_and_flow.h"
@@ -56,4 +57,17 @@ TEST_CASE("poured volume: what was there before is kept", "[sim]") {
       withPoured(earlier.get(), {*bodies, *bodies, ball, noSolids, false}, *settled, solid, {});
   REQUIRE(deficit);
   CHECK(deficit->tree().getValue(Coord(2, 2, 2)) == 0.5f);
+}
+
+TEST_CASE("poured volume: of a body that begins in a wall nothing is owed on the wall's other side") {
+  // The body begins at the centre of a cell that is open on the other side, up to a quarter of it.
+  Options options;
+  options.size = Vec3d(16.0);
+  options.resolution = 16;
+  Solid wall;
+  wall.shape = {Box{Vec3d(6.25, -1.0, -1.0), Vec3d(9.3, 17.0, 17.0)}};
+  options.solids.push_back(wall);
+  options.liquid.push_back({{Box{Vec3d(6.5, 0.0, 0.0), Vec3d(16.0, 16.0, 5.0)}}});
+  const Frame frame = Solver(options).next();
+  CHECK(frame.stats.volume + frame.stats.deficit == Approx(6.7 * 16.0 * 5.0).epsilon(0.01));
 }
