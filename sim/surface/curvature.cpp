@@ -77,9 +77,18 @@ bool besideSurface(const float* p) {
                      [&](int d) { return (p[d] < 0.0f) != inside || (p[-d] < 0.0f) != inside; });
 }
 
+// Whether the solid's normal leads from a cell in it to a wall's other side, as it can in the corner of thin
+// walls, between their middles. depth: cells.
+bool leadsThrough(const Visibility& visibility, const Coord& cell, const float (&normal)[3], float depth) {
+  Coord outside = cell;
+  for (int a = 0; a < 3; ++a) outside[a] += static_cast<int>(std::lround((depth + 0.5f) * normal[a]));
+  return visibility.hides(cell, outside);
+}
+
 // Sets cells in solids to the values of phi at their mirror images across the solid's surface. block: phi
 // around a leaf, as wide as a CurvatureBlock.
-void mirrorInSolids(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord& origin, float* block) {
+void mirrorInSolids(const FloatGrid& phi, const FloatGrid& solidPhi, const Visibility* visibility,
+                    const Coord& origin, float* block) {
   float solid[kSolidSide * kSolidSide * kSolidSide], wide[kWideSide * kWideSide * kWideSide];
   gather(solidPhi.constTree(), origin, kSolidHalo, solid);
   if (std::none_of(std::begin(solid), std::end(solid), [](float s) { return s < 0.0f; })) return;
@@ -96,12 +105,16 @@ void mirrorInSolids(const FloatGrid& phi, const FloatGrid& solidPhi, const Coord
     const float length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     // Deep in solids the distance is clamped and has no gradient.
     if (length < 0.5f * h) continue;
-    const float way = 2.0f * std::min(-*s / h, kDeepest);
+    for (float& part : normal) part /= length;
+    const float depth = std::min(-*s / h, kDeepest);
+    const Coord place = origin.offsetBy(cell[0] - CurvatureBlock::kHalo, cell[1] - CurvatureBlock::kHalo,
+                                        cell[2] - CurvatureBlock::kHalo);
+    if (visibility != nullptr && leadsThrough(*visibility, place, normal, depth)) continue;
     int low[3];
     float part[3];
     for (int a = 0; a < 3; ++a) {
       const float at =
-          static_cast<float>(cell[a] - CurvatureBlock::kHalo + kWideHalo) + way * normal[a] / length;
+          static_cast<float>(cell[a] - CurvatureBlock::kHalo + kWideHalo) + 2.0f * depth * normal[a];
       low[a] = std::clamp(static_cast<int>(std::floor(at)), 0, kWideSide - 2);
       part[a] = std::clamp(at - static_cast<float>(low[a]), 0.0f, 1.0f);
     }
@@ -178,7 +191,7 @@ FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi,
     gather(phi.constTree(), origin, CurvatureBlock::kHalo, block);
     const auto [low, high] = std::minmax_element(std::begin(block), std::end(block));
     if (!(*low < 0.0f) || *high < 0.0f) return;
-    mirrorInSolids(phi, solidPhi, origin, block);
+    mirrorInSolids(phi, solidPhi, visibility, origin, block);
     for (float& value : block) value /= h;
     for (int c = 0; c < kLeafSize; ++c) {
       const int at = CurvatureBlock::index(c);

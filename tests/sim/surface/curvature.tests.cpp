@@ -126,6 +126,35 @@ TEST_CASE("curvature: the foot of a front bends, however flat it meets the floor
   }
 }
 
+TEST_CASE("curvature: level liquid in a cup of thin walls has none, in its corners either") {
+  for (const double thickness : {0.6, 0.8, 0.95, 1.2, 1.6}) {
+    for (const double begin : {3.1, 3.4, 3.65, 3.9}) {
+      Options options;
+      options.resolution = 16;
+      const double h = options.voxelSize(), end = begin + 7.05;
+      const Box inside{Vec3d(begin) * h, Vec3d(end, end, 15.0) * h};
+      const Box outside{Vec3d(begin - thickness) * h, Vec3d(end + thickness, end + thickness, 13.0) * h};
+      options.solids.resize(1);
+      options.solids[0].shape = {Difference{{{outside}, {inside}}}};
+      options.liquid.push_back({{Box{inside.min, Vec3d(end, end, 8.54) * h}}});
+      Solver solver(options);
+      solver.next();
+      const auto solid = Solids(options).at(0.0);
+      const auto curvature = surfaceCurvature(*solver.state().phi, *solid->phi, solid->visibility.get());
+      CAPTURE(thickness, begin);
+      int count = 0;
+      for (auto it = curvature->cbeginValueOn(); it; ++it) {
+        const Vec3d x = (it.getCoord().asVec3d() + Vec3d(0.5)) * h;
+        if (!openvdb::BBoxd(inside.min, inside.max).isInside(x)) continue;
+        ++count;
+        CAPTURE(it.getCoord()[0], it.getCoord()[1], it.getCoord()[2]);
+        CHECK(std::abs(*it) * h < 1e-3);
+      }
+      CHECK(count >= 2 * 49);
+    }
+  }
+}
+
 TEST_CASE("surface tension: none changes no bit, and a flat surface does not feel it") {
   const Velocity without = pool(0.0, true), flat = pool(10.0, false), rippled = pool(10.0, true);
   for (int a = 0; a < 3; ++a) {
