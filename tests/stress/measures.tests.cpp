@@ -121,3 +121,41 @@ TEST_CASE("stress: deficit in the air has its motion, beyond the narrow band tha
     CHECK(motionOf(nowhere, amount) == Approx(mass * seen.kinetic / seen.mass).epsilon(1e-6));
   }
 }
+
+TEST_CASE("stress: motion of the surface's cells is what they would have if they were full", "[stress]") {
+  sim::Options options;
+  options.resolution = 20;
+  const double h = options.voxelSize();
+  // It covers the centres of the layer of cells that it ends in.
+  options.liquid.push_back({{sim::Box{Vec3d(0.0), Vec3d(1.0, 1.0, 4.75 * h)}}});
+  sim::Solver solver(options);
+  const sim::Frame frame = solver.next();
+  sim::State state = solver.state();
+  state.velocity.component[0] = sim::FloatGrid::create(2.0f);
+  sim::Solids solids(options);
+  const auto field = solids.around({state.phi.get()}, frame.time, solids.active(frame.time));
+  const stress::Measures now = stress::measure(state, *field, options);
+  CHECK(now.surfaceMotion == Approx(0.5 * options.density * h * 4.0).epsilon(1e-5));
+  CHECK(now.kinetic == Approx(4.75 * now.surfaceMotion).epsilon(1e-3));
+}
+
+TEST_CASE("stress: a state that was written and read again is the same, of liquid that is gone too",
+          "[stress]") {
+  sim::Options options;
+  options.resolution = 16;
+  sim::Solver solver(options);
+  solver.next();
+  sim::State one = solver.state(), other = one;
+  one.deficit = sim::FloatGrid::create(0.0f);
+  one.deficit->tree().setValueOn(sim::Coord(3), 0.5f);
+  other.deficit = one.deficit->deepCopy();
+  // A leaf that is gone leaves its inner node.
+  one.deficit->tree().touchLeaf(sim::Coord(-300, 0, 0));
+  one.deficit->tree().stealNode<sim::FloatLeaf>(sim::Coord(-300, 0, 0), 0.0f, false);
+  CHECK(stress::difference(one, other).empty());
+  other.deficit->tree().setValueOn(sim::Coord(4), 0.0f);
+  CHECK(stress::difference(one, other) == "deficit, its cells");
+  other.deficit->tree().setValueOff(sim::Coord(4), 0.0f);
+  other.deficit->tree().addTile(1, sim::Coord(64), 0.25f, true);
+  CHECK(stress::difference(one, other) == "deficit, a tile");
+}

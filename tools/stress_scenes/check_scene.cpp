@@ -30,7 +30,7 @@ constexpr int kDeficitFrames = 4;
 // And in any frame.
 constexpr double kMostDeficitAtOnce = 0.1;
 // Besides, of a cell for each cell's face of the surface: by so much phi knows where it is. It counts for
-// spray.
+// spray, and where little more than cells at the surface moves.
 constexpr double kDeficitOfSurface = 0.03;
 // And a drop of a cell's radius, in cells: no grid sees one.
 constexpr double kDrop = 4.2;
@@ -238,7 +238,8 @@ class Checks {
         m_options.density *
         (deficit * height + (m_mostDeficit - deficit) * std::min(height, weight * kGivenBack * h) +
          (kDeficitOfSurface * h * now.area + kDrop * h * h * h) * weight * h);
-    const double allowed = kEnergyTolerance * (now.kinetic + now.potential) + kFilms * now.surface + lifted +
+    const double motion = std::max(kEnergyTolerance * now.kinetic, kDeficitOfSurface * now.surfaceMotion);
+    const double allowed = motion + kEnergyTolerance * now.potential + kFilms * now.surface + lifted +
                            0.5 * now.mass * fall * fall;
     // A volume that is wrong has a wrong energy.
     if (sum > m_energy + allowed && !failed("volume"))

@@ -25,6 +25,8 @@ struct Measures {
   // of the liquid or the air there; beyond the narrow band, where the solver knows none, as all that is seen
   // does on the whole.
   double deficitMotion = 0.0;
+  // J, of motion that the cells which the surface crosses would have if they were full.
+  double surfaceMotion = 0.0;
   double area = 0.0;     // m2, of the surface between liquid and air
   double mass = 0.0;     // kg, without the volume deficit
   double thin = 0.0;     // m3, of what phi shows with nothing deeper than a cell beside it: sheets, threads
