@@ -31,6 +31,8 @@ constexpr double kLeastWidth = 1e-4, kMostWidth = 0.01;
 // Cells: what is no farther outside lies in a joint, by rounding, and liquid this far behind a surface covers
 // it.
 constexpr double kOnJoint = 0.01, kBeyond = 0.5;
+// Cells: what places and distances may be wrong by.
+constexpr double kRounding = 1e-6;
 // Bisection steps between two cells.
 constexpr int kHalvings = 40;
 
@@ -146,7 +148,7 @@ double distanceAcross(const Distance& body, const Distance& solids, const Vec3d&
       }
     }
     // A surface through the centre itself has a distance of the size of rounding.
-    nearest = std::max(nearest, 1e-6 * h);
+    nearest = std::max(nearest, kRounding * h);
     squares += 1.0 / (nearest * nearest);
   }
   return squares > 0.0 ? 1.0 / std::sqrt(squares) : 0.0;
@@ -167,7 +169,7 @@ Distance pouredSurface(Distance parts, Distance solids, double h) {
     // There is no air between a body and a solid that it almost touches. In a corner of several solids, which
     // has no normal, the body shows the way.
     Vec3d place = x;
-    if (room >= 0.0 && room < touching) {
+    if (room > -kRounding * h && room < touching) {
       Vec3d beside = x + touching * normalAt(solids, x, 0.01 * h);
       if (here >= 0.0 && solids(beside) < 0.5 * touching) beside = x - touching * outwards;
       if ((body(beside) < 0.0) != (here < 0.0)) {

@@ -43,6 +43,23 @@ TEST_CASE("poured surface: level up to a wall, however near the wall is to a cel
   }
 }
 
+TEST_CASE("poured surface: cells whose centres a wall goes through are liquid, however it is rounded") {
+  const double centre = 10.5 * kVoxel;
+  for (const double wall : {-1e-15, 0.0, 1e-15}) {
+    for (const double end : {-1e-15, 0.0, 1e-15}) {
+      Options options = tank(16, {});
+      options.solids.resize(1);
+      options.solids[0].shape = {Box{Vec3d(centre + wall, -1.0, -1.0), Vec3d(2.0)}};
+      options.liquid.resize(1);
+      options.liquid[0].shape = {Box{Vec3d(0.0), Vec3d(centre + end, 1.0, 0.45)}};
+      CAPTURE(wall, end);
+      const auto surface = surfaceOf(options);
+      const Vec3d x = (Vec3d(10, 8, 2) + Vec3d(0.5)) * kVoxel;
+      CHECK(surface(x) < -kVoxel);
+    }
+  }
+}
+
 TEST_CASE("poured surface: a slope keeps its distance at a wall") {
   Options options = tank(16, {});
   options.liquid.resize(1);
