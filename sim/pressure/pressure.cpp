@@ -134,6 +134,22 @@ void setOutflow(const FloatGrid& divergence, const LiquidCells& liquid, const Po
   });
 }
 
+// Of the enclosed parts of the unknowns. outflow: of each unknown, with what sources take back taken out.
+void takeBackDeficit(const SolidField& solid, const std::vector<std::vector<int>>& enclosed,
+                     const std::vector<int>& liquidOf, const LiquidCells& liquid,
+                     std::vector<double>& outflow, FaceGrids& velocity) {
+  for (const std::vector<int>& part : enclosed) {
+    std::vector<int> cells(part.size());
+    std::vector<double> wanted(part.size());
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      cells[i] = liquidOf[part[i]];
+      wanted[i] = outflow[part[i]];
+    }
+    takeBack(solid, cells, liquid, wanted, velocity);
+    for (std::size_t i = 0; i < part.size(); ++i) outflow[part[i]] = wanted[i];
+  }
+}
+
 // One step of the active set method: cells at solids separate, or attach again. True if any changed. The
 // suction of a cell, below its pressure when detached, is limited by its own surface: a drop of one cell
 // bears only a share of `suction`, which is for a cell with a column of liquid below it. Suction below
@@ -298,6 +314,7 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   report.cells = n;
   report.converged = true;
   std::vector<double> q(n, 0.0), expansion;
+  SolidField still;  // without velocities, but with those at which sources take back what is too much
   std::vector<char> detached(n, 0);
   SolidField slowed = solid;  // with the velocities that sources get in the end
   for (int pass = 0; n > 0; ++pass) {
@@ -354,6 +371,8 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
     if (again || separates(x)) continue;
     if (options.divergence != nullptr && solved.converged) {
       setOutflow(*options.divergence, liquid, system, solid.voxelSize, b);
+      still = atRest(solid);
+      if (solid.given) takeBackDeficit(solid, singular, liquidOf, liquid, b, still.given);
       std::fill(x.begin(), x.end(), 0.0);
       // If this fails, no deficit is given back in this step.
       if (poisson.solve(std::move(b), x, kExpansionTolerance, options.maxIterations).converged) {
@@ -370,7 +389,6 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
   result.valid.component[2] = updateFaces(liquid, surface, slowed, q, detached, 2, w);
   if (!expansion.empty()) {
     result.expansion = makeVelocity(solid.voxelSize);
-    const SolidField still = atRest(solid);
     const std::vector<char> none(n, 0);
     for (int axis = 0; axis < 3; ++axis)
       updateFaces(liquid, {}, still, expansion, none, axis, *result.expansion.component[axis]);

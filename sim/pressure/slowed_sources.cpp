@@ -3,13 +3,14 @@
 #include "sim/grid/mac_grid.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace fluidtex::sim {
 namespace {
 
 // A face through which liquid of given velocity comes into a cell.
 struct Inlet {
-  int cell;
+  int cell, at;  // its place in the part
   int axis;
   Coord face;
   double flow;  // open area times speed
@@ -19,7 +20,8 @@ struct Inlet {
 std::vector<Inlet> inletsOf(const std::vector<int>& part, const SolidField& solid,
                             const LiquidCells& liquid) {
   std::vector<Inlet> inlets;
-  for (const int number : part) {
+  for (int at = 0; at < static_cast<int>(part.size()); ++at) {
+    const int number = part[at];
     const LiquidSides& cell = liquid.sidesOf(number);
     const Coord place = liquid.numbering.cell(number);
     for (int s = 0; s < kSides; ++s) {
@@ -31,10 +33,17 @@ std::vector<Inlet> inletsOf(const std::vector<int>& part, const SolidField& soli
       if (endsAt(Side::stream, solid, place, s)) return {};
       const double speed = given.getValue(face), inward = s % 2 == 0 ? speed : -speed;
       const double flow = solid.open[axis].constTree().getValue(face) * inward;
-      if (flow > 0.0) inlets.push_back({number, axis, face, flow});
+      if (flow > 0.0) inlets.push_back({number, at, axis, face, flow});
     }
   }
   return inlets;
+}
+
+// Of what comes in through the inlets; 0 where there are none.
+double shareOf(const std::vector<Inlet>& inlets, double flow) {
+  double comesIn = 0.0;
+  for (const Inlet& inlet : inlets) comesIn += inlet.flow;
+  return comesIn > 0.0 ? flow / comesIn : 0.0;
 }
 
 }  // namespace
@@ -44,24 +53,34 @@ FaceGrids slowedSources(const SolidField& solid, const std::vector<std::vector<i
   FaceGrids slowed = solid.given;
   bool copied = false;
   for (const std::vector<int>& part : enclosed) {
-    const std::vector<Inlet> inlets = inletsOf(part, solid, liquid);
-    double comesIn = 0.0, excess = 0.0;
-    for (const Inlet& inlet : inlets) comesIn += inlet.flow;
-    if (comesIn <= 0.0) continue;
+    double excess = 0.0;
     for (const int number : part) excess -= liquid.outflow[number];
-    const double share = std::clamp(excess / comesIn, 0.0, 1.0);
+    const std::vector<Inlet> inlets = inletsOf(part, solid, liquid);
+    const double share = std::clamp(shareOf(inlets, excess), 0.0, 1.0);
     if (share <= 0.0) continue;
     if (!copied) {
       for (FloatGrid::Ptr& grid : slowed.component) grid = grid->deepCopy();
       copied = true;
     }
-    for (const auto& [number, axis, face, flow] : inlets) {
-      FloatTree& given = slowed.component[axis]->tree();
-      given.setValueOn(face, static_cast<float>((1.0 - share) * given.getValue(face)));
-      liquid.outflow[number] += share * flow;
+    for (const Inlet& inlet : inlets) {
+      FloatTree& given = slowed.component[inlet.axis]->tree();
+      given.setValueOn(inlet.face, static_cast<float>((1.0 - share) * given.getValue(inlet.face)));
+      liquid.outflow[inlet.cell] += share * inlet.flow;
     }
   }
   return slowed;
+}
+
+void takeBack(const SolidField& solid, const std::vector<int>& part, const LiquidCells& liquid,
+              std::vector<double>& outflow, FaceGrids& velocity) {
+  const std::vector<Inlet> inlets = inletsOf(part, solid, liquid);
+  const double wanted = std::accumulate(outflow.begin(), outflow.end(), 0.0);
+  const double share = std::clamp(shareOf(inlets, wanted), -1.0, 1.0);
+  for (const Inlet& inlet : inlets) {
+    const double speed = solid.given[inlet.axis].constTree().getValue(inlet.face);
+    velocity.component[inlet.axis]->tree().setValueOn(inlet.face, static_cast<float>(-share * speed));
+    outflow[inlet.at] -= share * inlet.flow;
+  }
 }
 
 }  // namespace fluidtex::sim

@@ -17,4 +17,12 @@ namespace fluidtex::sim {
 FaceGrids slowedSources(const SolidField& solid, const std::vector<std::vector<int>>& enclosed,
                         LiquidCells& liquid);
 
+// What sources take back of such a part while its volume deficit is given back
+// (PressureOptions::divergence): a room that fills up may have been given more by then than it holds. Where
+// it was given less, more comes in; neither faster than the source gives.
+// part: cells of liquid. outflow: wanted of each of them; reduced by what leaves through the source's faces.
+// velocity: at these faces, set.
+void takeBack(const SolidField& solid, const std::vector<int>& part, const LiquidCells& liquid,
+              std::vector<double>& outflow, FaceGrids& velocity);
+
 }  // namespace fluidtex::sim

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace fluidtex::sim;
@@ -61,4 +62,24 @@ TEST_CASE("slowed sources: they make up for what a solid that draws back leaves"
   const FaceGrids slowed = slowedSources(*scene.solid, {all}, liquid);
   CHECK(slowed[2].tree().getValue(kFront) == Approx(0.25f));
   CHECK(scene.solid->given[2].tree().getValue(kFront) == 1.0f);
+}
+
+TEST_CASE("slowed sources: they take back what a full room was given too much, and give what it lacks",
+          "[sim]") {
+  for (const double each : {0.005, -0.005, 0.1}) {  // 1/s, of each of 511 cells
+    Scene scene = withSource([](const Vec3d&) { return -1.0; });
+    auto divergence = FloatGrid::create(0.0f);
+    for (int n = 0; n < 512; ++n) {
+      const Coord cell(n / 64, n / 8 % 8, n % 8);
+      if (cell != kSource) divergence->tree().setValueOn(cell, static_cast<float>(each));
+    }
+    PressureOptions options;
+    options.divergence = divergence;
+    const Projection projected = scene.projected(options);
+    const FloatTree& up = projected.expansion.component[2]->tree();
+    CAPTURE(each);
+    // No faster than the source gives.
+    CHECK(up.getValue(kFront) == Approx(std::clamp(-511.0 * each * scene.h, -1.0, 1.0)).epsilon(1e-3));
+    CHECK(std::abs(scene.velocity.component[2]->tree().getValue(kFront)) < 1e-6);
+  }
 }
