@@ -123,15 +123,20 @@ bool leadsThroughWall(const Distance& solids, const Vec3d& from, int axis, doubl
 }
 
 // Distance to a plane from where it crosses the axes; 0 where it crosses none within kReach cells.
-double distanceAcross(const Distance& body, const Distance& solids, const Vec3d& x, double here, double h) {
+// off: leads off a solid that x lies on, 0 elsewhere. Each axis is searched beside the solid, where what else
+// ends there is not at its edge too.
+double distanceAcross(const Distance& body, const Distance& solids, const Vec3d& x, const Vec3d& off,
+                      double here, double h) {
   // Where the body ends at a solid, its surface is at no distance from it; a surface beside a solid is as far
   // from it as x.
-  const double apart = std::min(kTouching * h, 0.5 * std::abs(solids(x)));
+  const double apart = std::min(kTouching * h, 0.5 * std::abs(solids(x + off)));
   double squares = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     double nearest = kForever;
+    Vec3d start = x + off;
+    start[axis] = x[axis];
     for (const double part : {-h / kParts, h / kParts}) {
-      Vec3d from = x;
+      Vec3d from = start;
       for (int n = 0; n < kReach * kParts; ++n) {
         Vec3d beside = from;
         beside[axis] += part;
@@ -142,7 +147,7 @@ double distanceAcross(const Distance& body, const Distance& solids, const Vec3d&
         const Vec3d place = crossing(body, from, beside, here);
         const double length = place[axis] - x[axis];
         if (std::abs(length) < nearest && !isAtSolid(body, solids, place, apart, std::abs(here), h) &&
-            !leadsThroughWall(solids, x, axis, length, h))
+            !leadsThroughWall(solids, start, axis, length, h))
           nearest = std::abs(length);
         break;
       }
@@ -168,20 +173,22 @@ Distance pouredSurface(Distance parts, Distance solids, double h) {
     if (room > std::abs(here) + touching && !covered) return here;
     // There is no air between a body and a solid that it almost touches. In a corner of several solids, which
     // has no normal, the body shows the way.
-    Vec3d place = x;
+    Vec3d place = x, off(0.0);
     if (room > -kRounding * h && room < touching) {
       Vec3d beside = x + touching * normalAt(solids, x, 0.01 * h);
       if (here >= 0.0 && solids(beside) < 0.5 * touching) beside = x - touching * outwards;
       if ((body(beside) < 0.0) != (here < 0.0)) {
         place = beside;
         here = body(place);
+      } else if (room < kRounding * h) {
+        off = beside - x;
       }
     }
     const Vec3d closest = place - here * normalAt(body, place, 0.01 * h);
     // Where two surfaces are equally near, neither lies along the gradient of the distance.
     const bool isOn = !covered && std::abs(body(closest)) < touching;
     if (place == x && isOn && !isAtSolid(body, solids, closest, touching, h, h)) return here;
-    if (const double across = distanceAcross(body, solids, place, here, h); across > 0.0)
+    if (const double across = distanceAcross(body, solids, place, off, here, h); across > 0.0)
       return here < 0.0 ? -across : across;
     // The body ends at the solid here; its own surface is farther away.
     return here < 0.0 ? std::min(here, -kNear * h) : here;

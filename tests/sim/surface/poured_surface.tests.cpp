@@ -44,18 +44,26 @@ TEST_CASE("poured surface: level up to a wall, however near the wall is to a cel
 }
 
 TEST_CASE("poured surface: cells whose centres a wall goes through are liquid, however it is rounded") {
-  const double centre = 10.5 * kVoxel;
+  // A corner of the wall and one that is a quarter of a cell away.
+  const double centre = 10.5 * kVoxel, side = 8.25 * kVoxel, level = 7.2 * kVoxel;
   for (const double wall : {-1e-15, 0.0, 1e-15}) {
     for (const double end : {-1e-15, 0.0, 1e-15}) {
       Options options = tank(16, {});
-      options.solids.resize(1);
+      options.solids.resize(2);
       options.solids[0].shape = {Box{Vec3d(centre + wall, -1.0, -1.0), Vec3d(2.0)}};
+      options.solids[1].shape = {Box{Vec3d(-1.0), Vec3d(2.0, side, 2.0)}};
       options.liquid.resize(1);
-      options.liquid[0].shape = {Box{Vec3d(0.0), Vec3d(centre + end, 1.0, 0.45)}};
+      options.liquid[0].shape = {Box{Vec3d(0.0, side, 0.0), Vec3d(centre + end, 1.0, level)}};
       CAPTURE(wall, end);
       const auto surface = surfaceOf(options);
-      const Vec3d x = (Vec3d(10, 8, 2) + Vec3d(0.5)) * kVoxel;
-      CHECK(surface(x) < -kVoxel);
+      for (const int j : {8, 9, 12}) {
+        CAPTURE(j);
+        CHECK(surface((Vec3d(10, j, 2) + Vec3d(0.5)) * kVoxel) < -kVoxel);
+        for (const int k : {6, 7}) {
+          const Vec3d x = (Vec3d(10, j, k) + Vec3d(0.5)) * kVoxel;
+          CHECK(surface(x) / kVoxel == Approx((x[2] - level) / kVoxel).margin(1e-3));
+        }
+      }
     }
   }
 }
