@@ -103,8 +103,8 @@ bool isAtSolid(const Distance& body, const Distance& solids, const Vec3d& place,
   const double away = solids(place);
   if (away > apart) return false;
   const Vec3d normal = normalAt(body, place, std::clamp(0.5 * edge, kLeastWidth * h, kMostWidth * h));
-  if (!isParallel(solids, place, normal, h)) return false;
-  return away >= -apart || !comesOut(body, solids, place, normal, h);
+  // Some way into a solid the distance may be that to another one, which stands on the one it ends at.
+  return away < -apart ? !comesOut(body, solids, place, normal, h) : isParallel(solids, place, normal, h);
 }
 
 // Whether a path along an axis enters a solid and leaves it again.

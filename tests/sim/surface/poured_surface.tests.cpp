@@ -68,6 +68,30 @@ TEST_CASE("poured surface: cells whose centres a wall goes through are liquid, h
   }
 }
 
+TEST_CASE(
+    "poured surface: at the foot of solids that stand in the floor the liquid is as deep as elsewhere") {
+  const Vec3d foot(7.3 * kVoxel, 8.4 * kVoxel, 2.3 * kVoxel);
+  for (const Shape& shape : {Shape{Sphere{foot, 3.75 * kVoxel}},
+                             Shape{Cylinder{foot, foot + Vec3d(2.0, 1.0, 0.4) * kVoxel, 3.75 * kVoxel}}}) {
+    Options options = tank(16, {});
+    options.solids.resize(1);
+    options.solids[0].shape = shape;
+    options.liquid.resize(1);
+    options.liquid[0].shape = {Box{Vec3d(0.0), Vec3d(1.0, 1.0, 12.0 * kVoxel)}};
+    const auto surface = surfaceOf(options);
+    Solids solids(options);
+    int count = 0;
+    for (int n = 0; n < 16 * 16 * 9; ++n) {
+      const Vec3d x = (Vec3d(n % 16, n / 16 % 16, n / 256) + Vec3d(0.5)) * kVoxel;
+      if (solids.distance(x, 0.0) < 0.0) continue;
+      ++count;
+      CAPTURE(n % 16, n / 16 % 16, n / 256);
+      CHECK(surface(x) < -1.7 * kVoxel);
+    }
+    CHECK(count > 2000);
+  }
+}
+
 TEST_CASE("poured surface: a slope keeps its distance at a wall") {
   Options options = tank(16, {});
   options.liquid.resize(1);
