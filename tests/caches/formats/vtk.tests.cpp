@@ -66,29 +66,6 @@ TEST_CASE("vtk: lines that end as on Windows", "[caches]") {
   checkPyramid(geometryIn("a.vtk", text));
 }
 
-TEST_CASE("vtk: kinds of cells that are surfaces, and others", "[caches]") {
-  const auto grid = [](int kind) {
-    return "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 "
-           "0 1 1 0\nCELLS 1 5\n4 0 1 " +
-           std::string(kind == 9 || kind == 7 ? "3 2" : "2 3") + "\nCELL_TYPES 1\n" + std::to_string(kind) +
-           "\n";
-  };
-  for (const int kind : {6, 7, 8, 9}) {
-    const Geometry square = geometryIn("a.vtk", grid(kind));
-    CAPTURE(kind);
-    REQUIRE(square.triangles.size() == 2);
-    openvdb::Vec3d area(0.0);
-    for (const openvdb::Vec3I& t : square.triangles) {
-      const openvdb::Vec3d a(square.points[t[0]]), b(square.points[t[1]]), c(square.points[t[2]]);
-      area += (b - a).cross(c - a) * 0.5;
-    }
-    CHECK(area == openvdb::Vec3d(0, 0, 1));
-  }
-  for (const int kind : {0, 1, 2, 3, 4}) CHECK(geometryIn("a.vtk", grid(kind)).triangles.empty());
-  for (const int kind : {10, 12, 22, -1})
-    CHECK_THAT(refusalOf("a.vtk", grid(kind)), Contains("cell 1 is of type " + std::to_string(kind)));
-}
-
 TEST_CASE("vtk: what is wrong is said", "[caches]") {
   const std::string good = vtk();
   CHECK_THAT(refusalOf("a.vtk", "vtk"), Contains("does not begin with '# vtk DataFile Version'"));

@@ -91,34 +91,3 @@ TEST_CASE("vtp: what is wrong is said", "[caches]") {
              Contains("begins at byte 99999"));
   CHECK_THAT(refusalOf("a.vtp", withText(vtp(raw), "raw", "hex")), Contains("encoding 'hex'"));
 }
-
-TEST_CASE("vtp: a packed block cannot claim more than it can hold", "[caches]") {
-  VtpOptions options;
-  options.format = VtpOptions::appendedRaw;
-  options.packed = true;
-  options.blockSize = 1000;
-  std::string bytes = vtp(options);
-  // Of the first array: one block, of so many bytes unpacked.
-  const std::size_t header = bytes.find("_", bytes.find("<AppendedData")) + 1;
-  bytes[header + 7] = bytes[header + 11] = '\x7f';
-  CHECK_THAT(refusalOf("a.vtp", bytes), Contains("block 1 of 1 cannot hold"));
-}
-
-TEST_CASE("vtp: arrays at one place do not take more memory than the file", "[caches]") {
-  const auto array = [](const std::string& name) {
-    return "<DataArray type=\"Float32\" Name=\"" + name +
-           "\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/>";
-  };
-  std::string values;
-  put(values, std::uint32_t(12000));
-  values += std::string(12000, '\0');
-  const auto file = [&](const std::string& attributes) {
-    return "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"1000\"><PointData>" + attributes +
-           "</PointData><Points>" + array("Points") +
-           "</Points></Piece></PolyData><AppendedData encoding=\"raw\">_" + values +
-           "</AppendedData></VTKFile>";
-  };
-  CHECK(geometryIn("a.vtp", file("")).points.size() == 1000);
-  CHECK_THAT(refusalOf("a.vtp", file(array("a") + array("b"))),
-             Contains("bytes that other arrays have taken"));
-}
