@@ -74,9 +74,9 @@ bool TextArrays::nextIs(std::string_view word) const {
   return at != std::string_view::npos && m_rest.substr(at).starts_with(word);
 }
 
-std::uint64_t TextArrays::countThatFits(std::uint64_t rows, std::uint64_t columns, std::uint64_t bits) const {
-  // A number in a text takes two bytes, the last one a single one.
-  const std::uint64_t room = binary ? 8 * m_rest.size() / bits : (m_rest.size() + 1) / 2;
+std::uint64_t TextArrays::countThatFits(std::uint64_t rows, std::uint64_t columns, std::uint64_t bits,
+                                        std::uint64_t letters) const {
+  const std::uint64_t room = binary ? 8 * m_rest.size() / bits : (m_rest.size() + 1) / letters;
   if (columns > 0 && rows > room / columns)
     throw std::runtime_error("says that it has " + std::to_string(rows) + " rows of " +
                              std::to_string(columns) +
@@ -103,7 +103,8 @@ template std::vector<std::int64_t> TextArrays::take<std::int64_t>(ArrayType, std
 
 void TextArrays::skip(ArrayType type, std::uint64_t rows, std::uint64_t columns) {
   if (type.kind == ArrayType::text) {
-    skipTexts(countThatFits(rows, columns, 8));
+    constexpr std::uint64_t kEmptyLine = 1;
+    skipTexts(countThatFits(rows, columns, 8, kEmptyLine));
   } else if (!binary) {
     for (std::uint64_t count = countThatFits(rows, columns, 8); count > 0; --count)
       numberOf(sim::takeWord(m_rest));

@@ -48,8 +48,10 @@ class TextArrays {
   ArrayType bytesOrText() const { return binary ? NumberType::uint8 : NumberType::float32; }
 
  private:
-  // rows * columns, of which the rest of the file has enough bytes, each taking `bits` at least.
-  std::uint64_t countThatFits(std::uint64_t rows, std::uint64_t columns, std::uint64_t bits) const;
+  // rows * columns, of which the rest of the file has enough bytes, each taking `bits` at least where the
+  // file is binary, else `letters` with what ends it, which the last one may lack.
+  std::uint64_t countThatFits(std::uint64_t rows, std::uint64_t columns, std::uint64_t bits,
+                              std::uint64_t letters = 2) const;
   void skipTexts(std::uint64_t count);
 
   std::string_view m_rest;

@@ -116,6 +116,10 @@ TEST_CASE("vtk text arrays: texts are lines, or letters behind a length of one t
   TextArrays lines("a\n\nb b\nPOINTS");
   lines.skip(ArrayType::text, 3, 1);
   CHECK(lines.takeLine() == "POINTS");
+  TextArrays none("\n\n\n\n");
+  none.skip(ArrayType::text, 4, 1);
+  CHECK(none.takeLine().empty());
+  CHECK_THROWS(TextArrays("\n\n\n\n").skip(ArrayType::text, 6, 1));
   const auto text = [](const std::string& length, std::size_t count) {
     return length + std::string(count, 'x');
   };
