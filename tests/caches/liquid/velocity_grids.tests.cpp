@@ -1,6 +1,5 @@
 #include "caches/liquid/velocity_grids.h"
 
-#include "caches/liquid/continue_outwards.h"
 #include "caches/liquid/placement.h"
 #include "tests/caches/liquid/flows.h"
 
@@ -180,20 +179,6 @@ TEST_CASE("velocity_grids: from grids at the cells' centres", "[caches]") {
     CHECK(got[axis].tree().getValue(Coord(4, 5, 6)) == float(axis) - 1.5f);
     CHECK(got[axis].transform() == *sim::cellTransform(0.1));
   }
-}
-
-TEST_CASE("velocity_grids: continued outwards layer by layer", "[caches]") {
-  const auto grid = openvdb::Vec3SGrid::create(Vec3f(0.0f));
-  for (auto at = openvdb::CoordBBox(Coord(0, 0, 0), Coord(5, 5, 0)).begin(); at; ++at)
-    grid->tree().setValue(*at, Vec3f(1, 2, 3));
-  grid->tree().setValue(Coord(20, 0, 0), Vec3f(2, 0, 0));
-  grid->tree().setValue(Coord(22, 0, 0), Vec3f(4, 0, 0));
-  continueOutwards(*grid, 2);
-  for (const int k : {-2, -1, 1, 2}) CHECK(grid->tree().getValue(Coord(2, 2, k)) == Vec3f(1, 2, 3));
-  CHECK_FALSE(grid->tree().isValueOn(Coord(2, 2, 3)));
-  CHECK(grid->tree().getValue(Coord(21, 0, 0)) == Vec3f(3, 0, 0));  // the mean of both neighbours
-  CHECK(grid->tree().getValue(Coord(19, 0, 0)) == Vec3f(2, 0, 0));
-  CHECK(grid->tree().getValue(Coord(20, 0, 0)) == Vec3f(2, 0, 0));
 }
 
 TEST_CASE("velocity_grids: leaves near a surface reach as far as is asked", "[caches]") {
