@@ -19,7 +19,8 @@ struct CachedMesh {
 // Requires SurfaceKind::mesh. Pieces below Options::leastPiece have no triangles. Throws as readSurface().
 CachedMesh readMesh(const Cache& cache, int number);
 
-// All of it. Velocities are known within two frames' motion of the surface, or wherever the files have them.
+// All of it. Velocities at points are known within a frame's motion of the surface (reachInCells()), others
+// wherever the files have them.
 LiquidFrame readFrame(const Cache& cache, int number);
 
 // Side of the cells that suit a frame of this surface, metres: the voxels of grids, the spacing of particles,

@@ -1,7 +1,7 @@
 #include "caches/liquid/further_fields.h"
 
 #include "caches/liquid/read_frame.h"
-#include "tests/caches/liquid/cache_files.h"
+#include "tests/caches/liquid/ball_with_fields.h"
 #include "tests/scratch.h"
 
 #include <openvdb/tools/Interpolation.h>
@@ -9,45 +9,11 @@
 
 #include <catch2/catch.hpp>
 
-#include <fmt/format.h>
-
-#include <limits>
-
 using namespace fluidtex;
 using namespace fluidtex::caches;
 namespace fs = std::filesystem;
 
 namespace {
-
-// What the fields below hold at a place of the world.
-double heatAt(const Vec3d& x) {
-  return 300.0 + 50.0 * x[0] - 20.0 * x[2];
-}
-
-// A mesh, or particles, of a ball as PLY in text, with heat and a direction (y up in neither) at its points.
-std::string plyWithFields(const std::vector<Vec3d>& points, const std::vector<openvdb::Vec3I>& triangles,
-                          std::size_t noNumber = std::numeric_limits<std::size_t>::max()) {
-  std::string text = fmt::format(
-      "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty "
-      "float z\nproperty float heat\nproperty float Cd_x\nproperty float Cd_y\nproperty float "
-      "Cd_z\n",
-      points.size());
-  if (!triangles.empty())
-    text += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", triangles.size());
-  text += "end_header\n";
-  for (std::size_t n = 0; n < points.size(); ++n) {
-    const Vec3d& x = points[n];
-    text += fmt::format("{} {} {} {} {} {} 1\n", x[0], x[1], x[2],
-                        n == noNumber ? "nan" : fmt::format("{}", heatAt(x)), x[0], x[1]);
-  }
-  for (const openvdb::Vec3I& t : triangles) text += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
-  return text;
-}
-
-Cache cacheAt(const fs::path& path, Options options = {}) {
-  options.path = path;
-  return {options, recognize(options), 0.03, 24.0};
-}
 
 double valueAt(const LiquidFrame& frame, const std::string& name, const Vec3d& x) {
   const sim::FloatGrid& grid = *frame.fields.at(name);
@@ -67,18 +33,6 @@ Differences differences(const LiquidFrame& frame) {
     most.vector = std::max(most.vector, std::abs(valueAt(frame, "Cd_y", x) - x[1]));
   }
   return most;
-}
-
-struct Mesh {
-  std::vector<Vec3d> points;
-  std::vector<openvdb::Vec3I> triangles;
-};
-
-Mesh writeBall(const fs::path& file, int halvings) {
-  Mesh ball;
-  ballMesh({}, halvings, ball.points, ball.triangles);
-  writeBytes(file, plyWithFields(ball.points, ball.triangles));
-  return ball;
 }
 
 }  // namespace
@@ -148,21 +102,4 @@ TEST_CASE("further fields: grids beside the surface's, in the place that the opt
   const LiquidFrame there = readFrame(cacheAt(scratch.path, moved), 1);
   const Vec3d x = ball.center + Vec3d(0.1, 0.0, 0.0);
   CHECK(valueAt(there, "heat", x + moved.move) == Approx(heatAt(x)).margin(0.01));
-}
-
-TEST_CASE("further fields: the mesh of a frame as it came, points in their order", "[caches]") {
-  const Scratch scratch;
-  const auto [points, triangles] = writeBall(scratch.path / "a_1.ply", 2);
-  Options options;
-  options.unit = 0.001;
-  options.move = Vec3d(1.0, 0.0, 0.0);
-  const CachedMesh mesh = readMesh(cacheAt(scratch.path, options), 1);
-  REQUIRE(mesh.surface.points.size() == points.size());
-  CHECK(mesh.surface.triangles == triangles);
-  CHECK(mesh.attributes.size() == 4);
-  for (std::size_t n = 0; n < points.size(); ++n) {
-    CHECK((Vec3d(mesh.surface.points[n]) - (0.001 * points[n] + options.move)).length() < 1e-6);
-    CHECK(mesh.attributes.at("heat")[n] == Approx(heatAt(points[n])));
-    CHECK(mesh.attributes.at("Cd_x")[n] == Approx(points[n][0]));
-  }
 }
