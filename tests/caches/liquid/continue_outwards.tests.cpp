@@ -37,6 +37,13 @@ TEST_CASE("continue outwards: a layer has the mean of the layers before, and not
   CHECK(grid->tree().getValue(Coord(1, 1, 0)) == Approx((2.5 + 1.0 + 4.0) / 3.0));
   CHECK(grid->tree().getValue(Coord(0, 2, 0)) == 1.0f);
   CHECK(grid->tree().getValue(Coord(0, 0, 0)) == 1.0f);
+  // Two of one layer that lie side by side.
+  const auto apart = openvdb::FloatGrid::create(-5.0f);
+  apart->tree().setValue(Coord(0, 0, 0), 1.0f);
+  apart->tree().setValue(Coord(3, 0, 0), 4.0f);
+  continueOutwards(*apart, 1);
+  CHECK(apart->tree().getValue(Coord(1, 0, 0)) == 1.0f);
+  CHECK(apart->tree().getValue(Coord(2, 0, 0)) == 4.0f);
 }
 
 TEST_CASE("continue outwards: from tiles and over the sides of blocks", "[caches]") {

@@ -125,7 +125,10 @@ TEST_CASE("triangle raster: slivers, edges and points count by their edges", "[c
   const Vec3d a(1.3, 2.2, 0.4), b(6.1, 4.9, 6.8);
   for (const BlockTriangle& sliver :
        {BlockTriangle{a, b, 0.5 * (a + b)}, BlockTriangle{a, b, 0.5 * (a + b) + Vec3d(0, 1e-7, 0)},
-        BlockTriangle{a, a, b}, BlockTriangle{b, b, b}}) {
+        BlockTriangle{a, a, b}, BlockTriangle{b, b, b},
+        // Beyond its tips lie the centres of cells.
+        BlockTriangle{Vec3d(1.3), Vec3d(4.1), Vec3d(2.7) + Vec3d(1e-7, -1e-7, 0)},
+        BlockTriangle{Vec3d(1.3, 2.3, 5.7), Vec3d(4.1, 5.1, 2.9), Vec3d(2.7, 3.7 + 1e-7, 4.3)}}) {
     BlockNearest nearest = emptyBlock();
     rasterDistances(sliver, 0, nearest);
     for (int cell = 0; cell < sim::kLeafSize; ++cell) {
