@@ -16,8 +16,9 @@ namespace fluidtex::caches {
 struct CellTriangles {
   openvdb::Coord origin{0};
   std::vector<openvdb::Vec3f> points;  // #P; those that are not finite, or beyond 1e9 cells, are NaN
-  // #T; of corners in the same place, all have the first one's number. Those that count for nothing have one
-  // corner three times: where one is no number, and where they are lower than a millionth of a cell.
+  // #T. Where there are more points than triangles, as of triangles with corners of their own, corners in the
+  // same place all have the first one's number. Those that count for nothing have one corner three times:
+  // where one is no number, and where they are lower than a millionth of a cell.
   std::vector<openvdb::Vec3I> triangles;
   // The other triangles around point p: ring[ringFirst[p]] to ring[ringFirst[p + 1] - 1], ascending.
   std::vector<std::uint32_t> ringFirst, ring;

@@ -17,7 +17,7 @@ class FaceSampler {
     }
   }
 
-  // Whether any value is known there.
+  // Whether a value of each component is known there.
   bool at(const openvdb::Vec3d& x, openvdb::Vec3d& velocity) const {
     bool known = true;
     for (int axis = 0; axis < 3; ++axis) known = component(axis, x, velocity[axis]) && known;
