@@ -75,9 +75,9 @@ class TileLayer {
     const float most = 3.0f * float(m_size) * float(m_ground.surface.spacing);
     int away = 0;
     for (int row = 0; row < m_size; ++row) {
-      const int y = row <= mid ? mid + row : m_size - 1 - row;
+      const int y = row < m_size - mid ? mid + row : m_size - 1 - row;
       for (int column = 0; column < m_size; ++column) {
-        const int x = column <= mid ? mid + column : m_size - 1 - column;
+        const int x = column < m_size - mid ? mid + column : m_size - 1 - column;
         const std::size_t k = at(y, x);
         std::uint32_t from = m_near[k];
         if (center) {
