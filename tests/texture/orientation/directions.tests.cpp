@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
