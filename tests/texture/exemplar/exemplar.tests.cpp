@@ -44,44 +44,6 @@ std::string refusal(const Image& image, const SynthesisOptions& options = {}) {
 
 }  // namespace
 
-TEST_CASE("bilinear: exact for a linear image, at texel centres and between", "[texture]") {
-  Image image{7, 5, 2, {}};
-  for (int y = 0; y < 5; ++y)
-    for (int x = 0; x < 7; ++x)
-      image.data.insert(image.data.end(), {float(x) - 2.0f * float(y), 1.0f + 0.5f * float(x)});
-  for (float y = 0.0f; y <= 4.0f; y += 0.125f)
-    for (float x = 0.0f; x <= 6.0f; x += 0.125f) {
-      float out[2];
-      sampleBilinear(image, false, {x, y}, out);
-      CHECK(out[0] == x - 2.0f * y);
-      CHECK(out[1] == 1.0f + 0.5f * x);
-    }
-}
-
-TEST_CASE("bilinear: outside it is clamped or wrapped", "[texture]") {
-  const Image image{3, 2, 1, {0, 1, 2, 10, 11, 12}};
-  const auto at = [&](bool toroidal, float x, float y) {
-    float out;
-    sampleBilinear(image, toroidal, {x, y}, &out);
-    return out;
-  };
-  CHECK(at(false, -5.0f, -1.0f) == 0.0f);
-  CHECK(at(false, 9.0f, 0.5f) == 7.0f);
-  CHECK(at(false, 1e30f, 1e30f) == 12.0f);
-  CHECK(at(true, 2.5f, 0.0f) == 1.0f);  // half way from the last column to the first
-  CHECK(at(true, -0.5f, 0.0f) == 1.0f);
-  CHECK(at(true, 0.0f, 1.5f) == 5.0f);
-  for (float x = 0.0f; x < 3.0f; x += 0.25f)
-    for (float y = 0.0f; y < 2.0f; y += 0.25f) {
-      CHECK(at(true, x - 6.0f, y + 8.0f) == at(true, x, y));
-      CHECK(at(true, x + 3.0f, y - 2.0f) == at(true, x, y));
-    }
-  // A coordinate that is no number reads some texel.
-  CHECK(std::isfinite(at(false, std::numeric_limits<float>::quiet_NaN(), 0.0f)));
-  CHECK(std::isfinite(at(true, 0.0f, std::numeric_limits<float>::quiet_NaN())));
-  CHECK(std::isfinite(at(true, -1e30f, std::numeric_limits<float>::infinity())));
-}
-
 TEST_CASE("exemplar: levels halve, and hold the channels asked for", "[texture]") {
   const Image image = paint(101, 64, [](float x, float y, float* c) {
     c[0] = c[1] = c[2] = smoothNoise(x, y, 128, 16, 1), c[3] = 1.0f;

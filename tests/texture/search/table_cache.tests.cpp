@@ -2,12 +2,8 @@
 
 #include "tests/scratch.h"
 #include "tests/texture/exemplar/test_images.h"
-#include "texture/exemplar/build_id.h"
 
 #include <catch2/catch.hpp>
-
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 #include <fstream>
 
@@ -190,25 +186,4 @@ TEST_CASE("table cache: maps that are matched make it another image, by their pi
       }
       CHECK(tablesIn(scratch.path).size() == ++files);
     }
-}
-
-TEST_CASE("table cache: another build has files of its own") {
-  // 64 hexadecimal digits: of the sources, the compiler and its settings.
-  CHECK(buildId().size() == 64);
-  CHECK(buildId().find_first_not_of("0123456789abcdef") == std::string_view::npos);
-  // What the hash is made of; were the build left out, it would be this one.
-  const std::int64_t settings[] = {1, 2};
-  const std::vector<float> data{1.0f};
-  const std::span<const float> parts[] = {data};
-  XXH3_state_t state;
-  XXH3_128bits_reset_withSeed(&state, XXH3_64bits(settings, sizeof settings));
-  XXH3_128bits_update(&state, buildId().data(), buildId().size());
-  const std::uint64_t size = 1;
-  XXH3_128bits_update(&state, &size, sizeof size);
-  XXH3_128bits_update(&state, data.data(), sizeof(float));
-  const XXH128_hash_t hash = XXH3_128bits_digest(&state);
-  char text[33];
-  std::snprintf(text, sizeof text, "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
-                static_cast<unsigned long long>(hash.low64));
-  CHECK(keptName(".kind", settings, parts) == std::string(text) + ".kind");
 }

@@ -1,9 +1,6 @@
 #include "texture/shown/maps.h"
 
-#include "tests/scratch.h"
 #include "tests/texture/exemplar/test_images.h"
-
-#include <OpenImageIO/imageio.h>
 
 #include <catch2/catch.hpp>
 
@@ -47,44 +44,6 @@ TEST_CASE("maps: three channels get a name each") {
   CHECK(surface.maps.at("albedo_red")[0] == Approx(1.0f));
   CHECK(surface.maps.at("albedo_green")[1] == Approx(2.0f));
   CHECK(surface.maps.at("albedo_blue")[1] == Approx(3.0f));
-}
-
-TEST_CASE("maps: a picture whose channels are all alike is one map, but not of vectors") {
-  const Scratch scratch;
-  const auto load = [&](MapHolds holds, std::uint8_t lastBlue) {
-    std::vector<std::uint8_t> pixels;
-    for (int p = 0; p < 8 * 4; ++p) pixels.insert(pixels.end(), 3, std::uint8_t(8 * p));
-    pixels.back() = lastBlue;
-    const std::string file = (scratch.path / "map.png").string();
-    const auto out = OIIO::ImageOutput::create(file);
-    REQUIRE(out);
-    REQUIRE(out->open(file, OIIO::ImageSpec(8, 4, 3, OIIO::TypeDesc::UINT8)));
-    REQUIRE(out->write_image(OIIO::TypeDesc::UINT8, pixels.data()));
-    REQUIRE(out->close());
-    MapOptions options;
-    options.file = file;
-    options.holds = holds;
-    return loadMap(options, 8, true).image;
-  };
-  const Image grey = load(MapHolds::values, 8 * 31);
-  REQUIRE(grey.channels == 1);
-  REQUIRE(grey.data.size() == 8 * 4);
-  for (int p = 0; p < 8 * 4; ++p) CHECK(grey.data[std::size_t(p)] == Approx(8 * p / 255.0));
-  CHECK(load(MapHolds::values, 8 * 31 + 1).channels == 3);
-  CHECK(load(MapHolds::normals, 8 * 31).channels == 3);
-}
-
-TEST_CASE("maps: a fine map is reduced to what vertices can show, its mean kept") {
-  const Image fine = noiseImage(64, 32, 1, 3), reduced = vertexMap(fine, 8, true);
-  CHECK(reduced.width == 8);
-  CHECK(reduced.height == 4);
-  const auto mean = [](const Image& image) {
-    double sum = 0.0;
-    for (const float value : image.data) sum += double(value);
-    return sum / double(image.data.size());
-  };
-  CHECK(mean(reduced) == Approx(mean(fine)));
-  CHECK(vertexMap(fine, 40, true).width == 64);
 }
 
 TEST_CASE("maps: without pixels or without an exemplar's size they are refused") {

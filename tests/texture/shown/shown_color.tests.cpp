@@ -24,35 +24,6 @@ Image noise(int side) {
 
 }  // namespace
 
-TEST_CASE("cubic: passes through texels, exact for a linear image, never beyond the four around") {
-  Image ramp{9, 9, 1, {}}, random{9, 9, 1, {}};
-  for (int y = 0; y < 9; ++y)
-    for (int x = 0; x < 9; ++x) {
-      ramp.data.push_back(float(x) - 2.0f * float(y));
-      random.data.push_back(float(randomUnit(3, std::uint64_t(9 * y + x))));
-    }
-  float out;
-  for (float y = 1.0f; y <= 7.0f; y += 0.25f)
-    for (float x = 1.0f; x <= 7.0f; x += 0.25f) {
-      sampleCubic(ramp, false, {x, y}, &out);
-      CHECK(out == Approx(x - 2.0f * y).margin(1e-5));
-      sampleCubic(random, false, {x, y}, &out);
-      const int i = std::min(int(x), 7), j = std::min(int(y), 7);
-      const auto [least, most] = std::minmax(
-          {*random.at(i, j), *random.at(i + 1, j), *random.at(i, j + 1), *random.at(i + 1, j + 1)});
-      CHECK((out >= least && out <= most));
-      if (x == std::floor(x) && y == std::floor(y)) CHECK(out == Approx(*random.at(int(x), int(y))));
-    }
-  sampleCubic(random, true, {8.5f, 3.0f}, &out);
-  const float wrapped = out;
-  sampleCubic(random, true, {-0.5f, 3.0f}, &out);
-  CHECK(wrapped == Approx(out));
-  sampleCubic(random, false, {1e30f, -1e30f}, &out);
-  CHECK(out == *random.at(8, 0));
-  sampleCubic(random, false, {NAN, NAN}, &out);
-  CHECK(std::isfinite(out));
-}
-
 TEST_CASE("shown color: half-way between two places there is as much contrast as at either") {
   const Image color = noise(128), around = lightnessAround(color, true);
   const auto contrast = [&](float weight) {
