@@ -1,6 +1,5 @@
 #include "pipeline/texture_scale.h"
 
-#include "pipeline/scalars.h"
 #include "tests/scratch.h"
 
 #include <catch2/catch.hpp>
@@ -20,17 +19,6 @@ scenes::Scene sceneWith(ScaleBy by, const std::vector<texture::CurvePoint>& poin
 }
 
 }  // namespace
-
-TEST_CASE("texture scale: a map is linear between its points and constant beyond") {
-  const std::vector<texture::CurvePoint> points{{1.0, 0.5}, {2.0, 1.5}, {4.0, 1.0}};
-  CHECK(curveAt(points, -3.0) == 0.5);
-  CHECK(curveAt(points, 1.0) == 0.5);
-  CHECK(curveAt(points, 1.5) == Approx(1.0));
-  CHECK(curveAt(points, 2.0) == Approx(1.5));
-  CHECK(curveAt(points, 3.0) == Approx(1.25));
-  CHECK(curveAt(points, 9.0) == 1.0);
-  CHECK(curveAt({{7.0, 2.0}}, 0.0) == 2.0);
-}
 
 TEST_CASE("texture scale: by nothing, by height, by the distance from the nearest shape, by temperature") {
   const sim::Frame frame;
