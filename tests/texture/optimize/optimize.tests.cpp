@@ -1,7 +1,6 @@
 #include "texture/optimize/optimize.h"
 
-#include "tests/texture/exemplar/test_images.h"
-#include "tests/texture/orientation/oriented_mesh.h"
+#include "tests/texture/optimize/laid_exemplar.h"
 #include "tests/threads.h"
 
 #include <catch2/catch.hpp>
@@ -11,46 +10,6 @@
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
-
-namespace {
-
-// An exemplar level in all the forms that a pass wants.
-struct Source {
-  Source(const Image& from, bool toroidal)
-      : match(from), image(makeTexelImage(from, toroidal, 24)), histogram(makeHistogramTarget(image)) {}
-  Image match;
-  TexelImage image;
-  HistogramTarget histogram;
-};
-
-// The exemplar laid down whole on the upper side of a flat box: the texel at vertex (x, y) is `corner` + (x,
-// -y).
-Labels laidDown(const OrientedMesh& surface, const Vec2f& corner) {
-  Labels labels;
-  for (const Vec3f& x : surface.mesh.positions)
-    labels.push_back(unstretched(corner + Vec2f(x.x(), -x.y()), {}));
-  return labels;
-}
-
-// Vertices of the upper side that are at least `margin` from its rim.
-std::vector<std::uint8_t> middle(const OrientedMesh& surface, float margin, float size) {
-  std::vector<std::uint8_t> mask;
-  for (const Vec3f& x : surface.mesh.positions)
-    mask.push_back(x.z() > 1.9f && x.x() > margin && x.x() < size - margin && x.y() > margin &&
-                   x.y() < size - margin);
-  return mask;
-}
-
-float difference(const Values& a, const Values& b) {
-  float worst = 0.0f;
-  for (std::size_t v = 0; v < a.size(); ++v) {
-    const Float8 d = a[v] - b[v];
-    worst = std::max(worst, std::sqrt(sum8(d * d)));
-  }
-  return worst;
-}
-
-}  // namespace
 
 TEST_CASE("optimize: energy never rises while the window stays") {
   const OrientedMesh surface = orientedMesh(sphereMesh(20));
