@@ -1,11 +1,10 @@
 #include "texture/frames/synthesize.h"
 
 #include "tests/texture/exemplar/test_images.h"
-#include "tests/texture/mesh/closed_meshes.h"
+#include "tests/texture/frames/textured_spheres.h"
 #include "tests/threads.h"
 #include "texture/labels/labels.h"
 #include "texture/measure/tiles.h"
-#include "texture/orientation/orient.h"
 
 #include <catch2/catch.hpp>
 
@@ -16,46 +15,6 @@ using namespace fluidtex::texture;
 using namespace fluidtex::testing;
 
 namespace {
-
-SynthesisOptions smallOptions() {
-  SynthesisOptions options;
-  options.windows = {17, 9};
-  options.firstIterations = {3, 3};
-  options.laterIterations = {1, 1};
-  options.renewalRadius = 8.0;
-  return options;
-}
-
-// Spheres of nested spacing, oriented.
-Surface sphere(int subdivisions, int levels) {
-  Surface surface;
-  for (int l = 0; l < levels; ++l) {
-    surface.levels.push_back(sphereMesh(subdivisions >> l));
-    surface.levels.back().spacing = surface.levels.front().spacing * (1 << l);
-  }
-  orient(surface, {});
-  return surface;
-}
-
-// As if nothing had moved.
-Carried carriedFrom(const TexturedSurface& last) {
-  Carried carried;
-  carried.orientation = last.orientation;
-  carried.color = last.color;
-  carried.coordinate = last.coordinate;
-  carried.gradient = last.gradient;
-  carried.fading = last.fading;
-  carried.age = last.age;
-  carried.trust.assign(last.positions.size(), 1.0f);
-  carried.previousPosition = last.positions;
-  return carried;
-}
-
-Surface surfaceOf(const TexturedSurface& last) {
-  Surface surface;
-  surface.levels.push_back(last);
-  return surface;
-}
 
 float stretchAt(const TexturedSurface& surface, std::size_t v) {
   const Vec3f &d = surface.orientation[v], b = rowAxis(d, surface.normals[v]);
