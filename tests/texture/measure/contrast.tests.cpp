@@ -33,18 +33,21 @@ TEST_CASE("measure: contrast is that of the texels that were chosen", "[texture]
 }
 
 TEST_CASE("contrast: of a ramp, in a closed form", "[texture]") {
-  // As it is seen, luminance rises by the same from column to column. At either end the slope is half of it.
-  const Image ramp = paint(20, 9, [](float x, float, float* c) {
-    c[0] = c[1] = c[2] = decodeSrgb(0.1f + 0.04f * x);
+  // As it is seen, luminance rises by the same from column to column, or from row to row. At either end the
+  // slope is half of it.
+  const bool down = GENERATE(false, true);
+  const int width = down ? 9 : 20, height = down ? 20 : 9;
+  const Image ramp = paint(width, height, [&](float x, float y, float* c) {
+    c[0] = c[1] = c[2] = decodeSrgb(0.1f + 0.04f * (down ? y : x));
     c[3] = 1.0f;
   });
   const Image contrast = contrastOf(ramp);
-  REQUIRE((contrast.width == 20 && contrast.height == 9 && contrast.channels == 1));
+  REQUIRE((contrast.width == width && contrast.height == height && contrast.channels == 1));
   REQUIRE(contrast.data.size() == 180);
-  const double inner = 20.0 / 18.5;  // 18 columns of 1, 2 of 1/4
-  for (int y = 0; y < 9; ++y)
-    for (int x = 0; x < 20; ++x) {
-      const int in = std::min(x, 19 - x);
+  const double inner = 20.0 / 18.5;  // 18 steps of 1, 2 of 1/4
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int at = down ? y : x, in = std::min(at, 19 - at);
       CHECK_THAT(*contrast.at(x, y), WithinAbs(inner * (in == 0 ? 0.5 : in == 1 ? 0.75 : 1.0), 1e-4));
     }
 }
