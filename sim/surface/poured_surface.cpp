@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,8 @@ constexpr double kParallel = 0.99;
 // Distances, in cells, at which a body's surface that is parallel to that of the solid it lies in is searched
 // for outside.
 constexpr double kAround[] = {2.0, 5.0, 12.0};
+// The same, where a solid that the surface lies on has an edge.
+constexpr double kBesideEdge = 2.0 * kTouching;
 // Cosine of the angle up to which it may have turned there. A sphere that stays within half a cell of its
 // tangent plane over two cells turns by 28 degrees; beyond an edge of the body the normal is another one.
 constexpr double kTurned = 0.88;
@@ -67,22 +70,21 @@ Vec3d crossing(const Distance& distance, Vec3d from, Vec3d to, double low) {
   return 0.5 * (from + to);
 }
 
-// Whether the body's surface leaves the solid near a place in it. normal: of the surface there.
-bool comesOut(const Distance& body, const Distance& solids, const Vec3d& place, const Vec3d& normal,
-              double h) {
+// Whether the body's surface is outside solids so many cells from a place on it. normal: of the surface
+// there.
+bool isOpenAround(const Distance& body, const Distance& solids, const Vec3d& place, const Vec3d& normal,
+                  double cells, double h) {
   int least = 0;
   for (int a = 1; a < 3; ++a)
     if (std::abs(normal[a]) < std::abs(normal[least])) least = a;
   Vec3d axis(0.0);
   axis[least] = 1.0;
   const Vec3d one = normal.cross(axis).unit(), other = normal.cross(one);
-  for (const double cells : kAround) {
-    for (const Vec3d& way : {one, -one, other, -other}) {
-      const Vec3d there = place + cells * h * way;
-      if (std::abs(body(there)) < 0.5 * h && solids(there) > kTouching * h &&
-          normal.dot(normalAt(body, there, 0.01 * h)) > kTurned)
-        return true;
-    }
+  for (const Vec3d& way : {one, -one, other, -other}) {
+    const Vec3d there = place + cells * h * way;
+    if (std::abs(body(there)) < 0.5 * h && solids(there) > kTouching * h &&
+        normal.dot(normalAt(body, there, 0.01 * h)) > kTurned)
+      return true;
   }
   return false;
 }
@@ -95,16 +97,19 @@ bool isParallel(const Distance& solids, const Vec3d& place, const Vec3d& normal,
                   std::abs(solids(place - step * normal) - here)) >= kParallel * step;
 }
 
-// Whether a body ends at a solid at a place on its surface: there the two surfaces coincide, or the body
-// reaches some way into the solid. Where one cuts the other, the body's surface continues into the solid.
+// Whether a body ends at a solid at a place on its surface: there the two surfaces coincide, also on all
+// sides of the place, or the body reaches some way into the solid. Where one cuts the other, the body's
+// surface continues into the solid.
 // edge: how near the place may be to an edge of the body; the normal is taken from less far.
 bool isAtSolid(const Distance& body, const Distance& solids, const Vec3d& place, double apart, double edge,
                double h) {
   const double away = solids(place);
   if (away > apart) return false;
   const Vec3d normal = normalAt(body, place, std::clamp(0.5 * edge, kLeastWidth * h, kMostWidth * h));
+  const auto isOpen = [&](double cells) { return isOpenAround(body, solids, place, normal, cells, h); };
+  if (away >= -apart) return isParallel(solids, place, normal, h) && !isOpen(kBesideEdge);
   // Some way into a solid the distance may be that to another one, which stands on the one it ends at.
-  return away < -apart ? !comesOut(body, solids, place, normal, h) : isParallel(solids, place, normal, h);
+  return std::none_of(std::begin(kAround), std::end(kAround), isOpen);
 }
 
 // Whether a path along an axis enters a solid and leaves it again.
