@@ -1,5 +1,5 @@
 #include "scenes/faults.h"
-#include "scenes/nesting.h"
+#include "tests/scenes/repeated.h"
 #include "tests/scenes/scene_file.h"
 
 #include <catch2/catch.hpp>
@@ -10,12 +10,6 @@ using namespace fluidtex::scenes;
 using Catch::Matchers::Contains;
 
 namespace {
-
-std::string repeated(const std::string& text, int times) {
-  std::string result;
-  for (int i = 0; i < times; ++i) result += text;
-  return result;
-}
 
 // The faults come within seconds and are lines that can be read.
 std::vector<std::string> soonFaultsOf(const std::string& text, const Overrides& overrides = {}) {
@@ -56,22 +50,6 @@ TEST_CASE("damaged text: keys of very many parts are refused at their place", "[
   soonFaultsOf("a = " + repeated("[", 100000));
 }
 
-TEST_CASE("damaged text: nesting is counted where TOML nests", "[scenes]") {
-  CHECK_FALSE(tooDeep(""));
-  CHECK_FALSE(tooDeep("a.b = [[1.5, 2.5], [3.5]] # " + repeated("a.", 100)));
-  CHECK_FALSE(tooDeep("a = \"" + repeated(".", 100) + "\"\nb = '" + repeated("[", 100) + "'"));
-  CHECK_FALSE(
-      tooDeep("a = \"\"\"\n" + repeated(".", 100) + "\n\"quoted\" \\\"\"\"\" # " + repeated(".", 100)));
-  CHECK_FALSE(tooDeep("a = [" + repeated("1.5, ", 1000) + "1]"));
-  CHECK_FALSE(tooDeep(repeated("a.b = 1\n", 1000)));
-  CHECK_FALSE(tooDeep("a = " + repeated("[", 64) + repeated("]", 64)));
-  CHECK(tooDeep("a = " + repeated("[", 65) + repeated("]", 65)));
-  const auto place = tooDeep("a = 1\nb = \"\"\"\n\n\"\"\"\n " + repeated("a.", 65) + "a = 1");
-  REQUIRE(place);
-  CHECK(place->line == 5);
-  CHECK(place->column == 1 + 2 * 65);
-}
-
 TEST_CASE("damaged text: what is very long is told shortened, and no name is guessed for it", "[scenes]") {
   const std::string much(1 << 20, 'k');
   CHECK_THAT(soonFaultsOf(kGoodScene + much + " = 1")[0], Contains("unknown key") && Contains(" ... "));
@@ -96,18 +74,4 @@ TEST_CASE("damaged text: very many keys, members and faults end soon", "[scenes]
   for (int i = 0; i < 900; ++i) some += repeated("k", 1) + std::to_string(i) + " = 1\n";
   CHECK_THAT(soonFaultsOf(some + kGoodScene).back(), Contains("there may be more faults"));
   CHECK_THAT(soonFaultsOf(std::string(5 << 20, '#'))[0], Contains("larger than 4 MB"));
-}
-
-TEST_CASE("damaged text: letters of several bytes are not cut", "[scenes]") {
-  CHECK(shortened("short", 10) == "short");
-  std::string umlauts;
-  while (umlauts.size() < 100) umlauts += "\xc3\xa4";
-  for (std::size_t most = 10; most < 16; ++most) {
-    const std::string cut = shortened(umlauts, most);
-    CHECK(cut.size() <= most + 5);
-    const std::size_t dots = cut.find(" ... ");
-    REQUIRE(dots != cut.npos);
-    CHECK(dots % 2 == 0);
-    CHECK((cut.size() - dots - 5) % 2 == 0);
-  }
 }

@@ -59,4 +59,18 @@ TEST_CASE("faults: a key is clean if nothing at or below it is wrong", "[scenes]
   CHECK(faults.clean("liquid.0.bo"));
 }
 
+TEST_CASE("damaged text: letters of several bytes are not cut", "[scenes]") {
+  CHECK(shortened("short", 10) == "short");
+  std::string umlauts;
+  while (umlauts.size() < 100) umlauts += "\xc3\xa4";
+  for (std::size_t most = 10; most < 16; ++most) {
+    const std::string cut = shortened(umlauts, most);
+    CHECK(cut.size() <= most + 5);
+    const std::size_t dots = cut.find(" ... ");
+    REQUIRE(dots != cut.npos);
+    CHECK(dots % 2 == 0);
+    CHECK((cut.size() - dots - 5) % 2 == 0);
+  }
+}
+
 }  // namespace fluidtex::scenes

@@ -35,25 +35,6 @@ TEST_CASE("scene: what is left out has the defaults of the options", "[scenes]")
   CHECK(scene.render.camera.fov == render.camera.fov);
 }
 
-TEST_CASE("scene: defaults that follow from other keys", "[scenes]") {
-  const Scene scene = sceneOf("seed = 7\ntexture.windows = [9]\n" + kGoodScene +
-                              "[[solid]]\nmesh = { file = 'm.obj' }\n[[solid]]\nmesh = { file = 'm.obj' }");
-  CHECK(scene.sim.seed == 7);
-  CHECK(scene.texture.surface.seed == 7);
-  CHECK(scene.texture.synthesis.seed == 7);
-  CHECK(scene.texture.synthesis.firstIterations == std::vector<int>{4});
-  CHECK(scene.texture.synthesis.laterIterations == std::vector<int>{3});
-  CHECK(scene.sim.solids[0].name == "solid 0");
-  CHECK(scene.sim.solids[1].name == "solid 1");
-  CHECK(scene.sim.solids[1].until == sim::kForever);
-  const render::Camera view;  // of a domain of 1 m; this one is 2 x 1 x 1 m
-  CHECK(scene.render.camera.at == view.at * sim::Vec3d(2, 1, 1));
-  CHECK(scene.render.camera.from == scene.render.camera.at + 2.0 * (view.from - view.at));
-
-  const Scene more = sceneOf("texture.windows = [33, 17, 9, 5]\n" + kGoodScene);
-  CHECK(more.texture.synthesis.firstIterations == std::vector<int>{4, 4, 5, 5});
-}
-
 TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   const SceneFolder folder;
   const Scene scene = loadScene(folder.write("s.toml", kFullScene));
@@ -214,60 +195,6 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(render.surroundings.tankColor == sim::Vec3d(0.2));
 }
 
-TEST_CASE("scene: the resolved scene has every key, given or not", "[scenes]") {
-  const std::string ball = "sphere = { center = [1, 1, 1], radius = 0.5 }\n";
-  const std::string oneEach =
-      "[heat]\nlaw = 'table'\npoint = [ { temperature = 1, viscosity = 1 }, { temperature = 2, viscosity = 1 "
-      "} "
-      "]\n"
-      "[[solid]]\nmesh = { file = 'm.obj' }\nkeyframe = [ { time = 1 } ]\n[[solid]]\nmesh_sequence = { files "
-      "= "
-      "'m_%d.obj', last = 2 }\n[[source]]\n" +
-      ball + "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + ball +
-      "[[wall]]\n[texture.scale]\npoint = [ { value = 0, factor = 1 } ]\n"
-      "[texture.guidance]\npoint = [ { value = 0, level = 1 } ]\n"
-      "[[texture.map]]\nname = 'height'\nfile = 'e.png'\n";
-  std::set<std::string> whole, defaults;
-  collectKeys(Json::parse(sceneOf(kFullScene).resolved), "", whole);
-  collectKeys(Json::parse(sceneOf(kGoodScene + oneEach).resolved), "", defaults);
-  CHECK(whole.size() > 60);
-  for (const std::string& key : whole) {
-    INFO(key);
-    const bool shape = key.find("union") != std::string::npos || key.find("sphere") != std::string::npos ||
-                       key.find("cylinder") != std::string::npos ||
-                       key.find("height_field") != std::string::npos;
-    CHECK((shape || defaults.contains(key)));
-  }
-  for (const std::string& key : defaults) {
-    INFO(key);
-    CHECK((whole.contains(key) || key.find("sphere") != std::string::npos));
-  }
-}
-
-TEST_CASE("scene: the resolved scene holds the values that are used", "[scenes]") {
-  const Json full = Json::parse(sceneOf(kFullScene).resolved);
-  CHECK(full["quality"] == "default");
-  CHECK(full["domain"]["resolution"] == 48);
-  CHECK(full["fluid"]["gravity"] == Json::array({1.0, 0.0, -3.0}));
-  CHECK(full["liquid"][1]["union"][1]["difference"][1]["mesh"]["scale"] == 2.0);
-  CHECK(full["solid"][0]["until"] == 0.75);
-  CHECK(full["solid"][1]["until"].is_null());
-  CHECK(full["texture"]["method"] == "kwatra07");
-  CHECK(full["texture"]["points"] == 1234);
-  CHECK(full["texture"]["spacing"].is_null());
-  CHECK(full["render"]["size"] == Json::array({320, 180}));
-
-  const Json spaced = Json::parse(sceneOf("texture.spacing = 0.1\n" + kGoodScene).resolved);
-  CHECK(spaced["texture"]["spacing"] == 0.1);
-  CHECK(spaced["texture"]["points"].is_null());
-}
-
-TEST_CASE("scene: the resolved scene says the same when it is read twice", "[scenes]") {
-  const SceneFolder folder;
-  const std::filesystem::path file = folder.write("s.toml", kFullScene);
-  CHECK(loadScene(file).resolved == loadScene(file).resolved);
-}
-
 TEST_CASE("scene: files are found from the scene's folder, wherever it is read from", "[scenes]") {
   const SceneFolder folder;
   folder.write("pictures/p.png", "");
@@ -313,33 +240,48 @@ TEST_CASE("scene: another exemplar is guided if it is given a map of its own", "
   CHECK(guided.texture.exemplar.guidance == folder.path() / "e.png");
 }
 
-TEST_CASE("scene: the resolved scene is the same wherever the file is named from", "[scenes]") {
-  const SceneFolder folder;
-  const std::filesystem::path file = folder.write("s.toml", kFullScene),
-                              before = std::filesystem::current_path();
-  const std::string resolved = loadScene(file).resolved;
-  std::filesystem::current_path(folder.path() / "pictures");
-  Overrides exemplar;
-  exemplar.exemplar = "../e.png";
-  // Guidance, maps and their relief are of the scene's own exemplar, and left out with another.
-  exemplar.set = {"texture.toroidal=true",
-                  "texture.between=file",
-                  "texture.between_file=../e.png",
-                  "texture.guidance.by=field",
-                  "texture.map=[{ name = 'height', file = '../e.png', holds = 'normals' }, "
-                  "{ name = 'bumps', file = '../e.png', weight = 0.5 }]",
-                  "render.bump.height=2.5"};
-  const std::string relative = loadScene("../s.toml").resolved,
-                    chosen = loadScene("../s.toml", exemplar).resolved;
-  std::filesystem::current_path(before);
-  CHECK(relative == resolved);
-  CHECK(chosen == resolved);
-}
-
 TEST_CASE("scene: Windows line ends and a byte order mark do not matter", "[scenes]") {
   std::string text = "\xef\xbb\xbf";
   for (const char letter : kGoodScene) text += letter == '\n' ? std::string("\r\n") : std::string(1, letter);
   CHECK(faultsOf(text).empty());
+}
+
+TEST_CASE("scene faults: all of a file, in the order of its lines", "[scenes]") {
+  const std::string text =
+      "frames = 0\n"
+      "[texture]\n"
+      "exemplar = 'none.png'\n"
+      "windows = [8, 9]\n"
+      "[render]\n"
+      "sampels = 3\n"
+      "samples = 'x'\n"
+      "[[liquid]]\n"
+      "velocity = [1, 2]\n"
+      "[[liquid]]\n"
+      "box = { min = [0, 0, 0], max = [1, 1, 0] }\n"
+      "[quality.final]\n"
+      "domain.resolution = 1\n"
+      "[domain]\n"
+      "size = [1, -1, 1]\n";
+  Overrides overrides;
+  overrides.set = {"camera.fov=0"};
+  const std::vector<std::string> starts = {
+      "s.toml:1:1: error: frames: ",
+      "s.toml:3:1: error: texture.exemplar: ",
+      "s.toml:4:1: error: texture.windows: 8 is even",
+      "s.toml:4:1: error: texture.windows: 9 after 8",
+      "s.toml:6:1: error: render.sampels: ",
+      "s.toml:7:1: error: render.samples: ",
+      "s.toml:8:1: error: liquid.0: no shape",
+      "s.toml:9:1: error: liquid.0.velocity: ",
+      "s.toml:11:26: error: liquid.1.box.max: ",
+      "s.toml:13:8: error: quality.final.domain.resolution: ",
+      "s.toml:15:1: error: domain.size: ",
+      "--set camera.fov=0: error: camera.fov: ",
+  };
+  const std::vector<std::string> faults = faultsOf(text, overrides);
+  REQUIRE(faults.size() == starts.size());
+  for (std::size_t i = 0; i < starts.size(); ++i) CHECK_THAT(faults[i], Catch::StartsWith(starts[i]));
 }
 
 }  // namespace fluidtex::scenes

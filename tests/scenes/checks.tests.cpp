@@ -1,4 +1,6 @@
 // Every fault that a scene can have as a whole: place, key, what is wrong, what would be right.
+#include "scenes/checks.h"
+
 #include "tests/scenes/fault_cases.h"
 
 #include <catch2/catch.hpp>
@@ -280,102 +282,100 @@ TEST_CASE("scene faults: liquid wholly outside the domain", "[scenes]") {
   }
 }
 
-TEST_CASE("scene faults: what must be given and is not", "[scenes]") {
-  const std::string size = "domain.size: missing key; write for example size = [1, 1, 1]";
-  const std::string exemplar =
-      "texture.exemplar: missing key; write for example exemplar = \"exemplars/green_scales.png\"";
-  const std::string liquid = "liquid: missing key; give at least one [[liquid]] or one [[source]]";
-  CHECK(faultsOf("") == std::vector<std::string>{"s.toml:1:1: error: " + size,
-                                                 "s.toml:1:1: error: " + exemplar,
-                                                 "s.toml:1:1: error: " + liquid});
-  CHECK(faultsOf("liquid = [ { sphere = { center = [0, 0, 0], radius = 1 } } ]\n[domain]\nresolution = "
-                 "32\n[texture]\n") ==
-        std::vector<std::string>{"s.toml:2:2: error: " + size, "s.toml:4:2: error: " + exemplar});
-  checkWholeFiles({
-      {"texture.exemplar = 'e.png'\ndomain.size = [1, 1, 1]\nliquid = []",
-       "s.toml:3:1: error: liquid: an empty list; give at least one [[liquid]] or one [[source]]"},
-  });
-  checkCases({
-      {"[[solid]]\nbox = { min = [0, 0, 0] }",
-       "s.toml:7:1: error: solid.0.box.max: missing key; write for example max = [1, 1, 1]"},
-      {"[[solid]]\nbox = { max = [1, 1, 1] }",
-       "s.toml:7:1: error: solid.0.box.min: missing key; write for example min = [0, 0, 0]"},
-      {"[[solid]]\nsphere = { radius = 1 }",
-       "s.toml:7:1: error: solid.0.sphere.center: missing key; write for example center = [0, 0, 0]"},
-      {"[[solid]]\nsphere = { center = [1, 1, 1] }",
-       "s.toml:7:1: error: solid.0.sphere.radius: missing key; write for example radius = 1"},
-      {"[[solid]]\nhalf_space = { point = [1, 1, 1] }",
-       "s.toml:7:1: error: solid.0.half_space.normal: missing key; write for example normal = [0, 0, 1]"},
-      {"[[solid]]\nmesh_sequence = { files = 'm_%d.obj' }",
-       "s.toml:7:1: error: solid.0.mesh_sequence.last: missing key; write for example last = 1"},
-      {"[[solid]]\nmesh_sequence = { last = 2 }",
-       "s.toml:7:1: error: solid.0.mesh_sequence.files: missing key; write for example files = "
-       "\"rock_%04d.obj\""},
-      {"[[solid]]\nmesh = { scale = 2 }",
-       "s.toml:7:1: error: solid.0.mesh.file: missing key; write for example file = \"rock.obj\""},
-  });
+TEST_CASE("scene faults: the spacing that is recommended is taken, a little less is not", "[scenes]") {
+  CHECK(faultsOf("texture.spacing = 0.00045\n" + kGoodScene).empty());
+  CHECK(faultsOf("texture.spacing = 0.00044\n" + kGoodScene).size() == 1);
 }
 
-TEST_CASE("scene faults: files that are not there", "[scenes]") {
-  const std::string rest =
-      "domain.size = [2, 1, 1]\n[[liquid]]\nsphere = { center = [1, 1, 1], radius = 1 }\n";
-  checkWholeFiles({
-      {"texture.exemplar = 'pictures/none.png'\n" + rest,
-       "s.toml:1:9: error: texture.exemplar: no such file: pictures/none.png; give an existing file, "
-       "relative to the scene "
-       "file's folder"},
-      {"texture.exemplar = 'pictures'\n" + rest,
-       "s.toml:1:9: error: texture.exemplar: pictures is a folder; give a file in it"},
-      {"texture.exemplar = ''\n" + rest,
-       "s.toml:1:9: error: texture.exemplar: an empty file name; write for example exemplar = "
-       "\"exemplars/green_scales.png\""},
-  });
+TEST_CASE("checks: how the texture lies, and by what", "[scenes]") {
   checkCases({
-      {"[[solid]]\nmesh = { file = 'none.obj' }",
-       "s.toml:7:10: error: solid.0.mesh.file: no such file: none.obj; give an existing file, relative to "
-       "the scene file's "
-       "folder"},
-      {"[[solid]]\nmesh_sequence = { files = 'm_%d.obj', last = 4 }",
-       "s.toml:7:19: error: solid.0.mesh_sequence.files: no such file: m_3.obj; give all from number 1 to 4"},
-      {"[texture.onto]\nfiles = 't_%d.obj'\nfirst = 1",
-       "s.toml:7:1: error: texture.onto.files: no such file: t_5.obj; give all from number 1 to 72"},
-      {"[texture.scale]\nby = 'attribute'\npoint = [{ value = 1, factor = 1 }]",
-       "s.toml:6:10: error: texture.scale: names no attribute; give attribute = \"NAME\", one that `fluidtex "
-       "check` lists"},
-      {"[texture.orientation]\nalign = 'attribute'\nattribute = 'wind'",
-       "s.toml:8:1: error: texture.orientation.attribute: the liquid has no \"wind\"; give \"temperature\" "
-       "with "
+      {"[texture.orientation]\nsymmetry = 3",
+       "s.toml:7:1: error: texture.orientation.symmetry: 3 is no symmetry of square pieces of a picture; "
+       "give "
+       "1, 2 or 4"},
+      {"[texture.orientation]\nalign = 'curvature'",
+       "s.toml:7:1: error: texture.orientation.align: the line in which a surface bends has no forward end; "
+       "give symmetry = 2 or 4 with it"},
+      {"[texture.orientation]\nalign = 'direction'\ndirection = [0, 0, 0]",
+       "s.toml:8:1: error: texture.orientation.direction: has no length; give a vector that points "
+       "somewhere"},
+      {"[texture.orientation]\nkeep_clear = [ { sphere = { center = [0, 0, 0], radius = 1 } }, { box = { min "
+       "= "
+       "[0, 0, 0], max = [1, 1, 0] } } ]",
+       "s.toml:7:92: error: texture.orientation.keep_clear.1.box.max: z is 0, not above min's 0; give a max "
+       "that "
+       "is greater than min in x, y and z"},
+      {"[texture.guidance]\nby = 'attribute'\nmap = 'e.png'\nattribute = 'age'\npoint = [{ value = 0, level "
+       "= "
+       "1 }]",
+       "s.toml:9:1: error: texture.guidance.attribute: the liquid has no \"age\"; give \"temperature\" with "
        "simulate = true in [heat], or a liquid out of files"},
-      {"[texture.onto]\nfirst = 1",
-       "s.toml:6:10: error: texture.onto.files: missing key; write for example files = \"rock_%04d.obj\""},
-      {"[texture.transport]\nmethod = 'magic'",
-       "s.toml:7:1: error: texture.transport.method: \"magic\" is unknown; give \"trace\" or \"grid\""},
-      {"[texture.transport]\norientation = 'none'",
-       "s.toml:7:1: error: texture.transport.orientation: \"none\" is unknown; give \"vector\" or "
-       "\"scalars\""},
-      {"[[solid]]\nmesh_sequence = { files = 'm.obj', last = 4 }",
-       "s.toml:7:19: error: solid.0.mesh_sequence.files: m.obj has no place for a number; write %d for it, "
-       "or "
-       "%04d where it has four digits, for example \"rock_%04d.obj\""},
-      {"[[solid]]\nmesh_sequence = { files = 'm_%d_%d.obj', last = 4 }",
-       "s.toml:7:19: error: solid.0.mesh_sequence.files: m_%d_%d.obj does not say in one place where the "
-       "number "
-       "is; write %d for it, or %04d where it has four digits, for example \"rock_%04d.obj\""},
-      {"[[solid]]\nmesh_sequence = { files = 'm_%4d.obj', last = 4 }",
-       "s.toml:7:19: error: solid.0.mesh_sequence.files: m_%4d.obj does not say in one place where the "
-       "number "
-       "is; write %d for it, or %04d where it has four digits, for example \"rock_%04d.obj\""},
-      {"[[solid]]\nmesh_sequence = { files = '', last = 4 }",
-       "s.toml:7:19: error: solid.0.mesh_sequence.files: an empty file name; write for example files = "
-       "\"rock_%04d.obj\""},
-      {"[[solid]]\nmesh_sequence = { files = 'e_%d.png', last = 4 }",
-       "s.toml:7:19: error: solid.0.mesh_sequence.files: e_%d.png is of no known kind; give a file that ends "
-       "in "
-       ".obj, .ply or .stl"},
-      {"[[solid]]\nmesh = { file = 'e.png' }",
-       "s.toml:7:10: error: solid.0.mesh.file: e.png is of no known kind; give a file that ends in .obj, "
-       ".ply or .stl"},
+      {"[[texture.map]]\nname = '1a'\nfile = 'e.png'",
+       "s.toml:7:1: error: texture.map.0.name: \"1a\" cannot be the name of a vertex's property; give "
+       "letters, "
+       "digits and _, a letter first"},
+      // Vectors have a property for each of their parts.
+      {"[[texture.map]]\nname = 'n'\nfile = 'e.png'\nholds = 'normals'\n[[texture.map]]\nname = 'n_x'\nfile "
+       "= "
+       "'e.png'",
+       "s.toml:11:1: error: texture.map.1.name: \"n_x\" is the name of an earlier map too; give each map a "
+       "name "
+       "of its own"},
   });
+  CHECK(faultsOf(kGoodScene + "[texture.orientation]\nalign = 'curvature'\nsymmetry = 2").empty());
+  CHECK(faultsOf(kGoodScene + "[texture.orientation]\ndirection = [0, 0, 0]").empty());  // of no use here
+  CHECK(faultsOf(kGoodScene + "[heat]\nsimulate = true\n[texture.scale]\nby = 'attribute'\nattribute = "
+                              "'temperature'\npoint = [{ value = 1, factor = 1 }]")
+            .empty());
+  checkWholeFiles(
+      {{"texture.windows = [9]\ntexture.later_iterations = [3, 2]\n" + kGoodScene,
+        "s.toml:2:9: error: texture.later_iterations: a list of 2 for 1 window; give one number for "
+        "each of texture.windows"}});
+}
+
+TEST_CASE("checks: what flows, and where files are", "[scenes]") {
+  checkCases({
+      {"[[source]]\nsphere = { center = [1, 1, 1], radius = 1 }\nrate = [ { time = 0, factor = 1 }, { time = "
+       "2, "
+       "factor = 1 }, { time = 1, factor = 1 } ]",
+       "s.toml:8:64: error: source.0.rate.2.time: 1 s is not after the one before, at 2 s; give them in the "
+       "order of time"},
+      {"[[liquid]]\nsphere = { center = [9, 0, 0], radius = 1 }\n[domain.sides]\ny_high = 'unbounded'",
+       "s.toml:6:1: error: liquid.1: lies wholly outside the domain; put at least a part of it between [0, "
+       "0, 0] "
+       "and [2, 1, 1], or beyond a side that is unbounded"},
+      {"[files]\npath = 'pictures'",
+       "s.toml:6:2: error: files: is of no use here; give it together with motion.flow = \"files\""},
+  });
+  CHECK(faultsOf(
+            kGoodScene +
+            "[[liquid]]\nsphere = { center = [1, 9, 0], radius = 1 }\n[domain.sides]\ny_high = 'unbounded'")
+            .empty());
+  checkWholeFiles(
+      {{"texture.exemplar = 'e.png'\nmotion.flow = 'files'\n",
+        "s.toml:1:1: error: files.path: missing key; give the cache of another program: its folder, "
+        "or a pattern such as \"water_####.vdb\""}});
+}
+
+TEST_CASE("checks: a key that has a fault already is not looked at again", "[scenes]") {
+  for (const std::string text :
+       {"[camera]\nfrom = [0.5, 0.5]\nat = [0, 0, 0]", "[light]\nsun_direction = [0, 0, nan]",
+        "[render]\nsize = [961, 5]", "[[solid]]\nmesh = { file = 'm.obj' }\nfrom = 2\nuntil = -1",
+        "[[solid]]\nbox = { min = [1, 1, 'x'], max = [0, 0, 0] }", "[[wall]]\nwall = 'wet'\nslip_length = 1",
+        "[motion]\nflow = 'swirl'\nrate = 2",
+        "[heat]\nlaw = 'none'\npoint = [ { temperature = 1, viscosity = 1 } ]",
+        "[texture.scale]\nby = 'nothing'", "[render.bump]\nmap = 3\nheight = 2"}) {
+    INFO(text);
+    CHECK(faultsOf(kGoodScene + text).size() == 1);
+  }
+  CHECK(faultsOf("texture.windows = [8, 'x']\ntexture.first_iterations = [3]\n" + kGoodScene).size() == 1);
+}
+
+TEST_CASE("checks: the size is known but for a liquid out of files", "[scenes]") {
+  Scene scene;
+  CHECK(isSizeKnown(scene));
+  scene.sim.size = Vec3d(0.0);
+  CHECK_FALSE(isSizeKnown(scene));
 }
 
 }  // namespace fluidtex::scenes

@@ -1,0 +1,45 @@
+// Pictures that ship, and how they go on over their edges.
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+
+#include <catch2/catch.hpp>
+
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace fluidtex::exemplars {
+
+using Pixels = std::vector<std::uint8_t>;
+
+// Mean absolute difference between each pixel of line a and its neighbour in line b; lines are columns or
+// rows.
+inline double step(const Pixels& pixels, int size, int a, int b, bool columns) {
+  double sum = 0.0;
+  for (int i = 0; i < size; ++i) {
+    for (int channel = 0; channel < 3; ++channel) {
+      const auto at = [&](int line) {
+        const int x = columns ? line : i, y = columns ? i : line;
+        return int(pixels[std::size_t((y * size + x) * 3 + channel)]);
+      };
+      sum += std::abs(at(a) - at(b));
+    }
+  }
+  return sum / (size * 3.0);
+}
+
+// The pixels of a square image that ships.
+inline Pixels shipped(const std::string& name, int size, int channels = 3) {
+  const auto input = OIIO::ImageInput::open(FLUIDTEX_SOURCE_DIR "/scenes/exemplars/" + name);
+  REQUIRE(input);
+  REQUIRE(input->spec().width == size);
+  REQUIRE(input->spec().height == size);
+  REQUIRE(input->spec().nchannels == channels);
+  Pixels pixels(std::size_t(size) * size * channels);
+  REQUIRE(input->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, pixels.data()));
+  return pixels;
+}
+
+}  // namespace fluidtex::exemplars
