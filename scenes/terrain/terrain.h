@@ -17,8 +17,9 @@ struct Ground {
 // lies at 0.40 m at x = 0 and at about 0.17 m at the end; its banks rise by 0.3 m.
 Ground streamBed();
 
-// A mountain with a crater at its top, 3 x 3 m: the crater's floor lies 1.12 m high at (1.5, 1.5), its rim at
-// about 1.2 m, with a notch towards low y. Ribs and gullies run down from it; the foot is below 0.1 m.
+// A mountain with a crater at its top, 3 x 3 m: the crater's floor lies 0.86 m high at (1.5, 1.5), its rim,
+// 0.3 m from there, at 1.02 m, with two notches, towards low y and between there and high x, from which
+// gullies run down. Ribs grow downwards; the picture's edges lie 0.02 to 0.16 m high.
 Ground mountain();
 
 // Grey values of 16 bits: 0 at height `low`, 65535 at `high`; what lies beyond is cut off.
