@@ -1,6 +1,6 @@
 #include "tools/stress_scenes/surroundings.h"
 
-#include "tools/stress_scenes/budget.h"
+#include "tests/stress/tank.h"
 
 #include <catch2/catch.hpp>
 
@@ -9,31 +9,15 @@
 using namespace fluidtex;
 using sim::Coord;
 using sim::Vec3d;
+using stress::addSolid;
+using stress::box;
 using stress::Surroundings;
+using stress::tank;
 
 namespace {
 
-sim::Shape box(const Vec3d& low, const Vec3d& high) {
-  return {sim::Box{low, high}};
-}
-
 sim::Shape without(sim::Shape whole, sim::Shape part) {
   return {sim::Difference{{std::move(whole), std::move(part)}}};
-}
-
-// A tank of 20 cells a side.
-sim::Options tank(sim::Shape liquid) {
-  sim::Options options;
-  options.resolution = 20;
-  options.liquid.push_back({std::move(liquid)});
-  return options;
-}
-
-void addSolid(sim::Options& options, sim::Shape shape) {
-  sim::Solid solid;
-  solid.name = std::to_string(options.solids.size());
-  solid.shape = std::move(shape);
-  options.solids.push_back(solid);
 }
 
 // Walls of half a cell around a room of ten cells a side.
@@ -168,44 +152,4 @@ TEST_CASE("surroundings: gaps are found as well where samples begin below 0", "[
   gap.sides[0] = sim::Side::unbounded;
   addSolid(gap, box(Vec3d(0.2, 0.2, 0.03), Vec3d(0.8, 0.8, 0.5)));
   CHECK(Surroundings(gap, {}).inNarrowGaps() == Approx(0.6 * 0.6 * 0.03).epsilon(0.2));
-}
-
-TEST_CASE("volume budget: what comes and goes is allowed, and no more", "[stress]") {
-  sim::Options options = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.4)));
-  options.liquid.push_back({box(Vec3d(0.3, 0.3, 0.6), Vec3d(0.7, 0.7, 0.8)), Vec3d(0.0), 0.5});
-  const Surroundings surroundings(options, {});
-  stress::VolumeBudget budget(options, surroundings);
-  CHECK(budget.start(0.4) == 0.0);
-  CHECK(budget.advance(0.0, 0.25, 0.4) == 0.0);
-  CHECK(budget.advance(0.25, 0.5, 0.432) == 0.0);  // the second body
-  CHECK(budget.advance(0.5, 0.75, 0.45) == Approx(0.018).epsilon(0.02));
-  CHECK(budget.advance(0.75, 1.0, 0.42) == Approx(-0.012).epsilon(0.02));
-  // Through a drain liquid goes for good.
-  options.drains.push_back({box(Vec3d(0.0), Vec3d(0.1))});
-  stress::VolumeBudget drained(options, surroundings);
-  drained.start(0.4);
-  CHECK(drained.advance(0.0, 0.1, 0.3) == 0.0);
-  CHECK(drained.advance(0.1, 0.2, 0.33) == Approx(0.03).epsilon(0.02));
-}
-
-TEST_CASE("volume budget: a source must give no more than its room holds", "[stress]") {
-  // Walls part the tank. On the source's side there is room for 0.5 x 1 x 0.2 m3, less its own 0.4 x 0.4 x
-  // 0.1.
-  sim::Options options = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.8)));
-  addSolid(options, box(Vec3d(0.5, -1.0, -1.0), Vec3d(0.7, 2.0, 2.0)));
-  sim::Source source;
-  source.shape = box(Vec3d(0.05, 0.3, 0.9), Vec3d(0.45, 0.7, 1.0));
-  source.velocity = Vec3d(0.0, 0.0, -1.0);
-  options.sources.push_back(source);
-  const Surroundings surroundings(options, {});
-  CHECK(surroundings.roomFor(0) == Approx(0.084).epsilon(0.03));
-  const double before = 0.8 * 0.8 + 0.016, full = before + 0.084, step = 0.5 * 0.16;
-  const auto after = [&](double first, double second) {
-    stress::VolumeBudget budget(options, surroundings);
-    budget.start(before);
-    CHECK(budget.advance(0.0, 0.5, first) == 0.0);
-    return budget.advance(0.5, 1.0, second);
-  };
-  CHECK(after(before + step, full) == 0.0);
-  CHECK(after(before + step, full - 0.05) < 0.0);
 }
