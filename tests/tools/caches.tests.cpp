@@ -1,5 +1,5 @@
 // fluidtex simulate, texture and check: a liquid out of files.
-#include "tests/tools/program.h"
+#include "tests/tools/balls.h"
 #include "tools/output/read_ply.h"
 
 #include <catch2/catch.hpp>
@@ -16,78 +16,18 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using namespace fluidtex;
 
-namespace {
-
-constexpr const char* kSmall = FLUIDTEX_SOURCE "/tests/tools/small.toml";
-constexpr const char* kScales = FLUIDTEX_SOURCE "/scenes/exemplars/green_scales.png";
-
-// A ball of radius 0.2 m that moves by `speed` m/s along x at 24 frames a second, with `written` as its
-// velocity, and an attribute `heat` from 300 at its lowest point to 500.
-void writeBalls(const fs::path& folder, int frames, double speed, double written) {
-  constexpr int kRings = 24, kAround = 48;
-  for (int frame = 1; frame <= frames; ++frame) {
-    std::string text, faces;
-    int count = 0;
-    for (int ring = 0; ring <= kRings; ++ring)
-      for (int n = 0; n < kAround; ++n) {
-        const double theta = std::numbers::pi * ring / kRings, phi = 2.0 * std::numbers::pi * n / kAround;
-        text += std::to_string(0.2 * std::sin(theta) * std::cos(phi) + speed * (frame - 1) / 24.0) + " " +
-                std::to_string(0.2 * std::sin(theta) * std::sin(phi)) + " " +
-                std::to_string(0.2 * std::cos(theta)) + " " + std::to_string(written) + " 0 0 " +
-                std::to_string(400.0 + 100.0 * std::cos(theta)) + "\n";
-        if (ring == kRings) continue;
-        const int here = ring * kAround, next = here + kAround, after = (n + 1) % kAround;
-        faces += "4 " + std::to_string(here + n) + " " + std::to_string(next + n) + " " +
-                 std::to_string(next + after) + " " + std::to_string(here + after) + "\n";
-        ++count;
-      }
-    char name[32];
-    std::snprintf(name, sizeof name, "ball_%04d.ply", frame);
-    std::ofstream(folder / name)
-        << "ply\nformat ascii 1.0\nelement vertex " << (kRings + 1) * kAround
-        << "\nproperty float x\nproperty float y\nproperty float z\nproperty float vx\nproperty float vy\n"
-           "property float vz\nproperty float heat\nelement face "
-        << count << "\nproperty list uchar int vertex_indices\nend_header\n"
-        << text << faces;
-  }
-}
-
-std::vector<std::string> texturing(const fs::path& cache, const fs::path& out) {
-  return {"texture",
-          cache.string(),
-          "--exemplar",
-          kScales,
-          "--out",
-          out.string(),
-          "--no-render",
-          "--set",
-          "texture.points=1500",
-          "--set",
-          "texture.first_iterations=[1, 1, 1]"};
-}
-
-// Without a fault.
-Finished textured(const fs::path& cache, const fs::path& out) {
-  const Finished done = runProgram(texturing(cache, out));
-  INFO(done.all());
-  REQUIRE(done.exitCode == 0);
-  return done;
-}
-
-}  // namespace
-
 TEST_CASE(
     "caches: texture from simulated files is the run's own, also where both went on from an earlier frame",
     "[tools]") {
   const Scratch scratch;
   const fs::path cache = scratch.path / "cache", whole = scratch.path / "whole", from = scratch.path / "from";
-  REQUIRE(runProgram({"run", kSmall, "--out", whole.string(), "--quiet"}).exitCode == 0);
-  REQUIRE(
-      runProgram({"simulate", kSmall, "--cache", cache.string(), "--frames", "1:2", "--quiet"}).exitCode ==
-      0);
-  REQUIRE(runProgram({"simulate", kSmall, "--cache", cache.string(), "--resume", "--quiet"}).exitCode == 0);
+  REQUIRE(runProgram({"run", kSmallScene, "--out", whole.string(), "--quiet"}).exitCode == 0);
+  REQUIRE(runProgram({"simulate", kSmallScene, "--cache", cache.string(), "--frames", "1:2", "--quiet"})
+              .exitCode == 0);
+  REQUIRE(runProgram({"simulate", kSmallScene, "--cache", cache.string(), "--resume", "--quiet"}).exitCode ==
+          0);
   std::vector<std::string> run{"run",
-                               kSmall,
+                               kSmallScene,
                                "--out",
                                from.string(),
                                "--quiet",
@@ -127,35 +67,6 @@ TEST_CASE("caches: a folder of meshes with velocities is textured without a scen
   CHECK(readBytes(again / "surface/0004.ply") == readBytes(out / "surface/0004.ply"));
 }
 
-TEST_CASE("caches: the mesh of a frame gets the texture too, vertex for vertex, with its attributes",
-          "[tools]") {
-  const Scratch scratch;
-  const fs::path cache = scratch.path / "balls", out = scratch.path / "out", none = scratch.path / "none";
-  fs::create_directory(cache);
-  writeBalls(cache, 2, 1.2, 1.2);
-  const Finished done = textured(cache, out);
-  CHECK(done.out.find("further   heat") != std::string::npos);
-  const auto own = tools::readPly(out / "surface/0002.ply", 64, 64),
-             onto = tools::readPly(out / "onto/0002.ply", 64, 64);
-  REQUIRE(onto.positions.size() == 25 * 48);  // as in the file, doubled points too
-  for (const auto* surface : {&own, &onto})
-    for (std::size_t v = 0; v < surface->positions.size(); ++v) {
-      const double heat = 400.0 + 500.0 * double(surface->positions[v].z());
-      CHECK(std::abs(double(surface->maps.at("heat")[v]) - heat) < (surface == &onto ? 0.1 : 5.0));
-      CHECK(surface->velocity[v].x() == Approx(1.2).margin(0.01));
-    }
-  CHECK(onto.positions[0].z() == Approx(0.2));
-  CHECK(onto.positions[0].x() == Approx(1.2 / 24.0).margin(1e-5));
-  const auto trusted =
-      std::count_if(onto.trust.begin(), onto.trust.end(), [](float trust) { return trust > 0.5f; });
-  CHECK(double(trusted) > 0.95 * double(onto.trust.size()));
-
-  std::vector<std::string> without = texturing(cache, none);
-  without.insert(without.end(), {"--set", "files.onto=false"});
-  REQUIRE(runProgram(without).exitCode == 0);
-  CHECK_FALSE(fs::exists(none / "onto"));
-}
-
 TEST_CASE("caches: an attribute guides, scales and turns the texture by its own name", "[tools]") {
   const Scratch scratch;
   const fs::path cache = scratch.path / "balls", out = scratch.path / "out";
@@ -187,34 +98,6 @@ TEST_CASE("caches: an attribute guides, scales and turns the texture by its own 
   CHECK(missing.err.find("has no cold; there are: heat") != std::string::npos);
   const Finished turned = with("texture.orientation={align=\"attribute\", attribute=\"heat\"}");
   CHECK(turned.err.find("has no heat_x; there are: heat") != std::string::npos);
-}
-
-TEST_CASE("caches: check tells displacement over velocity, and how many points there will be", "[tools]") {
-  const Scratch scratch;
-  const fs::path cache = scratch.path / "balls", figures = scratch.path / "figures.json";
-  fs::create_directory(cache);
-  for (const double factor : {1.0, 1.3, 0.8}) {
-    INFO(factor);
-    writeBalls(cache, 5, 1.2, factor * 1.2);
-    const Finished check = runProgram({"check", cache.string(), "--pairs", "2", "--json", figures.string(),
-                                       "--set", "texture.points=5000"});
-    INFO(check.all());
-    REQUIRE(check.exitCode == 0);
-    CHECK(check.err.empty());
-    CHECK(check.out.find("; displacement over velocity ") != std::string::npos);
-    CHECK(check.out.find("points    one every 0.01 m: about 5000 in frame 1\n") != std::string::npos);
-    const Json found = Json::parse(readBytes(figures));
-    REQUIRE(found["pairs"].size() == 2);
-    CHECK(found["pairs"][1]["from"] == 4);
-    for (const Json& pair : found["pairs"]) {
-      CHECK(pair["ratio"].get<double>() == Approx(1.0 / factor).epsilon(0.01));
-      CHECK(pair["fastest"].get<double>() == Approx(factor * 1.2));
-      CHECK(pair["area"].get<double>() == Approx(0.16 * std::numbers::pi).epsilon(0.01));
-      // Of a distance that is right by 1 / factor the rest is left.
-      const double left = 1.0 - factor;
-      CHECK(pair["explained"].get<double>() == Approx(1.0 - left * left).margin(0.03));
-    }
-  }
 }
 
 TEST_CASE("caches: files of a program that still runs are waited for", "[tools]") {

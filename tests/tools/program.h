@@ -116,3 +116,9 @@ inline std::vector<std::string> differing(const Results& part, const Results& wh
     if (std::find(whole.begin(), whole.end(), file) == whole.end()) names.push_back(file.first);
   return names;
 }
+
+inline long occurrences(const std::string& text, const std::string& words) {
+  long count = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++count;
+  return count;
+}

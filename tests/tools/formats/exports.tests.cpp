@@ -2,22 +2,12 @@
 
 #include "tests/scratch.h"
 #include "tests/tools/output/sample_surface.h"
-#include "tools/base/errors.h"
 #include "tools/formats/exemplar_picture.h"
 
 #include <catch2/catch.hpp>
 
 using namespace fluidtex;
-using tools::Format;
 namespace fs = std::filesystem;
-
-TEST_CASE("formats: names, one or several, each once, and PLY is always among them", "[tools]") {
-  CHECK(tools::parseFormats({}) == std::vector{Format::ply});
-  CHECK(tools::parseFormats({"vtp", "glb", "vtp"}) == std::vector{Format::ply, Format::glb, Format::vtp});
-  CHECK_THROWS_WITH(tools::parseFormats({"fbx"}), Catch::Contains("fbx") && Catch::Contains("give ply, glb"));
-  CHECK_THROWS_AS(tools::parseFormats({""}), tools::UsageError);
-  CHECK(tools::frameFile(Format::usda, 7) == "usd/0007.usda");
-}
 
 TEST_CASE("exports: each format has its folder, and lists of a sequence name the files that are there",
           "[tools]") {

@@ -1,7 +1,6 @@
 #include "tools/frames/disk_plan.h"
 
 #include "tests/scratch.h"
-#include "tools/base/two_digits.h"
 
 #include <catch2/catch.hpp>
 
@@ -38,13 +37,6 @@ TEST_CASE("disk plan: the page grows to its bound, and copies of pictures come o
 }
 
 TEST_CASE("disk plan: sizes are written as people write them", "[tools]") {
-  CHECK(tools::twoDigits(0.0) == "0");
-  CHECK(tools::twoDigits(0.254) == "0.25");
-  CHECK(tools::twoDigits(9.96) == "10");
-  CHECK(tools::twoDigits(10.4) == "10");
-  CHECK(tools::twoDigits(481.0) == "480");
-  CHECK(tools::twoDigits(996.0) == "1000");
-  CHECK(tools::twoDigits(128000.0) == "130000");
   tools::DiskPlan plan;
   plan.surfaces = 5.96e8;
   plan.state = 4e6;

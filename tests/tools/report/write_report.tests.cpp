@@ -8,7 +8,6 @@
 #include <catch2/catch.hpp>
 
 #include <chrono>
-#include <numeric>
 
 using namespace fluidtex;
 using namespace fluidtex::tools;
@@ -41,23 +40,6 @@ Json figuresIn(const fs::path& page) {
 }
 
 }  // namespace
-
-TEST_CASE("report: frames are chosen evenly, with the first and the last", "[tools]") {
-  std::vector<int> frames(72);
-  std::iota(frames.begin(), frames.end(), 1);
-  CHECK(evenly({}, 5).empty());
-  CHECK(evenly({3, 4}, 2) == std::vector{3, 4});
-  CHECK(evenly({1, 2, 3}, 1) == std::vector{2});
-  CHECK(evenly(frames, 2) == std::vector{1, 72});
-  const std::vector<int> chosen = evenly(frames, 12);
-  REQUIRE(chosen.size() == 12);
-  CHECK(chosen.front() == 1);
-  CHECK(chosen.back() == 72);
-  for (std::size_t n = 1; n < chosen.size(); ++n) {
-    CHECK(chosen[n] - chosen[n - 1] >= 6);
-    CHECK(chosen[n] - chosen[n - 1] <= 7);
-  }
-}
 
 TEST_CASE("report: a run without pictures and video, in a folder with an odd name", "[tools]") {
   const Scratch scratch;

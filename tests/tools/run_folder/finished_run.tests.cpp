@@ -2,6 +2,7 @@
 
 #include "tests/scratch.h"
 #include "tests/tools/output/sample_surface.h"
+#include "tests/tools/program.h"
 #include "tools/base/errors.h"
 
 #include <catch2/catch.hpp>
@@ -12,6 +13,7 @@
 using namespace fluidtex;
 using namespace fluidtex::tools;
 using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
 
 TEST_CASE("finished run: records by frame, and the files' names", "[tools]") {
   FinishedRun run;
@@ -45,4 +47,22 @@ TEST_CASE("finished run: a folder that is not there, or holds no run, is refused
   std::ofstream(scratch.path / "run.json")
       << R"({"scene": {"texture": {"exemplar": "/nowhere/a.png"}}, "frames": []})";
   CHECK_THROWS_WITH(openRun(scratch.path, {}), Contains("/nowhere/a.png") && Contains("--exemplar"));
+}
+
+TEST_CASE("fluidtex measure: a run that was killed has all its frames", "[tools]") {
+  const Scratch scratch;
+  const fs::path out = scratch.path / "out";
+  REQUIRE(
+      runProgram({"run", kSmallScene, "--no-render", "--frames", "1:3", "--out", out.string()}).exitCode ==
+      0);
+  auto report = fluidtex::tools::Json::parse(readBytes(out / "run.json"));
+  const auto whole = report.at("frames");
+  report["frames"].erase(1);
+  report["frames"].erase(1);
+  std::ofstream(out / "run.json") << report.dump();
+  REQUIRE(runProgram({"measure", out.string(), "--quiet"}).exitCode == 0);
+  const auto frames = fluidtex::tools::Json::parse(readBytes(out / "run.json")).at("frames");
+  REQUIRE(frames.size() == 3);
+  CHECK(frames[2].at("volume") == whole[2].at("volume"));
+  CHECK(frames[2].at("likeness").is_number());
 }

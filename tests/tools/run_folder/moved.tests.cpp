@@ -62,48 +62,6 @@ TEST_CASE("moved run: no file but run.json, its copy in state/ and the log tells
   CHECK(fs::exists(moved / "glb" / "0001.glb"));
 }
 
-TEST_CASE(
-    "formats: a resumed run makes those of earlier frames, with the bytes of one that made them at once",
-    "[tools]") {
-  const Scratch scratch;
-  const fs::path whole = scratch.path / "whole", resumed = scratch.path / "resumed";
-  const auto run = [&](const fs::path& out, const std::vector<std::string>& more) {
-    std::vector<std::string> words{"run",     kSmallScene, "--no-render", "--no-report",
-                                   "--quiet", "--out",     out.string()};
-    words.insert(words.end(), more.begin(), more.end());
-    const Finished done = runProgram(words);
-    INFO(done.all());
-    REQUIRE(done.exitCode == 0);
-  };
-  run(whole, {"--frames", "1:3", "--format", "glb,usda,vtp"});
-  run(resumed, {"--frames", "1:2"});
-  run(resumed, {"--frames", "1:3", "--resume", "--format", "glb", "--format", "usda,vtp"});
-  for (const char* name : {"glb/0001.glb", "glb/0003.glb", "usd/0002.usda", "vtp/0001.vtp", "small.pvd",
-                           "small.usda", "exemplar.png"})
-    CHECK(readBytes(whole / name) == readBytes(resumed / name));
-  // What is lost or damaged is made again; what is whole stays.
-  const auto time = fs::last_write_time(resumed / "glb" / "0002.glb");
-  fs::resize_file(resumed / "vtp" / "0001.vtp", 100);
-  fs::remove(resumed / "glb" / "0001.glb");
-  run(resumed, {"--frames", "1:3", "--resume", "--format", "glb,usda,vtp"});
-  CHECK(readBytes(whole / "vtp" / "0001.vtp") == readBytes(resumed / "vtp" / "0001.vtp"));
-  CHECK(readBytes(whole / "glb" / "0001.glb") == readBytes(resumed / "glb" / "0001.glb"));
-  CHECK(fs::last_write_time(resumed / "glb" / "0002.glb") == time);
-  // With joints of the other kind all are made anew, so that a sequence is of one kind.
-  const fs::path blended = scratch.path / "blended";
-  run(blended, {"--frames", "1:3", "--format", "glb", "--joints", "blend"});
-  run(resumed, {"--frames", "1:3", "--resume", "--format", "glb", "--joints", "blend"});
-  for (const char* name : {"glb/0001.glb", "glb/0002.glb", "glb/0003.glb"}) {
-    CHECK(readBytes(blended / name) == readBytes(resumed / name));
-    CHECK(readBytes(blended / name) != readBytes(whole / name));
-  }
-  // A run that starts anew leaves nothing of them.
-  run(resumed, {"--frames", "2"});
-  CHECK_FALSE(fs::exists(resumed / "glb"));
-  CHECK_FALSE(fs::exists(resumed / "vtp"));
-  CHECK_FALSE(fs::exists(resumed / "small.usda"));
-}
-
 TEST_CASE("formats: one that is not known is refused before anything is done", "[tools]") {
   const Scratch scratch;
   const Finished done =

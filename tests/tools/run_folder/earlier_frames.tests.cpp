@@ -1,7 +1,11 @@
 // fluidtex run --resume: after kills, interrupts and other wishes.
+#include "tools/run_folder/earlier_frames.h"
+
 #include "tests/tools/program.h"
-#include "tools/output/ply.h"
+#include "tests/tools/run_folder/inputs.h"
+#include "tools/base/errors.h"
 #include "tools/output/read_ply.h"
+#include "tools/run_folder/journal.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -11,10 +15,9 @@
 #include <fstream>
 
 namespace fs = std::filesystem;
+using namespace fluidtex::tools;
 
 namespace {
-
-using Words = std::vector<std::string>;
 
 // The frames that run.json tells of.
 std::vector<int> reported(const fs::path& out) {
@@ -90,24 +93,6 @@ TEST_CASE("fluidtex run --resume: interrupted, it exits with 130 and goes on to 
   REQUIRE(resumed.exitCode == 0);
   CHECK(differing(resultsIn(whole), resultsIn(broken)).empty());
   CHECK((readBytes(broken / "small.mp4") == readBytes(whole / "small.mp4")));
-}
-
-TEST_CASE("fluidtex run: interrupted while the video is written, it exits with 130", "[tools]") {
-  const Scratch scratch;
-  // Ctrl-C reaches the program and its encoder alike.
-  const fs::path encoder = scratch.path / "bin" / "ffmpeg";
-  fs::create_directories(encoder.parent_path());
-  std::ofstream(encoder) << "#!/bin/sh\nkill -INT $PPID\nexit 255\n";
-  fs::permissions(encoder, fs::perms::owner_all);
-  const Words args = {"run", kSmallScene, "--frames", "1:1", "--out", (scratch.path / "out").string()};
-  const Finished run = RunningProgram(args, {}, encoder.parent_path()).wait();
-  INFO(run.all());
-  CHECK(run.exitCode == 130);
-  CHECK_FALSE(fs::exists(scratch.path / "out" / "small.mp4"));
-  Words again = args;
-  again.emplace_back("--resume");
-  CHECK(runProgram(again).exitCode == 0);
-  CHECK(fs::exists(scratch.path / "out" / "small.mp4"));
 }
 
 TEST_CASE("fluidtex run --resume: with more frames it goes on as if they had always been asked for",
@@ -204,4 +189,138 @@ TEST_CASE("fluidtex run --resume: without a state it starts anew and leaves noth
           0);
   CHECK(namesOf(resultsIn(out)) == Words{"frames/0001.png", "surface/0001.ply"});
   CHECK_FALSE(fs::exists(out / "state" / ".tmp-0004"));
+}
+
+TEST_CASE("fluidtex run --resume: maps of vectors go on as they were", "[tools]") {
+  const Scratch scratch;
+  const fs::path whole = scratch.path / "whole", out = scratch.path / "out";
+  writeImage(scratch.path / "bump.png", 64, 3);
+  const Words run{"run",
+                  kSmallScene,
+                  "--set",
+                  "texture.map=[{ name = 'bump', holds = 'normals', file = '" +
+                      (scratch.path / "bump.png").string() + "' }]",
+                  "--set",
+                  "render.bump={ map = 'bump' }"};
+  REQUIRE(runProgram(with(run, {"--set", "frames=3", "--out", whole.string()})).exitCode == 0);
+  REQUIRE(runProgram(with(run, {"--set", "frames=2", "--out", out.string()})).exitCode == 0);
+  // The last frame's files are made from the state, vectors and all.
+  fs::remove(out / "frames" / "0002.png");
+  std::ofstream(out / "surface" / "0002.ply", std::ios::app) << "x";
+  const Finished resumed = runProgram(with(run, {"--set", "frames=3", "--out", out.string(), "--resume"}));
+  INFO(resumed.all());
+  REQUIRE(resumed.exitCode == 0);
+  CHECK(namesOf(resultsIn(out)) == namesOf(resultsIn(whole)));
+  CHECK(differing(resultsIn(out), resultsIn(whole)).empty());
+  CHECK((readBytes(out / "small.mp4") == readBytes(whole / "small.mp4")));
+}
+
+TEST_CASE("fluidtex run --resume: results that were damaged since are seen", "[tools]") {
+  const Scratch scratch;
+  const fs::path out = scratch.path / "out";
+  const Words run{"run", kSmallScene, "--out", out.string(), "--set"},
+      more = with(run, {"frames=3", "--resume"});
+  REQUIRE(runProgram(with(run, {"frames=2"})).exitCode == 0);
+  const auto refused = [&](const char* name, const std::string& bytes, const std::string& words) {
+    const std::string whole = readBytes(out / name);
+    if (bytes.empty())
+      fs::remove(out / name);
+    else
+      std::ofstream(out / name, std::ios::binary) << bytes;
+    const Finished resumed = runProgram(more);
+    CHECK(resumed.exitCode == 1);
+    CHECK_THAT(resumed.err, Catch::Contains("frames 1 to 2 are done, but " + std::string(name) + words));
+    std::ofstream(out / name, std::ios::binary) << whole;
+  };
+  const std::string picture = readBytes(out / "frames" / "0001.png");
+  refused("frames/0001.png", picture.substr(0, picture.size() / 2), " is not as the run wrote it");
+  refused("surface/0001.ply", "x", " is not as the run wrote it");
+  refused("surface/0001.ply", "", " is not there");
+
+  // What is known of the frames before is lost.
+  const std::string journal = readBytes(out / "state" / "journal.txt");
+  std::ofstream(out / "state" / "journal.txt") << journal.substr(journal.find("{\"frame\":2"));
+  const Finished lost = runProgram(more);
+  CHECK(lost.exitCode != 0);
+  std::ofstream(out / "state" / "journal.txt") << journal;
+
+  // What fluidtex apply writes is as good.
+  writeImage(scratch.path / "height.png", 64, 1);
+  REQUIRE(runProgram({"apply", out.string(), "height=" + (scratch.path / "height.png").string()}).exitCode ==
+          0);
+  const Finished resumed = runProgram(more);
+  INFO(resumed.all());
+  CHECK(resumed.exitCode == 0);
+}
+
+TEST_CASE("earlier frames: where there is nothing to resume, what a killed run has left is cleared",
+          "[tools]") {
+  const Scratch scratch;
+  fs::create_directories(scratch.path / "surface");
+  fs::create_directories(scratch.path / "state" / ".tmp-0004");
+  std::ofstream(scratch.path / "surface" / ".tmp-0004.ply") << "half";
+  std::ofstream(scratch.path / "surface" / "0003.ply") << "whole";
+  RunOptions options;
+  options.out = scratch.path;
+  CHECK_FALSE(earlierFrames({}, options, {}, 5));
+  CHECK(filesIn(scratch.path) == Words{"surface/0003.ply"});
+  CHECK_FALSE(fs::exists(scratch.path / "state" / ".tmp-0004"));
+}
+
+TEST_CASE("earlier frames: all that are done are taken over, the last again where its files are lost",
+          "[tools]") {
+  const Scratch scratch;
+  const fs::path out = scratch.path / "out", journal = out / "state" / "journal.txt";
+  REQUIRE(runProgram({"run", kSmallScene, "--no-render", "--no-report", "--frames", "1:2", "--quiet", "--out",
+                      out.string()})
+              .exitCode == 0);
+  const fluidtex::scenes::Scene scene = fluidtex::scenes::loadScene(kSmallScene);
+  RunOptions options;
+  options.out = out;
+  options.render = false;
+  Report now = parseReport(readBytes(out / "run.json"));
+  std::vector<Json> records = std::move(now.frames);
+  REQUIRE(records.size() == 2);
+  now.frames.clear();
+  const auto written = readPly(out / "surface" / "0002.ply", 256, 256);
+  const auto found = [&] {
+    std::optional<EarlierFrames> earlier = earlierFrames(scene, options, now, 5);
+    REQUIRE(earlier);
+    CHECK(earlier->solver.frame == 2);
+    CHECK(earlier->records == records);
+    CHECK(earlier->surface.positions == written.positions);
+    CHECK(earlier->surface.triangles == written.triangles);
+    return earlier->writeLastAgain;
+  };
+  CHECK_FALSE(found());
+
+  // A kill right behind the state: the journal gets the record of the last frame back, as it is there.
+  records[1] = parseReport(readBytes(out / "state" / "0002" / "run.json")).frames.back();
+  const std::string lines = readBytes(journal);
+  std::ofstream(journal) << lines.substr(0, lines.rfind("{\"frame\":2", lines.size()));
+  CHECK_FALSE(found());
+  CHECK(readJournal(out).frames.at(2) == records[1]);
+
+  const std::string last = readBytes(out / "surface" / "0002.ply"),
+                    first = readBytes(out / "surface" / "0001.ply");
+  std::ofstream(out / "surface" / "0002.ply", std::ios::app) << "x";
+  CHECK(found());
+  std::ofstream(out / "surface" / "0002.ply", std::ios::binary) << last;
+  std::ofstream(out / "surface" / "0001.ply") << "x";
+  CHECK_THROWS_AS(earlierFrames(scene, options, now, 5), UsageError);
+  CHECK_THROWS_WITH(earlierFrames(scene, options, now, 5),
+                    Catch::Contains("surface/0001.ply is not as the run wrote it"));
+  options.firstFrame = 2;  // then nobody asks for it
+  CHECK_FALSE(found());
+  options.firstFrame = 1;
+  std::ofstream(out / "surface" / "0001.ply", std::ios::binary) << first;
+
+  Report other = now;
+  other.scene["seed"] = 8;
+  CHECK_THROWS_AS(earlierFrames(scene, options, other, 5), UsageError);
+  CHECK_THROWS_WITH(
+      earlierFrames(scene, options, other, 5),
+      Catch::Contains("seed was 7 and is 8") && Catch::Contains("run without --resume to start anew"));
+  fs::resize_file(out / "state" / "0002" / "surface.bin", 100);
+  CHECK_THROWS_AS(earlierFrames(scene, options, now, 5), std::runtime_error);
 }
