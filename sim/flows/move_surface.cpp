@@ -31,11 +31,11 @@ void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, con
   markers = advectMarkers(std::move(markers), velocity, dt, visibility);
   if (left != nullptr) dropLeft(markers, *left);
   advectPhi(phi, velocity, *solid.phi, dt, visibility);
-  correctPhi(phi, markers, visibility);
+  correctPhi(phi, markers, *solid.phi, visibility);
   applyFlows(phi, markers, flows);
   extendBeyond(phi, solid, {}, kDeepInSolid, left);
   redistance(phi, solid, kReinitIterations);
-  correctPhi(phi, markers, visibility);
+  correctPhi(phi, markers, *solid.phi, visibility);
   applyFlows(phi, markers, flows);
   maintainMarkers(markers, phi, *solid.phi, seed, visibility);
   trimBand(phi, *solid.phi);

@@ -2,7 +2,9 @@
 
 #include "numerics/random.h"
 #include "sim/grid/block_samples.h"
+#include "sim/grid/leaf_table.h"
 #include "sim/markers/marker_sight.h"
+#include "sim/solids/solid_layers.h"
 
 #include <tbb/parallel_for.h>
 
@@ -106,7 +108,8 @@ void measure(Marker& m, float phi) {
 
 }  // namespace
 
-void correctPhi(FloatGrid& phi, const Markers& markers, const Visibility* visibility) {
+void correctPhi(FloatGrid& phi, const Markers& markers, const FloatGrid& solidPhi,
+                const Visibility* visibility) {
   const float h = static_cast<float>(phi.voxelSize()[0]);
   Markers out(markers.size());  // those that have escaped
   tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
@@ -164,7 +167,10 @@ void correctPhi(FloatGrid& phi, const Markers& markers, const Visibility* visibi
       }
     }
     if (!touched) return;
+    float scratch[kLeafSize];
+    const float* solid = leafValues(solidPhi.constTree(), leaves[n]->origin(), scratch);
     for (int i = 0; i < kLeafSize; ++i) {
+      if (solid[i] < -kDeepInSolid * h) continue;
       const float right = std::abs(air[i]) <= std::abs(liquid[i]) ? air[i] : liquid[i];
       value[i] = std::clamp(right, -background, background);
     }

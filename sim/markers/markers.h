@@ -51,8 +51,10 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt,
                       const Visibility* visibility = nullptr);
 
 // Corrects phi at the corners of cells with escaped markers, those farther on the wrong side than their
-// radius; only at corners on the marker's side of a thin solid.
-void correctPhi(FloatGrid& phi, const Markers& markers, const Visibility* visibility = nullptr);
+// radius; only at corners on the marker's side of a thin solid, and none deep in solids, where phi is
+// extrapolated and markers are of no liquid.
+void correctPhi(FloatGrid& phi, const Markers& markers, const FloatGrid& solidPhi,
+                const Visibility* visibility = nullptr);
 
 // Updates the radii; drops markers that have left the band, those in solids, and those of bubbles that have
 // closed; reseeds cells near the surface that have no more than half of their markers. `seed` must differ

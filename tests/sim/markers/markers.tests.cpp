@@ -89,7 +89,7 @@ TEST_CASE("markers: a right surface is not touched by them, a spoilt one is put 
   const auto phi = phiOf(ball);
   const Markers markers = seedMarkers(*phi, *noSolid(), 1);
   const auto right = phi->deepCopy();
-  correctPhi(*phi, markers);
+  correctPhi(*phi, markers, *noSolid());
   int changed = 0;
   for (auto it = right->cbeginValueOn(); it; ++it) changed += phi->tree().getValue(it.getCoord()) != *it;
   CHECK(changed == 0);
@@ -105,8 +105,25 @@ TEST_CASE("markers: a right surface is not touched by them, a spoilt one is put 
     return sum / count;
   };
   CHECK(error() == Approx(0.5).margin(1e-3));
-  correctPhi(*phi, markers);
+  correctPhi(*phi, markers, *noSolid());
   CHECK(error() < 0.25);  // the more markers a cell has, the nearer
+}
+
+TEST_CASE("markers: cells deep in a solid keep what is extrapolated there, whatever markers say") {
+  // Liquid that has left the solid above half-way, of which some markers are still in it.
+  const auto lying = phiOf([](const Vec3d& x) { return std::max(x[2] - 0.55, 0.3 - x[2]); });
+  const auto left = phiOf([](const Vec3d& x) { return std::max(x[2] - 0.45, 0.3 - x[2]); });
+  const auto solid = phiOf([](const Vec3d& x) { return 0.5 - x[2]; });
+  const Markers markers = seedMarkers(*lying, *noSolid(), 1);
+  const auto corrected = left->deepCopy();
+  correctPhi(*corrected, markers, *solid);
+  int deep = 0, others = 0;
+  for (auto it = left->cbeginValueOn(); it; ++it) {
+    const bool changed = corrected->tree().getValue(it.getCoord()) != *it;
+    (solid->tree().getValue(it.getCoord()) < -0.5 * kVoxel ? deep : others) += changed;
+  }
+  CHECK(deep == 0);
+  CHECK(others > 100);
 }
 
 TEST_CASE("markers: move with the flow, over the edges of blocks too") {

@@ -148,7 +148,7 @@ TEST_CASE("visibility: closed cups with walls of 0.6 cells and more hold what is
 
 TEST_CASE("visibility: liquid that falls off the underside of a thin floor draws none out of it") {
   // A trough with walls of 1.7 cells, and a slab that hangs below it.
-  const double wall = 1.7 / 24.0, bottom = 13.2 / 24.0;
+  const double wall = 1.7 / 24.0, bottom = 13.4 / 24.0;
   Options options = tank(24, {box(Vec3d(0.3, 0.3, bottom), Vec3d(0.7, 0.7, 0.7)),
                               box(Vec3d(0.25, 0.25, 0.3), Vec3d(0.75, 0.75, bottom - wall))});
   Solid trough;
