@@ -44,6 +44,16 @@ struct Extension {
   std::unique_ptr<Vec3[]> gradient;  // #voxels: of phi in solids, without the parts left out
   TableSight sight;
 
+  // Whether a cell outside solids has a known neighbour outside solids along the axis. In a gap a cell wide
+  // there is none, and nothing known of phi's slope across the gap.
+  bool knowsSlope(std::int64_t cell, int axis) const {
+    for (int up = 0; up < 2; ++up) {
+      const std::int64_t n = sight.cell(cell, 2 * axis + up);
+      if (n >= 0 && depth[n] <= deepest && isSet(known, n)) return true;
+    }
+    return false;
+  }
+
   // Gradient of phi at a cell outside solids, from its known neighbours outside solids. Across a kink in air
   // it is that of the smoother side: beside the rim of a wall, phi behind it is the distance round the rim.
   Vec3 openGradient(std::int64_t cell) const {
@@ -132,6 +142,16 @@ struct Extension {
       if (withoutNearest && depth[cell] <= deepest) value[cell] = std::max(value[cell], h);
       return withoutNearest;
     }
+    // Air that does not know the slope says nothing where others do that count at least as much: what lies
+    // across a gap may be the liquid beside it, of a level just below the gap's floor.
+    Vec3 told(0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::int64_t n = nearest[axis];
+      if (n >= 0 && (depth[n] > deepest || value[n] < 0.0f || knowsSlope(n, axis))) told[axis] = way[axis];
+    }
+    if (2.0f * told.lengthSqr() >= way.lengthSqr()) way = told;
+    for (int axis = 0; axis < 3; ++axis)
+      if (way[axis] == 0.0f) nearest[axis] = -1;
     const float length = way.length();
     const Vec3 normal = length > 0.0f ? way / length : Vec3(0.0f);
     float weights = 0.0f, sum = 0.0f;
