@@ -85,6 +85,16 @@ TEST_CASE("surroundings: no way leads through a wall of half a cell, unless it i
   CHECK_FALSE(inside.reached(Coord(2, 10, 6)));
 }
 
+TEST_CASE("surroundings: liquid that reaches out of a wall by a tenth of a cell gets to that side too",
+          "[stress]") {
+  for (const double begin : {0.394, 0.41}) {
+    sim::Options options = tank(box(Vec3d(0.1, begin, 0.3), Vec3d(0.4, 0.8, 0.6)));
+    addSolid(options, box(Vec3d(-1.0, 0.4, -1.0), Vec3d(2.0, 0.5, 2.0)));
+    CAPTURE(begin);
+    CHECK(Surroundings(options, {}).reached(Coord(4, 7, 8)) == (begin < 0.4));
+  }
+}
+
 TEST_CASE("surroundings: what leaves through one unbounded side may come back through another", "[stress]") {
   sim::Options options = tank(box(Vec3d(0.1), Vec3d(0.3, 0.9, 0.5)));
   addSolid(options, box(Vec3d(0.45, -1.0, -1.0), Vec3d(0.55, 2.0, 2.0)));

@@ -109,7 +109,9 @@ Surroundings::Surroundings(const sim::Options& options, const std::vector<std::s
   const double top = highest(sim::kForever);
   const bool calm = !disturbs(options) && std::isfinite(top);
   const double weight = options.gravity.length();
-  m_flood = flood(open, ever, calm ? top + weight * options.voxelSize() : INFINITY);
+  // Of a body that reaches out of a wall by less, no sample knows.
+  const double near = 0.5 * m_step;
+  m_flood = flood(open, ever, calm ? top + weight * options.voxelSize() : INFINITY, calm ? 0.0 : near);
   if (!calm) return;
   const auto toLiquid = [&](const Vec3d& x) {
     double distance = INFINITY;
@@ -126,7 +128,7 @@ Surroundings::Surroundings(const sim::Options& options, const std::vector<std::s
       if (at[axis] == end && m_flood.reached[n] != 0) m_atRest = false;
     }
   }
-  if (!m_atRest) m_flood = flood(open, ever, INFINITY);
+  if (!m_atRest) m_flood = flood(open, ever, INFINITY, near);
 }
 
 Vec3d Surroundings::place(std::size_t sample) const {
@@ -199,9 +201,10 @@ void Surroundings::findUnresolved(const sim::Solids& solids, const std::vector<f
   }
 }
 
-// highest: no place with more of -gravity . x is entered.
+// highest: no place with more of -gravity . x is entered. near: metres; places this near to liquid count as
+// liquid.
 Surroundings::Flood Surroundings::flood(const std::vector<float>& open, const std::vector<float>& liquid,
-                                        double highest) const {
+                                        double highest, double near) const {
   Flood found{std::vector<std::uint8_t>(open.size(), 0)};
   std::vector<std::size_t> front;
   const auto enter = [&](std::size_t n) {
@@ -210,7 +213,7 @@ Surroundings::Flood Surroundings::flood(const std::vector<float>& open, const st
     front.push_back(n);
   };
   for (std::size_t n = 0; n < open.size(); ++n)
-    if (liquid[n] < 0.0f) enter(n);
+    if (liquid[n] < near) enter(n);
   const std::size_t stride[3] = {static_cast<std::size_t>(m_count[1]) * m_count[2],
                                  static_cast<std::size_t>(m_count[2]), 1};
   // What is behind one unbounded side is behind all of them.
@@ -272,7 +275,7 @@ double Surroundings::roomFrom(const std::vector<float>& open, const std::vector<
   for (std::size_t n = 0; n < open.size(); ++n) {
     if (source[n] >= 0.0f || open[n] <= 0.0f || seen[n] != 0) continue;
     start[n] = -1.0f;
-    const Flood part = flood(open, start, INFINITY);
+    const Flood part = flood(open, start, INFINITY, 0.0);
     start[n] = 1.0f;
     double room = part.unbounded ? INFINITY : 0.0;
     for (std::size_t m = 0; m < open.size(); ++m) {

@@ -73,7 +73,8 @@ class Surroundings {
     std::vector<std::uint8_t> reached;
     bool unbounded = false;  // it can get out through an unbounded side
   };
-  Flood flood(const std::vector<float>& open, const std::vector<float>& liquid, double highest) const;
+  Flood flood(const std::vector<float>& open, const std::vector<float>& liquid, double highest,
+              double near) const;
   bool isFilled(const std::vector<float>& open, const std::vector<float>& liquid,
                 const std::function<double(const Vec3d&)>& toLiquid, double highest) const;
   double roomFrom(const std::vector<float>& open, const std::vector<float>& source,

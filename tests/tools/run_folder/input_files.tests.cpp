@@ -134,7 +134,7 @@ TEST_CASE(
   CHECK_THAT(resumed.err, !Catch::Contains("frame 1/"));
 }
 
-TEST_CASE("input files: each by its key, with its content; of a sequence all in one", "[tools]") {
+TEST_CASE("input files: each by its key, with its content, and those of a sequence all in one", "[tools]") {
   using namespace fluidtex::tools;
   const Scratch scratch;
   const Json contents = contentsOf(sceneIn(scratch.path));
