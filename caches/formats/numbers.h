@@ -33,8 +33,8 @@ Number numberAt(const char* bytes, std::endian order) {
 }
 
 // `number` as another type. Integers: of fractions the whole part; the ends of `To` stand for all integers
-// that lie beyond them, its upper end for what is no number or beyond 2^62. As corners they are points that do
-// not exist.
+// that lie beyond them, its upper end for what is no number or beyond 2^62. As corners they are points that
+// do not exist.
 template <class To, class From>
 To converted(From number) {
   if constexpr (std::is_floating_point_v<To>) {

@@ -291,8 +291,8 @@ TEST_CASE("flows: a source that has filled its room stands still") {
   Solver solver(options);
   FrameStats stats;
   for (int n = 0; n < 24; ++n) stats = solver.next().stats;
-  // It would have given 0.04 m3, and there was room for 0.018. The last of the air closes in whole steps; what
-  // is too much by then goes back.
+  // It would have given 0.04 m3, and there was room for 0.018. The last of the air closes in whole steps;
+  // what is too much by then goes back.
   CHECK(stats.volume == Approx(0.125).epsilon(0.01));
   CHECK(std::abs(stats.deficit) < 1e-3 * 0.125);
 }
