@@ -134,22 +134,6 @@ void setOutflow(const FloatGrid& divergence, const LiquidCells& liquid, const Po
   });
 }
 
-// Of the enclosed parts of the unknowns. outflow: of each unknown, with what sources take back taken out.
-void takeBackDeficit(const SolidField& solid, const std::vector<std::vector<int>>& enclosed,
-                     const std::vector<int>& liquidOf, const LiquidCells& liquid,
-                     std::vector<double>& outflow, FaceGrids& velocity) {
-  for (const std::vector<int>& part : enclosed) {
-    std::vector<int> cells(part.size());
-    std::vector<double> wanted(part.size());
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      cells[i] = liquidOf[part[i]];
-      wanted[i] = outflow[part[i]];
-    }
-    takeBack(solid, cells, liquid, wanted, velocity);
-    for (std::size_t i = 0; i < part.size(); ++i) outflow[part[i]] = wanted[i];
-  }
-}
-
 // One step of the active set method: cells at solids separate, or attach again. True if any changed. The
 // suction of a cell, below its pressure when detached, is limited by its own surface: a drop of one cell
 // bears only a share of `suction`, which is for a cell with a column of liquid below it. Suction below
@@ -372,7 +356,7 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
     if (options.divergence != nullptr && solved.converged) {
       setOutflow(*options.divergence, liquid, system, solid.voxelSize, b);
       still = atRest(solid);
-      if (solid.given) takeBackDeficit(solid, singular, liquidOf, liquid, b, still.given);
+      if (solid.given) takeBack(solid, singular, liquidOf, liquid, b, still.given);
       std::fill(x.begin(), x.end(), 0.0);
       // If this fails, no deficit is given back in this step.
       if (poisson.solve(std::move(b), x, kExpansionTolerance, options.maxIterations).converged) {

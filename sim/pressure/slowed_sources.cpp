@@ -3,14 +3,14 @@
 #include "sim/grid/mac_grid.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace fluidtex::sim {
 namespace {
 
 // A face through which liquid of given velocity comes into a cell.
 struct Inlet {
-  int cell, at;  // its place in the part
+  int cell;
+  int at;  // the cell's place in the part
   int axis;
   Coord face;
   double flow;  // open area times speed
@@ -71,15 +71,23 @@ FaceGrids slowedSources(const SolidField& solid, const std::vector<std::vector<i
   return slowed;
 }
 
-void takeBack(const SolidField& solid, const std::vector<int>& part, const LiquidCells& liquid,
-              std::vector<double>& outflow, FaceGrids& velocity) {
-  const std::vector<Inlet> inlets = inletsOf(part, solid, liquid);
-  const double wanted = std::accumulate(outflow.begin(), outflow.end(), 0.0);
-  const double share = std::clamp(shareOf(inlets, wanted), -1.0, 1.0);
-  for (const Inlet& inlet : inlets) {
-    const double speed = solid.given[inlet.axis].constTree().getValue(inlet.face);
-    velocity.component[inlet.axis]->tree().setValueOn(inlet.face, static_cast<float>(-share * speed));
-    outflow[inlet.at] -= share * inlet.flow;
+void takeBack(const SolidField& solid, const std::vector<std::vector<int>>& enclosed,
+              const std::vector<int>& liquidOf, const LiquidCells& liquid, std::vector<double>& outflow,
+              FaceGrids& velocity) {
+  for (const std::vector<int>& part : enclosed) {
+    std::vector<int> cells;
+    double wanted = 0.0;
+    for (const int unknown : part) {
+      cells.push_back(liquidOf[unknown]);
+      wanted += outflow[unknown];
+    }
+    const std::vector<Inlet> inlets = inletsOf(cells, solid, liquid);
+    const double share = std::clamp(shareOf(inlets, wanted), -1.0, 1.0);
+    for (const Inlet& inlet : inlets) {
+      const double speed = solid.given[inlet.axis].constTree().getValue(inlet.face);
+      velocity.component[inlet.axis]->tree().setValueOn(inlet.face, static_cast<float>(-share * speed));
+      outflow[part[inlet.at]] -= share * inlet.flow;
+    }
   }
 }
 

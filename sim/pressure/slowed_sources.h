@@ -17,12 +17,13 @@ namespace fluidtex::sim {
 FaceGrids slowedSources(const SolidField& solid, const std::vector<std::vector<int>>& enclosed,
                         LiquidCells& liquid);
 
-// What sources take back of such a part while its volume deficit is given back
+// What sources take back of such parts while their volume deficit is given back
 // (PressureOptions::divergence): a room that fills up may have been given more by then than it holds. Where
 // it was given less, more comes in; neither faster than the source gives.
-// part: cells of liquid. outflow: wanted of each of them; reduced by what leaves through the source's faces.
-// velocity: at these faces, set.
-void takeBack(const SolidField& solid, const std::vector<int>& part, const LiquidCells& liquid,
-              std::vector<double>& outflow, FaceGrids& velocity);
+// enclosed: parts of the unknowns; liquidOf: the cell of each unknown. outflow: wanted of each unknown;
+// reduced by what leaves through the source's faces. velocity: at these faces, set.
+void takeBack(const SolidField& solid, const std::vector<std::vector<int>>& enclosed,
+              const std::vector<int>& liquidOf, const LiquidCells& liquid, std::vector<double>& outflow,
+              FaceGrids& velocity);
 
 }  // namespace fluidtex::sim

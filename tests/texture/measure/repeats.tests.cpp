@@ -56,11 +56,7 @@ TEST_CASE("repeats: what comes again nearer than two windows is no repetition", 
 }
 
 TEST_CASE("repeats: a surface too small for a window has none", "[texture]") {
-  TexturedSurface ball;
-  const SurfaceMesh mesh = sphereMesh(3);
-  ball.positions = ball.normals = mesh.positions;
-  ball.triangles = mesh.triangles;
-  ball.spacing = mesh.spacing;
+  TexturedSurface ball = bareBall(3);
   for (const Vec3f& n : ball.normals)
     ball.orientation.push_back(tangentUnit(Vec3f(1, 0, 0), n, Vec3f(0, 1, 0)));
   ball.color.assign(ball.positions.size(), Vec4f(0.5f));

@@ -15,6 +15,16 @@ inline constexpr int kAcross = 96;  // squares of the sheet's sides
 // Where in the exemplar a vertex at (x, y), texels, comes from.
 using Layout = std::function<Vec2f(const Vec2f&)>;
 
+// A ball of radius 1 that shows nothing yet.
+inline TexturedSurface bareBall(int subdivisions) {
+  TexturedSurface ball;
+  const SurfaceMesh mesh = sphereMesh(subdivisions);
+  ball.positions = ball.normals = mesh.positions;
+  ball.triangles = mesh.triangles;
+  ball.spacing = mesh.spacing;
+  return ball;
+}
+
 // A thin level sheet whose vertices show the exemplar at their place on it. On its rim, where it is no sheet,
 // the surface counts as new, unless all is.
 inline TexturedSurface sheet(const Image& color, const Layout& layout, bool known = true) {

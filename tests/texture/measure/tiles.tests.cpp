@@ -141,16 +141,12 @@ TEST_CASE("tiles: on a level sheet they are as many and as large as asked, and u
 }
 
 TEST_CASE("tiles: none where the surface bends too much", "[texture]") {
-  TexturedSurface ball;
-  const SurfaceMesh mesh = sphereMesh(12);
-  ball.positions = ball.normals = mesh.positions;
-  ball.triangles = mesh.triangles;
-  ball.spacing = mesh.spacing;
+  const TexturedSurface ball = bareBall(12);
   const TileGround ground(ball);
   // A tile that covers the square of sides 1.9 of a ball of radius 1 bends by 60 degrees at its corners.
   Dice dice(1);
-  CHECK(flatTiles(ground, int(1.9 / mesh.spacing), 5, dice).empty());
-  CHECK(flatTiles(ground, int(0.5 / mesh.spacing), 5, dice).size() == 5);
+  CHECK(flatTiles(ground, int(1.9 / ball.spacing), 5, dice).empty());
+  CHECK(flatTiles(ground, int(0.5 / ball.spacing), 5, dice).size() == 5);
 }
 
 TEST_CASE("tiles: what is see-through is seen over mid grey", "[texture]") {
