@@ -170,7 +170,7 @@ void correctPhi(FloatGrid& phi, const Markers& markers, const FloatGrid& solidPh
     float scratch[kLeafSize];
     const float* solid = leafValues(solidPhi.constTree(), leaves[n]->origin(), scratch);
     for (int i = 0; i < kLeafSize; ++i) {
-      if (solid[i] < -kDeepInSolid * h) continue;
+      if (solid[i] < 0.0f) continue;
       const float right = std::abs(air[i]) <= std::abs(liquid[i]) ? air[i] : liquid[i];
       value[i] = std::clamp(right, -background, background);
     }

@@ -173,6 +173,17 @@ struct LeafPlan {
   bool rests() const { return held.size() == kLeafSize; }
 };
 
+// Whether a cell beside a surface that is not smooth is left alone; too far a one is moved. A surface through
+// the places where it crosses the axes is at most as far as the nearest of them, and at least as far as a
+// plane through all. Any value between may be right, and that of a corner is. The iteration makes the plane
+// of it, in the next call a plane through the new crossings, and so on: corners would wear away.
+bool keepCorner(const NearCell& cell, const float* p, float h, std::vector<CellDistance>& moved) {
+  const float nearest = *std::min_element(cell.reach.begin(), cell.reach.end());
+  if (std::abs(*p) <= nearest * h) return slopeAt(StoredValues{p}, cell) >= h * h;
+  moved.push_back({static_cast<std::int16_t>(cell.offset), *p < 0.0f ? -nearest : nearest});
+  return true;
+}
+
 LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& origin, float h,
                   const Visibility::Leaf* visibility) {
   float scratch[kLeafSize];
@@ -200,6 +211,9 @@ LeafPlan planLeaf(const FloatTree& phi, const FloatTree& solidPhi, const Coord& 
     if (std::abs(block[FluxBlock::index(cell.offset)] / h - cell.phi) > kRightEnough)
       plan.moved.push_back(cell);
   }
+  for (const NearCell& cell : plan.near)
+    if (!held[cell.offset] && !notAsked[cell.offset])
+      held[cell.offset] = keepCorner(cell, block + FluxBlock::index(cell.offset), h, plan.moved);
   std::erase_if(plan.near, [&](const NearCell& cell) { return held[cell.offset]; });
   for (std::int16_t i = 0; i < kLeafSize; ++i) {
     if (held[i]) plan.held.push_back(i);

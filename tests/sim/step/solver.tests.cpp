@@ -175,6 +175,21 @@ TEST_CASE("solver: a gap between a pool and what is above it stays") {
   }
 }
 
+TEST_CASE("solver: a pool stays at rest in a slot of a third of a cell between two blocks") {
+  Options options = tank(30, {box(Vec3d(0.0), Vec3d(1.0, 0.663813852, 0.201867024))});
+  options.size = Vec3d(1.0, 0.663813852, 0.488517605);
+  options.solids.resize(2);
+  options.solids[0].shape = {
+      Box{Vec3d(0.240451705, 0.510497605, 0.183958659), Vec3d(0.509887119, 0.656416878, 0.374585215)}};
+  options.solids[1].shape = {
+      Box{Vec3d(0.21890862, 0.460383943, 0.0670086093), Vec3d(0.370253971, 0.547800651, 0.242229909)}};
+  Solver solver(options);
+  for (int n = 0; n < 20; ++n) {
+    solver.next();
+    CHECK(std::abs(solver.state().velocity.component[2]->tree().getValue(Coord(11, 15, 6))) < 0.03f);
+  }
+}
+
 TEST_CASE("solver: water leaves a ceiling") {
   Solver solver(tank(24, {box(Vec3d(0.25, 0.25, 0.8), Vec3d(0.75, 0.75, 1.0))}));
   const double start = centreHeight(solver.next());
