@@ -1,77 +1,17 @@
 #include "pipeline/take_cache.h"
 
 #include "caches/layouts/numbered_files.h"
-#include "caches/recorded/recorded_frame.h"
-#include "caches/recorded/recording.h"
-#include "sim/step/solver.h"
+#include "tests/pipeline/written_caches.h"
 #include "tests/scratch.h"
-
-#include <openvdb/tools/LevelSetSphere.h>
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 using namespace fluidtex;
 using namespace fluidtex::pipeline;
 using Catch::Contains;
-using sim::Vec3d;
-
-namespace {
-
-constexpr double kCell = 0.05, kRadius = 0.4;
-
-// Balls at (1, 2, 3) that go a quarter of a metre a frame along x, and how hot they are.
-void writeBalls(const std::filesystem::path& folder, int first, int last, double radius = kRadius) {
-  openvdb::initialize();
-  for (int number = first; number <= last; ++number) {
-    const Vec3d center(1.0 + 0.25 * (number - first), 2.0, 3.0);
-    const auto ball = openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(
-        float(radius), openvdb::Vec3f(center), float(kCell));
-    ball->setName("surface");
-    const auto cells = ball->evalActiveVoxelBoundingBox();
-    const auto velocity = openvdb::Vec3SGrid::create(openvdb::Vec3f(0.0f));
-    velocity->setName("vel");
-    velocity->setTransform(ball->transformPtr());
-    velocity->denseFill(cells, openvdb::Vec3f(6.0f, 0.0f, 0.0f));
-    const auto heat = openvdb::FloatGrid::create(0.0f);
-    heat->setName("temperature");
-    heat->setTransform(ball->transformPtr());
-    heat->denseFill(cells, 300.0f);
-    openvdb::io::File((folder / ("water_" + std::to_string(number) + ".vdb")).string())
-        .write({ball, velocity, heat});
-  }
-}
-
-// A scene that leaves all to the files, as one without a scene file does.
-scenes::Scene sceneIn(const std::filesystem::path& folder) {
-  scenes::Scene scene;
-  scene.files.path = folder;
-  scene.frames = 0;
-  scene.sim.size = Vec3d(0.0);
-  scene.render.camera.from = scene.render.camera.at = Vec3d(std::numeric_limits<double>::quiet_NaN());
-  return scene;
-}
-
-sim::Options pool() {
-  sim::Options options;
-  options.size = Vec3d(0.75, 0.5, 0.5);
-  options.resolution = 12;
-  options.sides[5] = sim::Side::open;
-  options.liquid.push_back({.shape = {sim::Sphere{{0.3, 0.25, 0.25}, 0.15}}});
-  return options;
-}
-
-void writePool(const std::filesystem::path& folder, int frames) {
-  sim::Solver solver(pool());
-  for (int frame = 1; frame <= frames; ++frame)
-    caches::writeRecordedFrame(solver.next(), pool().voxelSize(), caches::recordedFrame(folder, frame));
-  std::ofstream(folder / caches::kRecordingFile) << caches::recordingText(pool());
-}
-
-}  // namespace
 
 TEST_CASE("take cache: what a scene does not say is what the files have") {
   const Scratch scratch;
@@ -83,11 +23,12 @@ TEST_CASE("take cache: what a scene does not say is what the files have") {
   CHECK(scene.files.first == 5);
   CHECK(scene.onto.last == 13);
   CHECK_FALSE(scene.comesAsMeshes);
-  CHECK(scene.files.voxel == Approx(kCell));
+  CHECK(scene.files.voxel == Approx(kBallCell));
   // The bounds of the first ball and the last.
-  CHECK(scene.domainOrigin.eq(Vec3d(1.0, 2.0, 3.0) - Vec3d(kRadius), 0.2 * kCell));
-  CHECK(scene.sim.size.eq(Vec3d(2.0 * kRadius + 0.5, 2.0 * kRadius, 2.0 * kRadius), 0.4 * kCell));
-  CHECK(scene.sim.resolution == int(std::ceil(scene.sim.size[0] / kCell)));
+  CHECK(scene.domainOrigin.eq(Vec3d(1.0, 2.0, 3.0) - Vec3d(kBallRadius), 0.2 * kBallCell));
+  CHECK(scene.sim.size.eq(Vec3d(2.0 * kBallRadius + 0.5, 2.0 * kBallRadius, 2.0 * kBallRadius),
+                          0.4 * kBallCell));
+  CHECK(scene.sim.resolution == int(std::ceil(scene.sim.size[0] / kBallCell)));
   // Seen from where the default view sees its domain, as large in the picture.
   const render::Camera& camera = scene.render.camera;
   CHECK(camera.at.eq(scene.domainOrigin + 0.5 * scene.sim.size, 1e-9));
@@ -119,7 +60,7 @@ TEST_CASE("take cache: what a scene says stays") {
   CHECK(scene.sim.resolution == 33);
   CHECK(scene.domainOrigin == Vec3d(0.0));
   CHECK(scene.render.camera.from == Vec3d(9.0, 8.0, 7.0));
-  CHECK(scene.render.camera.at.eq(Vec3d(1.25, 2.0, 3.0), 0.2 * kCell));
+  CHECK(scene.render.camera.at.eq(Vec3d(1.25, 2.0, 3.0), 0.2 * kBallCell));
   scene.render.camera.at = Vec3d(1.0, 1.0, 1.0);
   takeCache(scene);
   CHECK(scene.render.camera.at == Vec3d(1.0, 1.0, 1.0));
@@ -127,10 +68,10 @@ TEST_CASE("take cache: what a scene says stays") {
 
 TEST_CASE("take cache: around a drop there is a little room") {
   const Scratch scratch;
-  writeBalls(scratch.path, 1, 1, 1.7 * kCell);
+  writeBalls(scratch.path, 1, 1, 1.7 * kBallCell);
   scenes::Scene scene = sceneIn(scratch.path);
   takeCache(scene);
-  CHECK(scene.sim.size.eq(Vec3d(4.0 * kCell), 1e-6));
+  CHECK(scene.sim.size.eq(Vec3d(4.0 * kBallCell), 1e-6));
   CHECK(scene.sim.resolution == 8);
 }
 
