@@ -10,7 +10,7 @@
 using namespace fluidtex;
 using sim::Vec3d;
 using stress::addSolid;
-using stress::box;
+using stress::boxShape;
 using stress::Surroundings;
 using stress::tank;
 
@@ -20,7 +20,7 @@ constexpr double kCell = 0.05;  // of the tanks
 
 // A tank of 0.4 m3, and what a budget says of it.
 struct Pool {
-  sim::Options options = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.4)));
+  sim::Options options = tank(boxShape(Vec3d(0.0), Vec3d(1.0, 1.0, 0.4)));
 
   // Of that volume at the time `to`, after what was poured was there at `from`.
   double after(double from, double to, double volume) const {
@@ -34,8 +34,8 @@ struct Pool {
 }  // namespace
 
 TEST_CASE("volume budget: what comes and goes is allowed, and no more", "[stress]") {
-  sim::Options options = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.4)));
-  options.liquid.push_back({box(Vec3d(0.3, 0.3, 0.6), Vec3d(0.7, 0.7, 0.8)), Vec3d(0.0), 0.5});
+  sim::Options options = tank(boxShape(Vec3d(0.0), Vec3d(1.0, 1.0, 0.4)));
+  options.liquid.push_back({boxShape(Vec3d(0.3, 0.3, 0.6), Vec3d(0.7, 0.7, 0.8)), Vec3d(0.0), 0.5});
   const Surroundings surroundings(options, {});
   stress::VolumeBudget budget(options, surroundings);
   CHECK(budget.start(0.4) == 0.0);
@@ -44,7 +44,7 @@ TEST_CASE("volume budget: what comes and goes is allowed, and no more", "[stress
   CHECK(budget.advance(0.5, 0.75, 0.45) == Approx(0.018).epsilon(0.02));
   CHECK(budget.advance(0.75, 1.0, 0.42) == Approx(-0.012).epsilon(0.02));
   // Through a drain liquid goes for good.
-  options.drains.push_back({box(Vec3d(0.0), Vec3d(0.1))});
+  options.drains.push_back({boxShape(Vec3d(0.0), Vec3d(0.1))});
   stress::VolumeBudget drained(options, surroundings);
   drained.start(0.4);
   CHECK(drained.advance(0.0, 0.1, 0.3) == 0.0);
@@ -54,10 +54,10 @@ TEST_CASE("volume budget: what comes and goes is allowed, and no more", "[stress
 TEST_CASE("volume budget: a source must give no more than its room holds", "[stress]") {
   // Walls part the tank. On the source's side there is room for 0.5 x 1 x 0.2 m3, less its own 0.4 x 0.4 x
   // 0.1.
-  sim::Options options = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.8)));
-  addSolid(options, box(Vec3d(0.5, -1.0, -1.0), Vec3d(0.7, 2.0, 2.0)));
+  sim::Options options = tank(boxShape(Vec3d(0.0), Vec3d(1.0, 1.0, 0.8)));
+  addSolid(options, boxShape(Vec3d(0.5, -1.0, -1.0), Vec3d(0.7, 2.0, 2.0)));
   sim::Source source;
-  source.shape = box(Vec3d(0.05, 0.3, 0.9), Vec3d(0.45, 0.7, 1.0));
+  source.shape = boxShape(Vec3d(0.05, 0.3, 0.9), Vec3d(0.45, 0.7, 1.0));
   source.velocity = Vec3d(0.0, 0.0, -1.0);
   options.sources.push_back(source);
   const Surroundings surroundings(options, {});
@@ -90,7 +90,7 @@ TEST_CASE("volume budget: as much must be poured as the shapes hold, within what
 
 TEST_CASE("volume budget: what flows away from the first step on may be missing at once", "[stress]") {
   sim::Options options = Pool().options;
-  options.drains.push_back({box(Vec3d(0.0), Vec3d(0.4))});  // 0.064 m3
+  options.drains.push_back({boxShape(Vec3d(0.0), Vec3d(0.4))});  // 0.064 m3
   const auto start = [&](double volume) {
     const Surroundings surroundings(options, {});
     return stress::VolumeBudget(options, surroundings).start(volume);
@@ -127,7 +127,7 @@ TEST_CASE("volume budget: through an open side liquid goes, through a stream's i
 
 TEST_CASE("volume budget: a solid that appears takes what is where it stands", "[stress]") {
   Pool pool;
-  addSolid(pool.options, box(Vec3d(0.2, 0.2, -1.0), Vec3d(0.6, 0.6, 0.7)));  // in 0.064 m3 of it
+  addSolid(pool.options, boxShape(Vec3d(0.2, 0.2, -1.0), Vec3d(0.6, 0.6, 0.7)));  // in 0.064 m3 of it
   pool.options.solids[0].from = 0.5;
   CHECK(pool.after(0.25, 0.49, 0.336) == Approx(-0.064).epsilon(0.05));
   // It may be in the air above as well: no less is missing than all of the solid in the domain.
@@ -139,7 +139,7 @@ TEST_CASE("volume budget: a source gives its front times its speed and rate, as 
           "[stress]") {
   Pool pool;
   sim::Source source;
-  source.shape = box(Vec3d(0.3, 0.3, 0.8), Vec3d(0.7, 0.7, 0.9));  // a front of 0.16 m2
+  source.shape = boxShape(Vec3d(0.3, 0.3, 0.8), Vec3d(0.7, 0.7, 0.9));  // a front of 0.16 m2
   source.velocity = Vec3d(0.0, 0.0, -1.0);
   source.until = 1.0;
   source.rate = {{0.0, 0.0}, {0.5, 1.0}, {0.75, 1.0}};

@@ -10,7 +10,7 @@ using namespace fluidtex;
 using sim::Coord;
 using sim::Vec3d;
 using stress::addSolid;
-using stress::box;
+using stress::boxShape;
 using stress::Surroundings;
 using stress::tank;
 
@@ -22,21 +22,21 @@ sim::Shape without(sim::Shape whole, sim::Shape part) {
 
 // Walls of half a cell around a room of ten cells a side.
 sim::Options shutBox() {
-  sim::Options options = tank(box(Vec3d(0.25), Vec3d(0.75, 0.75, 0.45)));
-  addSolid(options, without(box(Vec3d(0.225), Vec3d(0.775)), box(Vec3d(0.25), Vec3d(0.75))));
+  sim::Options options = tank(boxShape(Vec3d(0.25), Vec3d(0.75, 0.75, 0.45)));
+  addSolid(options, without(boxShape(Vec3d(0.225), Vec3d(0.775)), boxShape(Vec3d(0.25), Vec3d(0.75))));
   return options;
 }
 
 }  // namespace
 
 TEST_CASE("surroundings: a pool is at rest, a column, a drop and a pool that moves are not", "[stress]") {
-  CHECK(Surroundings(tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.43))), {}).atRest());
-  CHECK_FALSE(Surroundings(tank(box(Vec3d(0.0), Vec3d(0.5, 1.0, 0.43))), {}).atRest());
+  CHECK(Surroundings(tank(boxShape(Vec3d(0.0), Vec3d(1.0, 1.0, 0.43))), {}).atRest());
+  CHECK_FALSE(Surroundings(tank(boxShape(Vec3d(0.0), Vec3d(0.5, 1.0, 0.43))), {}).atRest());
   CHECK_FALSE(Surroundings(tank({sim::Sphere{Vec3d(0.5), 0.2}}), {}).atRest());
-  sim::Options moves = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.43)));
+  sim::Options moves = tank(boxShape(Vec3d(0.0), Vec3d(1.0, 1.0, 0.43)));
   moves.liquid[0].velocity = Vec3d(0.1, 0.0, 0.0);
   CHECK_FALSE(Surroundings(moves, {}).atRest());
-  sim::Options open = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.43)));
+  sim::Options open = tank(boxShape(Vec3d(0.0), Vec3d(1.0, 1.0, 0.43)));
   open.sides[1] = sim::Side::open;
   CHECK_FALSE(Surroundings(open, {}).atRest());
 }
@@ -46,20 +46,20 @@ TEST_CASE("surroundings: a pool with a gap at a wall is not at rest, however nar
   for (const double gap : {0.03, 0.1, 0.25, 0.4}) {
     INFO("gap of " << gap << " cells");
     const double end = 1.0 - gap * cell;
-    CHECK_FALSE(Surroundings(tank(box(Vec3d(0.0), Vec3d(end, 1.0, 0.43))), {}).atRest());
-    sim::Options cut = tank(box(Vec3d(0.0), Vec3d(end, 1.0, 0.43)));
-    addSolid(cut, box(Vec3d(end, -cell, -cell), Vec3d(1.0 + cell)));
+    CHECK_FALSE(Surroundings(tank(boxShape(Vec3d(0.0), Vec3d(end, 1.0, 0.43))), {}).atRest());
+    sim::Options cut = tank(boxShape(Vec3d(0.0), Vec3d(end, 1.0, 0.43)));
+    addSolid(cut, boxShape(Vec3d(end, -cell, -cell), Vec3d(1.0 + cell)));
     CHECK(Surroundings(cut, {}).atRest());
-    sim::Options above = tank(box(Vec3d(0.0, 0.0, gap * cell), Vec3d(1.0, 1.0, 0.43)));
+    sim::Options above = tank(boxShape(Vec3d(0.0, 0.0, gap * cell), Vec3d(1.0, 1.0, 0.43)));
     CHECK_FALSE(Surroundings(above, {}).atRest());
   }
-  sim::Options two = tank(box(Vec3d(0.0), Vec3d(0.61, 1.0, 0.43)));
-  two.liquid.push_back({box(Vec3d(0.61, 0.0, 0.0), Vec3d(1.0, 1.0, 0.43))});
+  sim::Options two = tank(boxShape(Vec3d(0.0), Vec3d(0.61, 1.0, 0.43)));
+  two.liquid.push_back({boxShape(Vec3d(0.61, 0.0, 0.0), Vec3d(1.0, 1.0, 0.43))});
   CHECK(Surroundings(two, {}).atRest());
 }
 
 TEST_CASE("surroundings: a column beside an unbounded side may splash to any height", "[stress]") {
-  sim::Options options = tank(box(Vec3d(0.0), Vec3d(0.5, 1.0, 0.43)));
+  sim::Options options = tank(boxShape(Vec3d(0.0), Vec3d(0.5, 1.0, 0.43)));
   options.sides[0] = sim::Side::unbounded;
   const Surroundings falls(options, {});
   CHECK_FALSE(falls.atRest());
@@ -88,16 +88,16 @@ TEST_CASE("surroundings: no way leads through a wall of half a cell, unless it i
 TEST_CASE("surroundings: liquid that reaches out of a wall by a tenth of a cell gets to that side too",
           "[stress]") {
   for (const double begin : {0.394, 0.41}) {
-    sim::Options options = tank(box(Vec3d(0.1, begin, 0.3), Vec3d(0.4, 0.8, 0.6)));
-    addSolid(options, box(Vec3d(-1.0, 0.4, -1.0), Vec3d(2.0, 0.5, 2.0)));
+    sim::Options options = tank(boxShape(Vec3d(0.1, begin, 0.3), Vec3d(0.4, 0.8, 0.6)));
+    addSolid(options, boxShape(Vec3d(-1.0, 0.4, -1.0), Vec3d(2.0, 0.5, 2.0)));
     CAPTURE(begin);
     CHECK(Surroundings(options, {}).reached(Coord(4, 7, 8)) == (begin < 0.4));
   }
 }
 
 TEST_CASE("surroundings: what leaves through one unbounded side may come back through another", "[stress]") {
-  sim::Options options = tank(box(Vec3d(0.1), Vec3d(0.3, 0.9, 0.5)));
-  addSolid(options, box(Vec3d(0.45, -1.0, -1.0), Vec3d(0.55, 2.0, 2.0)));
+  sim::Options options = tank(boxShape(Vec3d(0.1), Vec3d(0.3, 0.9, 0.5)));
+  addSolid(options, boxShape(Vec3d(0.45, -1.0, -1.0), Vec3d(0.55, 2.0, 2.0)));
   CHECK_FALSE(Surroundings(options, {}).reached(Coord(15, 10, 10)));
   options.sides[0] = options.sides[1] = sim::Side::unbounded;
   const Surroundings around(options, {});
@@ -109,7 +109,7 @@ TEST_CASE("surroundings: what leaves through one unbounded side may come back th
 }
 
 TEST_CASE("surroundings: volumes are those of the shapes outside of solids", "[stress]") {
-  sim::Options options = tank(box(Vec3d(-1.0), Vec3d(0.513, 2.0, 0.377)));
+  sim::Options options = tank(boxShape(Vec3d(-1.0), Vec3d(0.513, 2.0, 0.377)));
   options.size = Vec3d(1.0, 0.729, 1.0);
   addSolid(options, {sim::Sphere{Vec3d(0.25, 0.4, 0.2), 0.15}});
   const double expected = 0.513 * 0.729 * 0.377 - 4.0 / 3.0 * M_PI * 0.15 * 0.15 * 0.15;
@@ -124,32 +124,32 @@ TEST_CASE("surroundings: a front gives its area times its speed, wherever it lie
   for (const double at : {0.0, 0.1, 0.25, 0.4, 0.6, 0.75}) {
     INFO("at " << at << " of a cell");
     const Vec3d low = Vec3d(0.3) + Vec3d(at * cell);
-    const double rate = surroundings.frontRate(box(low, low + Vec3d(side)), Vec3d(0.0, 0.0, -2.0), 0.0);
+    const double rate = surroundings.frontRate(boxShape(low, low + Vec3d(side)), Vec3d(0.0, 0.0, -2.0), 0.0);
     CHECK(rate == Approx(2.0 * side * side).epsilon(0.02));
   }
 }
 
 TEST_CASE("surroundings: a shape's surface is what of it lies in the open", "[stress]") {
-  sim::Options options = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.5)));
-  const sim::Shape drain = box(Vec3d(0.21, 0.32, 0.13), Vec3d(0.74, 0.85, 0.49));
+  sim::Options options = tank(boxShape(Vec3d(0.0), Vec3d(1.0, 1.0, 0.5)));
+  const sim::Shape drain = boxShape(Vec3d(0.21, 0.32, 0.13), Vec3d(0.74, 0.85, 0.49));
   const double sides = 4.0 * 0.53 * 0.36, ends = 2.0 * 0.53 * 0.53;
   CHECK(Surroundings(options, {}).surfaceOf(drain, 0.0) == Approx(sides + ends).epsilon(0.03));
-  addSolid(options, box(Vec3d(-1.0), Vec3d(0.475, 2.0, 2.0)));
+  addSolid(options, boxShape(Vec3d(-1.0), Vec3d(0.475, 2.0, 2.0)));
   CHECK(Surroundings(options, {}).surfaceOf(drain, 0.0) == Approx(0.5 * (sides + ends)).epsilon(0.15));
 }
 
 TEST_CASE("surroundings: beyond an unbounded side there is liquid, too", "[stress]") {
-  sim::Options options = tank(box(Vec3d(-0.3, 0.2, 0.1), Vec3d(0.4, 0.7, 0.6)));
+  sim::Options options = tank(boxShape(Vec3d(-0.3, 0.2, 0.1), Vec3d(0.4, 0.7, 0.6)));
   CHECK(Surroundings(options, {}).pouredVolume() == Approx(0.4 * 0.5 * 0.5).epsilon(0.01));
   options.sides[0] = sim::Side::unbounded;
   CHECK(Surroundings(options, {}).pouredVolume() == Approx(0.7 * 0.5 * 0.5).epsilon(0.01));
 }
 
 TEST_CASE("surroundings: what is poured into a narrow gap or beside a thin wall is told apart", "[stress]") {
-  sim::Options gap = tank(box(Vec3d(0.0), Vec3d(1.0, 1.0, 0.3)));
+  sim::Options gap = tank(boxShape(Vec3d(0.0), Vec3d(1.0, 1.0, 0.3)));
   CHECK(Surroundings(gap, {}).inNarrowGaps() == 0.0);
   CHECK(Surroundings(gap, {}).besideThinWalls() == 0.0);
-  addSolid(gap, box(Vec3d(0.2, 0.2, 0.03), Vec3d(0.8, 0.8, 0.5)));  // 0.6 cells above the floor
+  addSolid(gap, boxShape(Vec3d(0.2, 0.2, 0.03), Vec3d(0.8, 0.8, 0.5)));  // 0.6 cells above the floor
   CHECK(Surroundings(gap, {}).inNarrowGaps() == Catch::Detail::Approx(0.6 * 0.6 * 0.03).epsilon(0.2));
   // A box of half-cell walls, wet inside on four sides of 10 by 4 cells and a floor of 10 by 10.
   const double thin = Surroundings(shutBox(), {}).besideThinWalls() / std::pow(0.05, 3);
@@ -158,8 +158,8 @@ TEST_CASE("surroundings: what is poured into a narrow gap or beside a thin wall 
 }
 
 TEST_CASE("surroundings: gaps are found as well where samples begin below 0", "[stress]") {
-  sim::Options gap = tank(box(Vec3d(-0.3, 0.0, 0.0), Vec3d(1.0, 1.0, 0.3)));
+  sim::Options gap = tank(boxShape(Vec3d(-0.3, 0.0, 0.0), Vec3d(1.0, 1.0, 0.3)));
   gap.sides[0] = sim::Side::unbounded;
-  addSolid(gap, box(Vec3d(0.2, 0.2, 0.03), Vec3d(0.8, 0.8, 0.5)));
+  addSolid(gap, boxShape(Vec3d(0.2, 0.2, 0.03), Vec3d(0.8, 0.8, 0.5)));
   CHECK(Surroundings(gap, {}).inNarrowGaps() == Approx(0.6 * 0.6 * 0.03).epsilon(0.2));
 }

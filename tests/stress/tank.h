@@ -10,7 +10,7 @@ namespace fluidtex::stress {
 
 using sim::Vec3d;
 
-inline sim::Shape box(const Vec3d& low, const Vec3d& high) {
+inline sim::Shape boxShape(const Vec3d& low, const Vec3d& high) {
   return {sim::Box{low, high}};
 }
 
