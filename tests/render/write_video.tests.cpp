@@ -2,14 +2,12 @@
 #include "render/render.h"
 #include "tests/file_limit.h"
 #include "tests/scratch.h"
+#include "tests/video_probe.h"
 
 #include <catch2/catch.hpp>
 
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <memory>
 
 using namespace fluidtex::render;
 namespace fs = std::filesystem;
@@ -26,19 +24,6 @@ fs::path frames(const Scratch& scratch, const std::string& name, int first, int 
              folder / (frameName(frame) + ".png"));
   }
   return folder;
-}
-
-std::string probe(const fs::path& video, const std::string& entries) {
-  const std::string command =
-      "ffprobe -v error -count_frames -select_streams v -of csv=p=0 -show_entries stream=" + entries + " '" +
-      video.string() + "'";
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), &pclose);
-  std::array<char, 256> line{};
-  REQUIRE(pipe);
-  REQUIRE(std::fgets(line.data(), line.size(), pipe.get()));
-  std::string text = line.data();
-  while (!text.empty() && (text.back() == '\n' || text.back() == ',')) text.pop_back();
-  return text;
 }
 
 }  // namespace
