@@ -17,8 +17,10 @@ void put(std::string& bytes, const std::string& text) {
   bytes += text;
 }
 
+constexpr const char* kFailed = "cannot be read: the program that reads it failed";
+
 std::string_view taken(std::string_view& bytes, std::size_t count) {
-  if (bytes.size() < count) throw Unreadable("cannot be read: the program that reads it failed");
+  if (bytes.size() < count) throw Unreadable(kFailed);
   const std::string_view piece = bytes.substr(0, count);
   bytes.remove_prefix(count);
   return piece;
@@ -27,6 +29,14 @@ std::string_view taken(std::string_view& bytes, std::size_t count) {
 template <class Number>
 void take(std::string_view& bytes, Number& number) {
   std::memcpy(&number, taken(bytes, sizeof number).data(), sizeof number);
+}
+
+// Any other byte in a bool is none.
+void take(std::string_view& bytes, bool& flag) {
+  unsigned char byte = 0;
+  take(bytes, byte);
+  if (byte > 1) throw Unreadable(kFailed);
+  flag = byte == 1;
 }
 
 void take(std::string_view& bytes, std::string& text) {

@@ -96,7 +96,7 @@ bool writeAvif(const std::filesystem::path& file, bool byProfile) {
 
 }  // namespace
 
-TEST_CASE("pictures: a colour profile's meaning, not its numbers", "[foreign]") {
+TEST_CASE("picture: a colour profile's meaning, not its numbers", "[foreign]") {
   const Scratch scratch;
   for (const char* name : {"linear.png", "linear.tif", "linear.jpg"}) {
     INFO(name);
@@ -128,7 +128,7 @@ TEST_CASE("pictures: a colour profile's meaning, not its numbers", "[foreign]") 
   checkShows(numbers, 0, 0, kWidth, kHeight, 0);
 }
 
-TEST_CASE("pictures: a profile keeps alpha, and colours multiplied by it", "[foreign]") {
+TEST_CASE("picture: a profile keeps alpha, and colours multiplied by it", "[foreign]") {
   const Scratch scratch;
   const Picture straight = readColors(
       write(scratch, "a.png", withProfile(rgb(TypeDesc::UINT16, 4), rgbProfile(kSrgbPrimaries, 2.0))));
@@ -137,7 +137,7 @@ TEST_CASE("pictures: a profile keeps alpha, and colours multiplied by it", "[for
   CHECK_THAT(pixel(straight, 2, 3)[3], WithinAbs(stored(2, 3, 3), 1e-4));
 }
 
-TEST_CASE("pictures: a profile that cannot be used is told, and the picture read as sRGB", "[foreign]") {
+TEST_CASE("picture: a profile that cannot be used is told, and the picture read as sRGB", "[foreign]") {
   const Scratch scratch;
   CHECK(colorNote(write(scratch, "plain.tif", rgb())).empty());
   CHECK(colorNote(write(scratch, "good.tif", withProfile(rgb(), rgbProfile(kP3Primaries, 2.2)))).empty());
@@ -149,7 +149,7 @@ TEST_CASE("pictures: a profile that cannot be used is told, and the picture read
   CHECK_THAT(colorNote(write(scratch, "inks.tif", withProfile(rgb(), inkProfile()))), Contains("CMYK"));
 }
 
-TEST_CASE("pictures: primaries that an EXR names", "[foreign]") {
+TEST_CASE("picture: primaries that an EXR names", "[foreign]") {
   const Scratch scratch;
   ImageSpec spec = rgb(TypeDesc::FLOAT);
   const float p3[8] = {0.680f, 0.320f, 0.265f, 0.690f, 0.150f, 0.060f, 0.3127f, 0.3290f};
@@ -160,7 +160,7 @@ TEST_CASE("pictures: primaries that an EXR names", "[foreign]") {
   CHECK_THAT(pixel(wide, 9, 5)[1], WithinAbs(wanted, 3e-3));
 }
 
-TEST_CASE("pictures: the colours of an AVIF or HEIC file, by profile or by code", "[foreign]") {
+TEST_CASE("picture: the colours of an AVIF or HEIC file, by profile or by code", "[foreign]") {
   const Scratch scratch;
   const auto linear = [](double v) { return std::pow((v / 255.0 + 0.055) / 1.055, 2.4); };
   for (const bool byProfile : {true, false}) {
@@ -181,7 +181,7 @@ TEST_CASE("pictures: the colours of an AVIF or HEIC file, by profile or by code"
   }
 }
 
-TEST_CASE("pictures: inks, inverted with Adobe's mark and as they are without", "[foreign]") {
+TEST_CASE("picture: inks, inverted with Adobe's mark and as they are without", "[foreign]") {
   const Scratch scratch;
   for (const bool mark : {true, false}) {
     INFO("mark " << mark);
@@ -201,7 +201,7 @@ TEST_CASE("pictures: inks, inverted with Adobe's mark and as they are without", 
   }
 }
 
-TEST_CASE("pictures: a TIFF of inks with their profile", "[foreign]") {
+TEST_CASE("picture: a TIFF of inks with their profile", "[foreign]") {
   const Scratch scratch;
   const std::string file = (scratch.path / "inks.tif").string();
   ImageSpec spec = withProfile(rgb(), inkProfile());

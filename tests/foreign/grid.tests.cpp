@@ -71,7 +71,7 @@ std::string renamed(std::string bytes, const std::string& from, const std::strin
 
 }  // namespace
 
-TEST_CASE("grids: names, types, classes and counts of all that are in the file", "[foreign]") {
+TEST_CASE("grid: names, types, classes and counts of all that are in the file", "[foreign]") {
   const Files files;
   const auto phi = made<FloatGrid>("vel.x", 1.0f), small = made<FloatGrid>("", 1.0f);
   phi->setGridClass(openvdb::GRID_LEVEL_SET);
@@ -102,7 +102,7 @@ TEST_CASE("grids: names, types, classes and counts of all that are in the file",
   CHECK(scalars(files.file, "")->getName().empty());
 }
 
-TEST_CASE("grids: numbers of all kinds become floats, and the rest stays what it was", "[foreign]") {
+TEST_CASE("grid: numbers of all kinds become floats, and the rest stays what it was", "[foreign]") {
   const Files files;
   const auto density = made<DoubleGrid>("double", 0.1);
   density->tree().root().setBackground(2.5, true);
@@ -144,7 +144,7 @@ TEST_CASE("grids: numbers of all kinds become floats, and the rest stays what it
   CHECK(vectors(files.file, "vec3i")->tree().getValue(place) == Vec3s(1.0f, 2.0f, 3.0f));
 }
 
-TEST_CASE("grids: a class that lies, and inactive values, are given as they are", "[foreign]") {
+TEST_CASE("grid: a class that lies, and inactive values, are given as they are", "[foreign]") {
   const Files files;
   // Distances in voxels, some in tiles, background 0.
   const auto phi = made<FloatGrid>("phi", -7.0f);
@@ -161,7 +161,7 @@ TEST_CASE("grids: a class that lies, and inactive values, are given as they are"
   CHECK(got->tree().hasSameTopology(phi->tree()));
 }
 
-TEST_CASE("grids: of several with one name the first, and all in the list", "[foreign]") {
+TEST_CASE("grid: of several with one name the first, and all in the list", "[foreign]") {
   const Files files;
   files.write({made<FloatGrid>("a", 1.0f), made<FloatGrid>("b", 2.0f), made<FloatGrid>("b", 3.0f)});
   CHECK(scalars(files.file, "b")->tree().getValue(Coord(0, 0, 3)) == 2.0f);
@@ -171,7 +171,7 @@ TEST_CASE("grids: of several with one name the first, and all in the list", "[fo
   CHECK(heads[2].name == "b");
 }
 
-TEST_CASE("grids: any affine transform, index to world", "[foreign]") {
+TEST_CASE("grid: any affine transform, index to world", "[foreign]") {
   const Files files;
   const auto grid = made<FloatGrid>("a", 1.0f);
   const auto check = [&](const openvdb::math::Transform::Ptr& transform) {
@@ -204,7 +204,7 @@ TEST_CASE("grids: any affine transform, index to world", "[foreign]") {
   check(openvdb::math::Transform::createLinearTransform(1e-4));
 }
 
-TEST_CASE("grids: transforms that are not affine or lead nowhere are listed and refused", "[foreign]") {
+TEST_CASE("grid: transforms that are not affine or lead nowhere are listed and refused", "[foreign]") {
   const Files files;
   const auto grid = made<FloatGrid>("smoke", 1.0f);
   const auto refused = [&] {
@@ -235,7 +235,7 @@ TEST_CASE("grids: transforms that are not affine or lead nowhere are listed and 
   refused();
 }
 
-TEST_CASE("grids: one of an unknown type is listed, and hinders no other", "[foreign]") {
+TEST_CASE("grid: one of an unknown type is listed, and hinders no other", "[foreign]") {
   const Files files;
   // Points of an unknown kind: of floats, under another name.
   const auto particles = made<openvdb::Int32Grid>("particles", 1);
@@ -254,7 +254,7 @@ TEST_CASE("grids: one of an unknown type is listed, and hinders no other", "[for
                     Contains("holds values of the type Tree_point_5_4_3, and single numbers are needed"));
 }
 
-TEST_CASE("grids: a file that was written as a stream, whose grids lie nowhere in particular", "[foreign]") {
+TEST_CASE("grid: a file that was written as a stream, whose grids lie nowhere in particular", "[foreign]") {
   const Files files;
   std::ostringstream out;
   openvdb::io::Stream(out).write(
@@ -269,7 +269,7 @@ TEST_CASE("grids: a file that was written as a stream, whose grids lie nowhere i
   CHECK(vectors(files.file, "velocity")->tree().getValue(Coord(0, 0, 3)) == Vec3s(2.0f));
 }
 
-TEST_CASE("grids: two that share a tree", "[foreign]") {
+TEST_CASE("grid: two that share a tree", "[foreign]") {
   const Files files;
   const auto a = made<FloatGrid>("a", 4.0f);
   const FloatGrid::Ptr b = a->copy();  // of the grid, not of its tree
@@ -282,7 +282,7 @@ TEST_CASE("grids: two that share a tree", "[foreign]") {
   CHECK(scalars(files.file, "a")->voxelSize()[0] == 1.0);
 }
 
-TEST_CASE("grids: a clear word about what is not there", "[foreign]") {
+TEST_CASE("grid: a clear word about what is not there", "[foreign]") {
   const Files files;
   files.write({made<FloatGrid>("phi", 1.0f), made<Vec3SGrid>("vel", Vec3s(1.0f))});
   CHECK_THROWS_WITH(readGrid(files.file, "velocity", true),
@@ -299,7 +299,7 @@ TEST_CASE("grids: a clear word about what is not there", "[foreign]") {
   CHECK_THROWS_WITH(listGrids(files.scratch.path / "none.vdb"), Contains("cannot be opened"));
 }
 
-TEST_CASE("grids: active values that are not finite are counted", "[foreign]") {
+TEST_CASE("grid: active values that are not finite are counted", "[foreign]") {
   const Files files;
   const auto velocity = made<Vec3SGrid>("v", Vec3s(1.0f));
   velocity->tree().setValue(Coord(3, -6, 3), Vec3s(0.0f, std::nanf(""), 0.0f));
@@ -321,7 +321,7 @@ TEST_CASE("grids: active values that are not finite are counted", "[foreign]") {
   CHECK_THROWS_WITH(readGrid(files.file, "d", false), Contains("has 20 active voxels"));
 }
 
-TEST_CASE("grids: read while they come, to the end or not", "[foreign]") {
+TEST_CASE("grid: read while they come, to the end or not", "[foreign]") {
   const Files files;
   files.write({made<FloatGrid>("a", 1.0f)});
   const std::string whole = readGrid(files.file, "a", false);
@@ -347,7 +347,7 @@ TEST_CASE("grids: read while they come, to the end or not", "[foreign]") {
   CHECK(readGrid(files.file, "a", false).size() == whole.size());
 }
 
-TEST_CASE("grids: damaged files are refused or give something whole", "[foreign]") {
+TEST_CASE("grid: damaged files are refused or give something whole", "[foreign]") {
   const Files files;
   const auto small = made<Vec3SGrid>("half", Vec3s(1.0f));
   small->setSaveFloatAsHalf(true);
@@ -380,7 +380,7 @@ TEST_CASE("grids: damaged files are refused or give something whole", "[foreign]
   }
 }
 
-TEST_CASE("grids: a list that leads back into itself ends", "[foreign]") {
+TEST_CASE("grid: a list that leads back into itself ends", "[foreign]") {
   const Files files;
   files.write({made<FloatGrid>("phi", 1.0f)});
   // Behind the name, the type and the other's name: where the grid is, its values, and its end.

@@ -4,7 +4,7 @@
 
 using fluidtex::foreign::asClause;
 
-TEST_CASE("foreign: a library's words become a part of one sentence", "[foreign]") {
+TEST_CASE("unreadable: a library's words become a part of one sentence", "[foreign]") {
   CHECK(asClause("Not a PNG file.") == "Not a PNG file");
   CHECK(asClause("  Bad header.\nTry\tagain. \n") == "Bad header; Try again");
   CHECK(asClause("\x1b[31mred\x1b[0m") == "[31mred [0m");

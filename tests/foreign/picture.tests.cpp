@@ -49,7 +49,7 @@ std::string targa(char fourth, bool saysAlpha) {
 
 }  // namespace
 
-TEST_CASE("pictures: what is stored comes as it is stored", "[foreign]") {
+TEST_CASE("picture: what is stored comes as it is stored", "[foreign]") {
   const Scratch scratch;
   const Picture byte = readColors(write(scratch, "a.png", rgb()));
   CHECK(byte.sample == Sample::byte);
@@ -65,7 +65,7 @@ TEST_CASE("pictures: what is stored comes as it is stored", "[foreign]") {
   checkShows(real, 0, 0, kWidth, kHeight, 0);
 }
 
-TEST_CASE("pictures: an EXR's layer and part are taken by their names", "[foreign]") {
+TEST_CASE("picture: an EXR's layer and part are taken by their names", "[foreign]") {
   const Scratch scratch;
   ImageSpec layers = rgb(TypeDesc::HALF, 6);
   layers.channelnames = {"albedo.R", "albedo.G", "albedo.B", "rgba.R", "rgba.G", "rgba.B"};
@@ -89,7 +89,7 @@ TEST_CASE("pictures: an EXR's layer and part are taken by their names", "[foreig
   checkShows(beauty, 0, 0, kWidth, kHeight, 0);
 }
 
-TEST_CASE("pictures: of an EXR what lies inside its display window", "[foreign]") {
+TEST_CASE("picture: of an EXR what lies inside its display window", "[foreign]") {
   const Scratch scratch;
   ImageSpec over = rgb(TypeDesc::HALF);
   over.full_x = 4;
@@ -110,7 +110,7 @@ TEST_CASE("pictures: of an EXR what lies inside its display window", "[foreign]"
   CHECK_THROWS_WITH(readColors(write(scratch, "beside.exr", beside)), Contains("display window"));
 }
 
-TEST_CASE("pictures: the orientation that a WebP file says", "[foreign]") {
+TEST_CASE("picture: the orientation that a WebP file says", "[foreign]") {
   const Scratch scratch;
   const auto plain = write(scratch, "plain.webp", rgb());
   CHECK(readColors(plain).orientation == 1);
@@ -132,7 +132,7 @@ TEST_CASE("pictures: the orientation that a WebP file says", "[foreign]") {
   WebPMuxDelete(mux);
 }
 
-TEST_CASE("pictures: bytes that pad a pixel are no alpha, unless the file says so", "[foreign]") {
+TEST_CASE("picture: bytes that pad a pixel are no alpha, unless the file says so", "[foreign]") {
   const Scratch scratch;
   const auto shown = [&](const char* name, const std::string& bytes) {
     writeBytes(scratch.path / name, bytes);
