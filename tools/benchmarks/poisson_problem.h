@@ -14,8 +14,8 @@ struct PoissonProblem {
   sim::Coord box{0};  // its cells along each axis; (0, 0, 0) where they are no box
 };
 
-// A full box of n x n x n / 2 cells: five walls, and pressure 0 in the centres of the cells above. The
-// right-hand side is random, even in [-1, 1].
+// A full box of n x n x n / 2 cells, n a multiple of 16: five walls, and pressure 0 in the centres of the
+// cells above. The right-hand side is random, even in [-1, 1].
 PoissonProblem boxProblem(int n);
 
 // The liquid of the closed dam break, as the solver meets it after `frames` frames.

@@ -14,7 +14,8 @@ namespace fluidtex::benchmarks {
 texture::Image scales(int size) {
   exemplars::Scales options;
   options.columns = options.columns * size / options.size;
-  options.rows = options.rows * size / options.size;
+  // Even, or the picture would not meet at its edges.
+  options.rows = 2 * int(std::lround(0.5 * options.rows * size / options.size));
   options.size = size;
   texture::Image image{size, size, 4, {}};
   const std::vector<std::uint8_t> pixels = exemplars::makeGreenScales(options);

@@ -8,7 +8,8 @@
 
 namespace fluidtex::benchmarks {
 
-// Green scales of so many pixels' width, toroidal, each scale of the same size in pixels; linear RGBA.
+// Green scales of so many pixels' width, toroidal, each scale of the same size in pixels, as nearly as whole
+// pairs of rows are; linear RGBA. size: a multiple of 16.
 texture::Image scales(int size);
 
 // An oriented sphere of about so many points, with so many levels.
