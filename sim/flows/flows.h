@@ -3,8 +3,10 @@
 
 #include "sim/grid/mac_grid.h"
 #include "sim/markers/markers.h"
+#include "sim/shapes/shape_distance.h"
 #include "sim/solids/solids.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,8 +18,13 @@ struct SourceGrids {
   Vec3d speed{0.0};          // m/s
   double temperature = 0.0;  // K
   std::array<FloatGrid::Ptr, 3>
-      velocity{};  // active at all faces of its cells; null where it only keeps full
+      velocity{};  // active at all faces of the cells whose centre it holds; null where it only keeps full
+  std::function<double(const Vec3d&)> distance = {};  // signed, metres, at any place
 };
+
+// Whether a cell is the source's: its centre is or, where that lies in a solid, the middle of the cell's open
+// part.
+bool isInSource(const SourceGrids& source, const SolidField& solid, const Coord& cell);
 
 // The sources and drains that are active at one time.
 struct RunningFlows {
@@ -45,7 +52,7 @@ class Flows {
   std::vector<const FloatGrid*> places() const;
 
  private:
-  FloatGrid::Ptr gridOf(const Shape& shape) const;
+  FloatGrid::Ptr gridOf(const ShapeDistance& shape) const;
 
   std::vector<Source> m_sources;
   std::vector<Drain> m_drains;

@@ -22,14 +22,16 @@
 namespace fluidtex::sim {
 namespace {
 
-// Sets the air around sources of velocity 0 to rest: liquid that refills them is new, and has not fallen with
-// what it replaces. phi: the liquid's.
-void restBesideSources(Velocity& velocity, const FloatGrid& phi, const RunningFlows& flows) {
-  const float reach = static_cast<float>(kMaxTrace * phi.voxelSize()[0]);
+// Liquid that refills a source is new, and has not moved with what it replaces: the air in the cells that the
+// source keeps full in part has the source's velocity, and the air around sources of velocity 0, from which
+// liquid falls, is at rest. phi: the liquid's.
+void flowFromSources(Velocity& velocity, const FloatGrid& phi, const RunningFlows& flows) {
+  const auto h = static_cast<float>(phi.voxelSize()[0]);
   for (const auto& [source, factor] : flows.sources) {
-    if (source->velocity[0] != nullptr) continue;
     const FloatGrid& shape = *source->phi;
+    const float reach = source->velocity[0] != nullptr ? 0.5f * h : static_cast<float>(kMaxTrace) * h;
     for (int axis = 0; axis < 3; ++axis) {
+      const auto speed = static_cast<float>(factor * source->speed[axis]);
       const auto leaves = leavesOf(velocity.component[axis]->tree());
       tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
         const auto liquid = phi.getConstAccessor(), distance = shape.getConstAccessor();
@@ -39,7 +41,7 @@ void restBesideSources(Velocity& velocity, const FloatGrid& phi, const RunningFl
           below[axis] -= 1;
           if (std::min(distance.getValue(above), distance.getValue(below)) < reach &&
               liquid.getValue(above) >= 0.0f && liquid.getValue(below) >= 0.0f)
-            it.setValue(0.0f);
+            it.setValue(speed);
         }
       });
     }
@@ -54,7 +56,7 @@ void carryVelocity(const Liquid& liquid, Liquid& next, const SolidField& solid, 
   const bool before = liquid.acceleration.component[0] != nullptr;
   Velocity carried = before ? plus(liquid.velocity, liquid.acceleration, 0.5 * dt) : copyOf(liquid.velocity);
   extendLinearly(carried, *liquid.phi, solid.visibility.get());
-  restBesideSources(carried, *liquid.phi, flows);
+  flowFromSources(carried, *liquid.phi, flows);
   advectVelocity(liquid.velocity, carried, next.velocity, *next.phi, *solid.phi, dt, solid.visibility.get());
   if (before) next.velocity = plus(next.velocity, liquid.acceleration, -0.5 * dt);
 }

@@ -269,13 +269,16 @@ SourceCells cellsOf(const RunningFlows& flows, const LeafTable& leaves, const So
       liquidShares(shape, solid, origin, held);
       openShares(solid, origin, room);
       for (int i = 0; i < kLeafSize; ++i) {
-        if (room[i] <= kCarries || held[i] <= 0.0f) continue;
+        const std::size_t cell = n * kLeafSize + i;
+        const bool given = flowing && distance[i] < near &&
+                           isInSource(*running.source, solid, origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7));
+        const bool holds = room[i] > kCarries && held[i] > 0.0f;
+        if (!given && !holds) continue;
         // The source's own share; or the share before the step, where only the source's velocity leads out of
         // the cell.
-        const std::size_t cell = n * kLeafSize + i;
-        const bool given = flowing && distance[i] < 0.0f;
-        found[n].filled.push_back({cell, std::max(held[i] / room[i], given ? was[cell] : 0.0f), !given});
-        if (given) found[n].given.push_back(cell);
+        const float own = holds ? held[i] / room[i] : 0.0f;
+        found[n].filled.push_back({cell, std::max(own, given ? was[cell] : 0.0f), !given});
+        if (given && room[i] > 0.0f) found[n].given.push_back(cell);
       }
     });
   }

@@ -392,3 +392,60 @@ TEST_CASE("flows: a source without velocity gives liquid that falls from rest, a
   const double middle = sum[19] - sum[9], late = sum[29] - sum[19];
   CHECK(late == Catch::Detail::Approx(middle).epsilon(0.2));
 }
+
+TEST_CASE("flows: a source whose front ends in a wall gives nothing to the sliver before it") {
+  // The walls stand less than half a cell behind the source's last cells on three sides, and its own front
+  // lies in them.
+  Options options = channel();
+  const double h = options.voxelSize();
+  const double end = GENERATE(0.03, 0.06, 0.3, 0.45);
+  Solid walls;
+  walls.shape.kind = Difference{{{Box{Vec3d(-1.0), Vec3d(3.0)}},
+                                 {Box{Vec3d(3.3, 3.3, 3.3) * h, (Vec3d(20.0, 7.0, 7.0) + Vec3d(end)) * h}}}};
+  options.solids = {walls};
+  Source source;
+  source.shape.kind = Box{Vec3d(14.2, 2.0, 2.0) * h, Vec3d(20.3 + end, 7.8, 7.8) * h};
+  source.velocity = Vec3d(1.0, 0.6, 0.5);
+  options.sources = {source};
+  Solver solver(options);
+  FrameStats stats;
+  for (int n = 0; n < 5; ++n) {
+    stats = solver.next().stats;
+    CAPTURE(n, end);
+    CHECK(largestDifference(solver.state(), 0.0) < 1.3);
+    CHECK(std::abs(stats.deficit) < h * h * h);
+  }
+}
+
+TEST_CASE("flows: what refills a film of a source is new, and not faster than what it replaces") {
+  // A source comes out of a block's top by a third of a cell, below the middle of the cells there, and a wave
+  // runs over it in short steps.
+  Options options;
+  options.size = Vec3d(5.0, 2.7919472, 3.27218526);
+  options.resolution = 28;
+  options.frameRate = 11.0;
+  options.density = 4.63384901;
+  options.cfl = 0.548296204;
+  DomainWall wall;
+  wall.wall.kind = WallKind::noSlip;
+  options.walls = {wall};
+  options.solids.resize(1);
+  options.solids[0].shape.kind =
+      Box{Vec3d(0.198286021, 0.690560433, 0.831584719), Vec3d(2.650749, 2.67906758, 2.88651062)};
+  options.sources.resize(1);
+  options.sources[0].shape.kind =
+      Box{Vec3d(0.917343343, 1.08735963, 1.66594316), Vec3d(2.19603778, 2.36605407, 2.9446376)};
+  options.sources[0].velocity = Vec3d(1.03467653, 0.619958045, 0.638812157);
+  options.liquid = {
+      box(Vec3d(0.0), Vec3d(1.52879243, 2.7919472, 1.07988823), Vec3d(-1.67143632, 3.24188607, 0.935551764)),
+      {Shape{Sphere{Vec3d(1.61905883, 1.82165989, 2.74127722), 0.346382867}}, Vec3d(0.0), 0.0}};
+  Solver solver(options);
+  for (int n = 1; n <= 6; ++n) {
+    CAPTURE(n);
+    int steps = 0;
+    solver.next([&](double) { ++steps; });
+    CHECK(steps < 40);
+    const State& state = solver.state();
+    CHECK(maxAbs(state.velocity) < 30.0);
+  }
+}
