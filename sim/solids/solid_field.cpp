@@ -1,6 +1,7 @@
 #include "sim/solids/solid_field.h"
 
 #include "sim/grid/mac_grid.h"
+#include "sim/grid/normal.h"
 #include "sim/solids/open_faces.h"
 
 #include <tbb/parallel_for.h>
@@ -48,23 +49,35 @@ double centreDistance(const SolidDistance& distance, const Coord& cell, double h
   constexpr double kAside = 0.15;
   // Between two solids a closed gap may be left: balls below this radius, in cells, do not count.
   constexpr double kSmallest = 0.1;
-  const double d = distance(placeOf(cell, Vec3d(0.5), h));
+  // Width of differences, in cells: little beside a wall's thickness.
+  constexpr double kWidth = 0.02;
+  const Vec3d centre = placeOf(cell, Vec3d(0.5), h);
+  const double d = distance(centre);
   if (d > 0.0 || d <= -0.5 * h) return d;
   double depth = kForever;
   bool allSolid = true;
   const auto look = [&](const Vec3d& way, double closed) {
-    const double there = distance(placeOf(cell, Vec3d(0.5) + way, h));
+    const double there = distance(centre + way * h);
     allSolid = allSolid && there <= closed;
     if (there > kSmallest * h) depth = std::min(depth, std::max(0.0, way.length() * h - there));
     return there;
   };
   const auto isTrue = [&] { return depth <= -d + kAside * h; };
-  // Most often the surface lies in the direction of the gradient.
-  Vec3d ahead;
+  // Straight out of the solid. In a corner or gap the next surface may be near: from there on away from it, a
+  // step for each surface that can meet there.
+  constexpr double kBeyond = kSmallest + kWidth;
+  Vec3d ahead = normalAt(distance, centre, kWidth * h), way = (kBeyond - d / h) * ahead;
+  double beyond = look(way, kSmallest * h);
+  for (int n = 0; n < 3 && !isTrue() && beyond > 0.0; ++n) {
+    way += (kBeyond - beyond / h) * normalAt(distance, centre + way * h, kWidth * h);
+    beyond = look(way, kSmallest * h);
+  }
+  if (isTrue()) return d;
+  // Where the solid has no slope at the centre, in the direction in which it ends first.
   for (int a = 0; a < 3; ++a) {
-    Vec3d way(0.0);
-    way[a] = 1.0;
-    ahead[a] = look(way, 0.0) - look(-way, 0.0);
+    Vec3d unit(0.0);
+    unit[a] = 1.0;
+    ahead[a] = look(unit, 0.0) - look(-unit, 0.0);
   }
   if (ahead.normalize()) look((0.25 - d / h) * ahead, kOnWall * h);
   for (const double far : {0.5, 0.375, 0.25, 0.125}) {

@@ -130,23 +130,27 @@ struct Surroundings {
     return marks;
   }
 
-  // The cell outside solids from which a cell is extrapolated: along decreasing depth, through open faces
-  // where there are any. The cell itself outside solids; -1 where there is none within the layers that hold
-  // values.
+  // The cell outside solids from which a cell is extrapolated: through open faces where there are any, else
+  // along decreasing depth. In a corner of thin walls the other side may be nearer than the cell's own. The
+  // cell itself outside solids; -1 where there is none within the layers that hold values.
   int sourceOf(int cell) const {
+    int before = -1;
     for (int step = 0; !isOpen(cell); ++step) {
       if (step > static_cast<int>(kSolidLayers) + 1) return -1;
-      int best = cell;
-      for (const bool through : {true, false}) {
+      int best = -1;
+      const auto look = [&](bool through) {
         for (int a = 0; a < 3; ++a) {
           for (const int next : {cell - kStride[a], cell + kStride[a]}) {
-            if (through && openness[a][std::max(cell, next)] <= 0.0f) continue;
-            if (distance[next] > distance[best]) best = next;
+            const bool leads = through ? next != before && openness[a][std::max(cell, next)] > 0.0f
+                                       : distance[next] > distance[cell];
+            if (leads && (best < 0 || distance[next] > distance[best])) best = next;
           }
         }
-        if (best != cell) break;
-      }
-      if (best == cell) return -1;
+      };
+      look(true);
+      if (best < 0) look(false);
+      if (best < 0) return -1;
+      before = cell;
       cell = best;
     }
     return cell;

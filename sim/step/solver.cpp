@@ -190,8 +190,10 @@ void Solver::applyEvents() {
     for (const auto& [body, shape] : due) least = std::min(least, shape(x));
     return least;
   };
-  const MaskGrid known =
-      beyondOwnSurface(dueLiquid, *liquid.phi, *m_solid->phi, nearest, m_solids->distanceAt(now));
+  const auto solids = m_solids->distanceAt(now);
+  MaskGrid known = beyondOwnSurface(dueLiquid, *liquid.phi, *m_solid->phi, nearest, solids);
+  if (!due.empty())
+    known.tree().topologyUnion(clearBehindWalls(*liquid.phi, *m_solid, nearest, solids).tree());
   // Redistancing loses thin liquid, much of it in the middle of a splash.
   const bool start = m_state.frame == 0;
   const FloatGrid::Ptr whole = liquid.phi->deepCopy();
@@ -223,7 +225,7 @@ void Solver::applyEvents() {
                                    *m_solid, flows, 0.0);
   }
   if (!due.empty()) {
-    const PouredLiquid bodies{dueLiquid, *whole, nearest, m_solids->distanceAt(now), start};
+    const PouredLiquid bodies{dueLiquid, *whole, nearest, solids, start};
     liquid.deficit = withPoured(liquid.deficit.get(), bodies, *liquid.phi, *m_solid, flows);
   }
   store(m_state, std::move(liquid), h);

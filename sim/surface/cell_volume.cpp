@@ -23,16 +23,22 @@ float shareWithin(float a, float b, float cosine) {
 }
 
 // Cosine of the angle between the surface and a solid at a cell: 1 where both end the liquid on the same
-// side, and where phi has no slope. Values deep in solids are extrapolated and do not count. h: metres.
-float cosineBetween(const LeafPatch& phi, const LeafPatch& solid, int at, float h) {
+// side, and where phi has no slope. Values deep in solids are extrapolated and do not count, nor does what is
+// behind a thin wall. h: metres. visible: null where all is.
+float cosineBetween(const LeafPatch& phi, const LeafPatch& solid, int at, float h,
+                    const VisibleCells* visible) {
   const float deep = -kDeepInSolid * h;
   float dot = 0.0f, ofPhi = 0.0f, ofSolid = 0.0f;
-  for (const int stride : kPatchStride) {
-    const int low = solid[at - stride] > deep ? at - stride : at,
-              high = solid[at + stride] > deep ? at + stride : at;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int stride = kPatchStride[axis], seen = VisibleCells::kStride[axis];
+    const bool below = visible == nullptr || visible->sees(VisibleCells::kMiddle - seen),
+               above = visible == nullptr || visible->sees(VisibleCells::kMiddle + seen);
+    const int low = below && solid[at - stride] > deep ? at - stride : at,
+              high = above && solid[at + stride] > deep ? at + stride : at;
     const bool both = low != at && high != at;
     const float p = (both ? 0.5f : 1.0f) * (phi[high] - phi[low]),
-                s = solid[at - stride] - solid[at + stride];
+                s = (below && above ? 1.0f : 2.0f) *
+                    (solid[below ? at - stride : at] - solid[above ? at + stride : at]);
     dot += p * s;
     ofPhi += p * p;
     ofSolid += s * s;
@@ -69,6 +75,7 @@ void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& or
   const float h = static_cast<float>(solid.voxelSize);
   openShares(solid, origin, liquid);
   const LeafPatch p = patchOf(phi.constTree(), origin), s = patchOf(solid.phi->constTree(), origin);
+  const Visibility::Leaf* visibility = solid.visibility != nullptr ? solid.visibility->leaf(origin) : nullptr;
   // Whether a cell shows liquid beside the cell at an offset, on a side. Its centre may be in a solid, as
   // over a floor that is thinly covered, where it has an open part on this side of the solid.
   const auto isLiquidBeside = [&](int i, int side) {
@@ -88,9 +95,11 @@ void liquidShares(const FloatGrid& phi, const SolidField& solid, const Coord& or
       continue;
     }
     const float wet = std::min(1.0f, 0.5f - p[at] / h);
+    const VisibleCells* around =
+        visibility != nullptr ? &(*visibility)[static_cast<std::size_t>(i)] : nullptr;
     liquid[i] = liquid[i] == 1.0f || liquid[i] == 0.0f || wet == 1.0f
                     ? std::min(liquid[i], wet)
-                    : shareWithin(liquid[i], wet, cosineBetween(p, s, at, h));
+                    : shareWithin(liquid[i], wet, cosineBetween(p, s, at, h, around));
     if (p[at] < 0.0f || liquid[i] == 0.0f || counts == Counts::unseen) continue;
     bool beside = false;
     for (int side = 0; side < 6 && !beside; ++side) beside = isLiquidBeside(i, side);

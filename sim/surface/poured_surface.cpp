@@ -226,4 +226,43 @@ MaskGrid beyondOwnSurface(const FloatGrid& poured, const FloatGrid& phi, const F
   return cells;
 }
 
+MaskGrid clearBehindWalls(FloatGrid& phi, const SolidField& solid, const Distance& body,
+                          const Distance& solids) {
+  MaskGrid cells;
+  if (solid.visibility == nullptr) return cells;
+  const double h = phi.voxelSize()[0];
+  const std::vector<Coord>& origins = solid.visibility->origins();
+  std::vector<std::vector<Coord>> found(origins.size());
+  tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
+    const Visibility::Leaf& sight = *solid.visibility->leaf(origins[n]);
+    const auto liquid = phi.getConstUnsafeAccessor(), distance = solid.phi->getConstUnsafeAccessor();
+    float scratch[kLeafSize];
+    const float* open = leafValues(solid.phi->constTree(), origins[n], scratch);
+    for (int i = 0; i < kLeafSize; ++i) {
+      if (open[i] >= 0.0f || open[i] <= -0.5f * static_cast<float>(h) || sight[i].seesAll()) continue;
+      const Coord cell = origins[n].offsetBy(i >> 6, (i >> 3) & 7, i & 7);
+      bool seen = false, hidden = false;
+      for (int at = 0; at < VisibleCells::kCount && !seen; ++at) {
+        constexpr int kSide = VisibleCells::kSide, kFar = VisibleCells::kReach;
+        const Coord other =
+            cell.offsetBy(at / (kSide * kSide) - kFar, at / kSide % kSide - kFar, at % kSide - kFar);
+        if (liquid.getValue(other) >= 0.0f || distance.getValue(other) <= 0.0f) continue;
+        (sight[i].sees(at) ? seen : hidden) = true;
+      }
+      if (seen || !hidden) continue;
+      const Vec3d x = phi.indexToWorld(cell);
+      const Vec3d closest = x - body(x) * normalAt(body, x, 0.01 * h);
+      if (solids(closest) < kTouching * h) found[n].push_back(cell);
+    }
+  });
+  FloatGrid::Accessor values = phi.getAccessor();
+  for (const auto& part : found) {
+    for (const Coord& cell : part) {
+      cells.tree().setValueOn(cell);
+      values.setValue(cell, std::max(values.getValue(cell), static_cast<float>(0.5 * h)));
+    }
+  }
+  return cells;
+}
+
 }  // namespace fluidtex::sim

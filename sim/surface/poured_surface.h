@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/grid/grids.h"
+#include "sim/solids/solids.h"
 #include "sim/vec3.h"
 
 #include <functional>
@@ -24,6 +25,14 @@ std::function<double(const Vec3d&)> pouredSurface(std::function<double(const Vec
 // solids, which needs no extrapolation: the body ends before the solid, or goes on in it.
 // poured: the body's distance at cell centres; phi: of all liquid; body, solids: as above.
 MaskGrid beyondOwnSurface(const FloatGrid& poured, const FloatGrid& phi, const FloatGrid& solidPhi,
+                          const std::function<double(const Vec3d&)>& body,
+                          const std::function<double(const Vec3d&)>& solids);
+
+// Makes air, half a cell from the surface, of partly open cells in thin walls that are hidden from all liquid
+// near them, where a body ends in the wall. A slope of phi from the body's end would make liquid of them, on
+// the wall's other side. Where the body comes out of the wall, it has a surface there, and they stay. Returns
+// the cells.
+MaskGrid clearBehindWalls(FloatGrid& phi, const SolidField& solid,
                           const std::function<double(const Vec3d&)>& body,
                           const std::function<double(const Vec3d&)>& solids);
 

@@ -138,3 +138,22 @@ TEST_CASE("solids: a joint that a surface crosses in a cell is no surface") {
   for (int i = 5; i < 12; ++i)
     CHECK(field->phi->tree().getValue(Coord(i, 8, 4)) == Catch::Detail::Approx(-0.43 * h).epsilon(0.01));
 }
+
+TEST_CASE("solids: in a corner of thin walls cells are as deep as the nearest surface is far") {
+  // The walls of a box, 0.92 cells thick. Its corner lies so near cell centres that little room is left there
+  // between the walls.
+  Options options;
+  options.resolution = 16;
+  const double h = 1.0 / 16;
+  options.solids.resize(1);
+  options.solids[0].shape = {Difference{{{Box{Vec3d(5.902, 4.514, 4.951) * h, Vec3d(12.92) * h}},
+                                         {Box{Vec3d(6.827, 5.438, 5.875) * h, Vec3d(12.0) * h}}}}};
+  const auto field = Solids(options).at(0.0);
+  const auto depthAt = [&](const Coord& cell) { return -field->phi->tree().getValue(cell) / h; };
+  for (int n = 6; n < 11; ++n) {
+    CAPTURE(n);
+    CHECK(depthAt(Coord(6, 5, n)) == Approx(0.327).margin(1e-4));
+    CHECK(depthAt(Coord(n + 1, 5, 5)) == Approx(0.375).margin(1e-4));
+  }
+  CHECK(depthAt(Coord(6, 5, 5)) == Approx(std::hypot(0.327, 0.375)).margin(1e-4));
+}

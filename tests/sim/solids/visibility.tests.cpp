@@ -2,6 +2,7 @@
 #include "sim/surface/level_set.h"
 #include "tests/sim/step/solver_scenes.h"
 
+#include "sim/solids/solid_field.h"
 #include "sim/solids/solids.h"
 
 #include <catch2/catch.hpp>
@@ -33,6 +34,35 @@ Options cup(double wall, int resolution) {
       {{Cylinder{at(0.2525 - wall), at(0.6), 0.2475 + wall}}, {Cylinder{at(0.2525), at(0.7), 0.2475}}}}};
   return options;
 }
+
+// A box with walls of so many cells, outside of which nothing is, and liquid in it up to `level`, which
+// begins in the middle of the walls. All in cells.
+struct WalledBox {
+  double wall;
+  Vec3d low, high;
+  double level;
+  bool shut;
+
+  static constexpr int kCells = 16;
+
+  Options options() const {
+    constexpr double h = 1.0 / kCells;
+    const Vec3d half(0.5 * wall), rim(0.0, 0.0, shut ? 0.0 : wall);
+    Options options =
+        tank(kCells, {box(h * (low - half), h * Vec3d(high[0] + half[0], high[1] + half[1], level))});
+    options.solids.resize(1);
+    options.solids[0].shape = {Difference{{{Box{h * (low - 2.0 * half), h * (high + 2.0 * half - rim)}},
+                                           {Box{h * low, h * (high + 2.0 * rim)}}}}};
+    return options;
+  }
+  // Whether a place lies outside the box.
+  bool isOutside(const Vec3d& x) const {
+    for (int a = 0; a < 3; ++a) {
+      if (x[a] < low[a] - 0.5 * wall || (x[a] > high[a] + 0.5 * wall && (shut || a < 2))) return true;
+    }
+    return false;
+  }
+};
 
 }  // namespace
 
@@ -144,6 +174,61 @@ TEST_CASE("visibility: closed cups with walls of 0.6 cells and more hold what is
     }
   }
   CHECK(outside == 0);
+}
+
+TEST_CASE("visibility: a cell in a corner of thin walls is on the side of its open faces") {
+  // A cavity in a block; a cell is a metre. The block's face above y is nearer to the corner's cell than the
+  // cavity, and nearer to it than to the cells beside it, as the face is inclined by a little.
+  const Vec3d low(4.867, 3.660, 3.941), high(9.524, 9.021, 8.815);
+  const auto distance = [&](const Vec3d& x) {
+    Vec3d out;
+    for (int a = 0; a < 3; ++a) out[a] = std::max(low[a] - x[a], x[a] - high[a]);
+    const double deepest = std::max({out[0], out[1], out[2]});
+    const double cavity = deepest < 0.0 ? deepest : openvdb::math::maxComponent(out, Vec3d(0.0)).length();
+    const double above = x[1] - 9.993 - 0.002 * (x[0] + x[2] - 8.0);
+    return std::max({above, 3.9 - x[0], 2.7 - x[1], 2.97 - x[2], x[0] - 10.5, x[2] - 9.8, -cavity});
+  };
+  const CoordBBox domain = firstCells(Coord(16));
+  const SolidField solid =
+      makeSolidField(distance, distance, {}, domain, chunksIn(grown(domain, kSolidMargin)), 1.0);
+  const Coord corner(4, 9, 3);
+  REQUIRE(solid.phi->tree().getValue(corner) == Approx(-0.493).margin(1e-3));
+  REQUIRE(solid.phi->tree().getValue(corner.offsetBy(1, 0, 0)) < -0.494f);
+  REQUIRE(solid.open[0].tree().getValue(corner.offsetBy(1, 0, 0)) > 0.0f);
+  CHECK(solid.visibility->hides(corner, Coord(4, 10, 3)));
+  CHECK_FALSE(solid.visibility->hides(corner, Coord(5, 8, 4)));
+}
+
+TEST_CASE("visibility: nothing comes out of the corners of boxes with walls of 0.7 cells to one") {
+  const WalledBox walls =
+      GENERATE(WalledBox{0.810, Vec3d(3.872, 3.569, 3.612), Vec3d(8.380, 7.624, 9.609), 6.538, false},
+               WalledBox{0.711, Vec3d(4.496, 4.928, 4.444), Vec3d(8.310, 9.611, 9.240), 6.969, true},
+               WalledBox{0.813, Vec3d(4.441, 4.011, 4.856), Vec3d(9.378, 8.371, 9.515), 6.889, false},
+               WalledBox{0.969, Vec3d(4.867, 3.660, 3.941), Vec3d(9.524, 9.021, 8.815), 6.945, false});
+  CAPTURE(walls.wall);
+  Solver solver(walls.options());
+  const FrameStats first = solver.next().stats;
+  for (int n = 0; n < 7; ++n) {
+    const FrameStats stats = solver.next().stats;
+    CHECK(stats.volume + stats.deficit == Approx(first.volume + first.deficit).epsilon(1e-4));
+    const State& state = solver.state();
+    double fastest = 0.0;
+    int outside = 0;
+    for (auto it = state.phi->cbeginValueOn(); it; ++it) {
+      if (*it >= 0.0f) continue;
+      outside += walls.isOutside(it.getCoord().asVec3d() + Vec3d(0.5));
+      for (const auto& component : state.velocity.component)
+        fastest = std::max(fastest, double(std::abs(component->tree().getValue(it.getCoord()))));
+    }
+    CHECK(outside == 0);
+    CHECK(fastest < 0.03 * std::sqrt(9.81 / WalledBox::kCells));
+    double due = 0.0;
+    if (state.deficit != nullptr) {
+      for (auto it = state.deficit->cbeginValueOn(); it; ++it)
+        if (walls.isOutside(it.getCoord().asVec3d() + Vec3d(0.5))) due += std::abs(*it);
+    }
+    CHECK(due < 1e-3);
+  }
 }
 
 TEST_CASE("visibility: liquid that falls off the underside of a thin floor draws none out of it") {

@@ -88,6 +88,23 @@ TEST_CASE("cell volume: liquid below a thin plate does not count above it") {
   CHECK(cellsShown(5.25, 5.95, liquid) == Catch::Detail::Approx(5.25).epsilon(1e-3));
 }
 
+TEST_CASE("cell volume: what stands behind a thin wall changes nothing before it") {
+  // A wall of a cell, from the centres of cells 4 to those of cells 5. Before it liquid ends at the centres.
+  Options options = tank(8, {});
+  options.solids.resize(1);
+  options.solids[0].shape = {Box{Vec3d(0.5625, -1.0, -1.0), Vec3d(0.6875, 2.0, 2.0)}};
+  const auto solid = Solids(options).at(0.0);
+  for (const double behind : {-0.3, 0.125, 0.375}) {
+    const FloatGrid::Ptr phi = makePhi(0.125, 0.5);
+    unite(
+        *phi, [&](const Vec3d& x) { return x[0] < 0.6 ? x[2] - 0.5625 : behind; }, firstCells(Coord(8)));
+    LeafShares liquid;
+    liquidShares(*phi, *solid, Coord(0), liquid);
+    CAPTURE(behind);
+    CHECK(liquid[4 * 64 + 4 * 8 + 4] == Catch::Detail::Approx(0.25));
+  }
+}
+
 TEST_CASE("volume: a pool that just covers a block shows all of its liquid and stays at rest") {
   // The block's top takes more than half of a layer of cells, and the level is below the next layer's
   // centres.

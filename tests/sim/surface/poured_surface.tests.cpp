@@ -2,6 +2,7 @@
 
 #include "sim/solids/domain.h"
 #include "sim/solids/solids.h"
+#include "sim/surface/level_set.h"
 #include "tests/sim/step/solver_scenes.h"
 
 #include <catch2/catch.hpp>
@@ -306,5 +307,29 @@ TEST_CASE("poured surface: bodies that touch are one, wherever the joint between
         CHECK(fastestInRoom({{Union{{one, other}}}}, {}) < 0.03);
       }
     }
+  }
+}
+
+TEST_CASE("poured surface: where a body ends in a thin wall there is nothing on the wall's other side") {
+  // Cells 8 belong to what is beyond the wall, their centres are 0.3 cells deep. A body goes nearly to the
+  // middle, to beyond these centres, or comes out of the wall by 0.3 cells.
+  const double low = 7.95 * kVoxel, high = 8.8 * kVoxel;
+  for (const double end : {8.3, 8.6, 9.1}) {
+    CAPTURE(end);
+    Options options = tank(16, {});
+    options.solids.resize(1);
+    options.solids[0].shape = {Box{Vec3d(low, -1.0, -1.0), Vec3d(high, 2.0, 2.0)}};
+    Solids solids(options);
+    const auto field = solids.at(0.0);
+    const ShapeDistance body(Shape{Box{Vec3d(-1.0), Vec3d(end * kVoxel, 2.0, 2.0)}}, kVoxel);
+    const FloatGrid::Ptr phi = makePhi(kVoxel, 4.0 * kVoxel);
+    unite(*phi, body, domainCells(options));
+    const float before = phi->tree().getValue(Coord(8, 8, 8));
+    const MaskGrid cleared = clearBehindWalls(*phi, *field, body, solids.distanceAt(0.0));
+    const bool comesOut = end > 8.8;
+    CHECK(cleared.tree().isValueOn(Coord(8, 8, 8)) == !comesOut);
+    CHECK(phi->tree().getValue(Coord(8, 8, 8)) == (comesOut ? before : float(0.5 * kVoxel)));
+    CHECK_FALSE(cleared.tree().isValueOn(Coord(7, 8, 8)));
+    CHECK_FALSE(cleared.tree().isValueOn(Coord(9, 8, 8)));
   }
 }
