@@ -113,12 +113,18 @@ void correctPhi(FloatGrid& phi, const Markers& markers, const FloatGrid& solidPh
   const float h = static_cast<float>(phi.voxelSize()[0]);
   Markers out(markers.size());  // those that have escaped
   tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
-    thread_local BlockSamples distance(1);
+    thread_local BlockSamples distance(1), solid(1);
     thread_local CellRanges range;
     const Sight sight(visibility, markers[n].origin);
     distance.setHalo(sight.any() ? kThinWallHalo : 1);
     distance.load(phi.constTree(), markers[n].origin, 1.0f / h);
     range.find(distance);
+    bool loaded = false;
+    const auto isInSolid = [&](const Marker& m) {
+      if (!loaded) solid.load(solidPhi.constTree(), markers[n].origin, 1.0f / h);
+      loaded = true;
+      return solid.at(m.x, m.y, m.z) < 0.0f;
+    };
     out[n].origin = markers[n].origin;
     const float wrong = kSmallest - CellRanges::kRounding;
     for (const Marker& m : markers[n].markers) {
@@ -126,7 +132,7 @@ void correctPhi(FloatGrid& phi, const Markers& markers, const FloatGrid& solidPh
       const VisibleCells* visible = sight.at(m);
       if (visible == nullptr && (m.radius < 0.0f ? range.high[cell] < wrong : range.low[cell] > -wrong))
         continue;
-      if (escaped(m, sample(distance, m, visible))) out[n].markers.push_back(m);
+      if (escaped(m, sample(distance, m, visible)) && !isInSolid(m)) out[n].markers.push_back(m);
     }
   });
   std::erase_if(out, [](const MarkerBlock& block) { return block.markers.empty(); });
@@ -170,7 +176,7 @@ void correctPhi(FloatGrid& phi, const Markers& markers, const FloatGrid& solidPh
     float scratch[kLeafSize];
     const float* solid = leafValues(solidPhi.constTree(), leaves[n]->origin(), scratch);
     for (int i = 0; i < kLeafSize; ++i) {
-      if (solid[i] < 0.0f) continue;
+      if (solid[i] < -kDeepInSolid * h) continue;
       const float right = std::abs(air[i]) <= std::abs(liquid[i]) ? air[i] : liquid[i];
       value[i] = std::clamp(right, -background, background);
     }

@@ -51,8 +51,8 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt,
                       const Visibility* visibility = nullptr);
 
 // Corrects phi at the corners of cells with escaped markers, those farther on the wrong side than their
-// radius; only at corners on the marker's side of a thin solid, and none in solids, where phi follows from
-// what is beside them and markers are of no liquid.
+// radius; only at corners on the marker's side of a thin solid, and none deep in solids, where phi is
+// extrapolated. Markers in solids correct nothing: there they move with what is extrapolated, too.
 void correctPhi(FloatGrid& phi, const Markers& markers, const FloatGrid& solidPhi,
                 const Visibility* visibility = nullptr);
 
