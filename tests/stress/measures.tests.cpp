@@ -91,7 +91,7 @@ TEST_CASE("stress: what a sheet loses and regains as it flies has its motion, li
     least = std::min(least, now.kinetic);
     most = std::max(most, now.kinetic);
   }
-  CHECK(most > 1.1 * least);
+  CHECK(most > 1.03 * least);  // else nothing was lost
 }
 
 TEST_CASE("stress: deficit in the air has its motion, beyond the narrow band that of all on the whole",
