@@ -1,30 +1,16 @@
 // Inflow and outflow: sources, drains, and stream sides of the domain.
 #pragma once
 
+#include "sim/flows/source_faces.h"
 #include "sim/grid/mac_grid.h"
 #include "sim/markers/markers.h"
 #include "sim/shapes/shape_distance.h"
 #include "sim/solids/solids.h"
 
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace fluidtex::sim {
-
-// A source on the grid.
-struct SourceGrids {
-  FloatGrid::Ptr phi;        // signed distance, metres: the cells that are kept full
-  Vec3d speed{0.0};          // m/s
-  double temperature = 0.0;  // K
-  std::array<FloatGrid::Ptr, 3>
-      velocity{};  // active at all faces of the cells whose centre it holds; null where it only keeps full
-  std::function<double(const Vec3d&)> distance = {};  // signed, metres, at any place
-};
-
-// Whether a cell is the source's: its centre is or, where that lies in a solid, the middle of the cell's open
-// part.
-bool isInSource(const SourceGrids& source, const SolidField& solid, const Coord& cell);
 
 // The sources and drains that are active at one time.
 struct RunningFlows {

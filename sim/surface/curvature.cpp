@@ -1,6 +1,7 @@
 #include "sim/surface/curvature.h"
 
 #include "sim/grid/leaf_block.h"
+#include "sim/grid/normal.h"
 #include "sim/grid/trilinear.h"
 #include "sim/surface/surface_distance.h"
 
@@ -165,19 +166,6 @@ void mirrorUnseen(const float* block, int at, const VisibleCells& visible, doubl
   }
 }
 
-// The outward normal of a solid, from its distance around a cell.
-Vec3d outOf(const FloatTree& solid, const Coord& cell) {
-  Vec3d slope;
-  for (int a = 0; a < 3; ++a) {
-    Coord low = cell, high = cell;
-    low[a] -= 1;
-    high[a] += 1;
-    slope[a] = double(solid.getValue(high)) - solid.getValue(low);
-  }
-  const double length = slope.length();
-  return length > 0.0 ? slope / length : Vec3d(0.0);
-}
-
 }  // namespace
 
 FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi,
@@ -199,7 +187,7 @@ FloatGrid::Ptr surfaceCurvature(const FloatGrid& phi, const FloatGrid& solidPhi,
       const VisibleCells* visible = visibility != nullptr ? visibility->around(cell) : nullptr;
       const float* values = block;
       if (visible != nullptr) {
-        mirrorUnseen(block, at, *visible, solidPhi.tree().getValue(cell) / h, outOf(solidPhi.tree(), cell),
+        mirrorUnseen(block, at, *visible, solidPhi.tree().getValue(cell) / h, normalAt(solidPhi.tree(), cell),
                      seen);
         values = seen;
       }

@@ -162,13 +162,24 @@ class Cutter {
     std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
       return std::tie(a.vertex, a.shift, a.triangle) < std::tie(b.vertex, b.shift, b.triangle);
     });
+    std::vector<std::uint32_t> unshifted(m_vertices.size());  // by how many corners each is used as it is
+    for (const Vec3I& corner : m_triangles)
+      for (int k = 0; k < 3; ++k) ++unshifted[corner[k]];
+    for (const Use& use : uses) --unshifted[use.vertex];
+    std::uint32_t taken = 0;
     for (std::size_t i = 0; i < uses.size(); ++i) {
       const Use& use = uses[i];
-      if (i == 0 || use.vertex != uses[i - 1].vertex || use.shift != uses[i - 1].shift) {
-        m_vertices.push_back(m_vertices[use.vertex]);
-        m_vertices.back().shift = use.shift;
+      const bool first = i == 0 || use.vertex != uses[i - 1].vertex;
+      if (first || use.shift != uses[i - 1].shift) {
+        // One that no triangle uses as it is takes the first shift itself, or it would be of no triangle.
+        taken = use.vertex;
+        if (!first || unshifted[use.vertex] > 0) {
+          taken = std::uint32_t(m_vertices.size());
+          m_vertices.push_back(m_vertices[use.vertex]);
+        }
+        m_vertices[taken].shift = use.shift;
       }
-      m_triangles[use.triangle][use.corner] = std::uint32_t(m_vertices.size() - 1);
+      m_triangles[use.triangle][use.corner] = taken;
     }
   }
 

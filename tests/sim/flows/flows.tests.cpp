@@ -1,53 +1,12 @@
 #include "sim/flows/flows.h"
-#include "sim/step/solver.h"
+
+#include "tests/sim/flows/flow_scenes.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 
 using namespace fluidtex::sim;
-
-namespace {
-
-LiquidBody box(const Vec3d& min, const Vec3d& max, const Vec3d& velocity = Vec3d(0.0)) {
-  return {Shape{Box{min, max}}, velocity, 0.0};
-}
-
-// A channel along x, 2 x 0.5 x 0.5 m, of cells of 1/24 m.
-Options channel() {
-  Options options;
-  options.size = Vec3d(2.0, 0.5, 0.5);
-  options.resolution = 48;
-  return options;
-}
-
-// The largest difference of the velocity of liquid from (speed, 0, 0).
-double largestDifference(const State& state, double speed) {
-  double largest = 0.0;
-  const FloatGrid::Ptr grids[3] = {state.velocity.component[0], state.velocity.component[1],
-                                   state.velocity.component[2]};
-  for (int a = 0; a < 3; ++a) {
-    for (auto it = grids[a]->cbeginValueOn(); it; ++it) {
-      const Coord c = it.getCoord();
-      Coord low = c;
-      low[a] -= 1;
-      const bool inside = c[0] >= 0 && c[1] >= 0 && c[2] >= 0 && c[0] <= 48 && c[1] < 12 && c[a] > 0;
-      const bool wet = state.phi->tree().getValue(c) < 0.0f || state.phi->tree().getValue(low) < 0.0f;
-      if (inside && wet) largest = std::max(largest, std::abs(*it - (a == 0 ? speed : 0.0)));
-    }
-  }
-  return largest;
-}
-
-// How much liquid, m3, comes in from the first frame to so many later.
-double givenIn(Solver& solver, int frames) {
-  const FrameStats first = solver.next().stats;
-  FrameStats last = first;
-  for (int n = 0; n < frames; ++n) last = solver.next().stats;
-  return last.volume + last.deficit - first.volume - first.deficit;
-}
-
-}  // namespace
 
 TEST_CASE("flows: a uniform stream goes through the domain as it is") {
   Options options = channel();
@@ -84,21 +43,6 @@ TEST_CASE("flows: a source fills a basin by just its flux") {
   // 0.25 m x 0.125 m x 1 m/s, for half a second; what is made is 7% of all there is, which the waves change
   // too.
   CHECK(std::abs((volume[18] - volume[6]) / (0.5 * 0.03125) - 1.0) < 0.05);
-}
-
-TEST_CASE("flows: a source within the water takes in nothing behind") {
-  Options options = channel();
-  options.cfl = 1.0;
-  Source source;
-  source.shape.kind = Box{Vec3d(0.5, 0.125, 0.125), Vec3d(0.75, 0.375, 0.25)};
-  source.velocity = Vec3d(0.5, 0.0, 0.0);
-  options.sources = {source};
-  options.liquid = {box(Vec3d(-1.0), Vec3d(3.0, 1.0, 0.375))};
-  Solver solver(options);
-  const double first = solver.next().stats.volume;
-  double last = first;
-  for (int n = 2; n <= 13; ++n) last = solver.next().stats.volume;
-  CHECK(std::abs((last - first) / (0.5 * 0.25 * 0.125 * 0.5) - 1.0) < 0.1);
 }
 
 TEST_CASE("flows: what holds nothing is told of") {
@@ -329,26 +273,6 @@ TEST_CASE("flows: a restored state goes on bit for bit") {
   }
 }
 
-TEST_CASE("flows: a round source gives what its own front would, however it points") {
-  // Its front is a staircase of cells, that of 2.6 cells' radius up to a sixth too large or too small.
-  const double radius = 0.09, speed = 1.0;
-  const auto [resolution, tolerance] = GENERATE(std::pair(29, 0.17), std::pair(58, 0.1));
-  for (const Vec3d& way : {Vec3d(0.0, 0.0, -1.0), Vec3d(-0.7, -0.7, 0.2), Vec3d(0.6, 0.5, -0.6)}) {
-    Options options;
-    options.resolution = resolution;
-    options.frameRate = 54.0;
-    options.gravity = Vec3d(0.0);
-    options.sources.resize(1);
-    options.sources[0].shape = {Sphere{Vec3d(0.52, 0.51, 0.49), radius}};
-    options.sources[0].velocity = speed * way.unit();
-    Solver solver(options);
-    constexpr int kFrames = 8;
-    const double given = givenIn(solver, kFrames);
-    CAPTURE(way, resolution);
-    CHECK(given * 54.0 / kFrames == Catch::Detail::Approx(speed * M_PI * radius * radius).epsilon(tolerance));
-  }
-}
-
 TEST_CASE("flows: what comes against a source from outside is not lost") {
   // A wave that runs over a source's back and sides.
   Options options = channel();
@@ -391,30 +315,6 @@ TEST_CASE("flows: a source without velocity gives liquid that falls from rest, a
   CHECK(fastest < 2.0 * std::sqrt(2.0 * options.gravity.length() * 0.9));
   const double middle = sum[19] - sum[9], late = sum[29] - sum[19];
   CHECK(late == Catch::Detail::Approx(middle).epsilon(0.2));
-}
-
-TEST_CASE("flows: a source whose front ends in a wall gives nothing to the sliver before it") {
-  // The walls stand less than half a cell behind the source's last cells on three sides, and its own front
-  // lies in them.
-  Options options = channel();
-  const double h = options.voxelSize();
-  const double end = GENERATE(0.03, 0.06, 0.3, 0.45);
-  Solid walls;
-  walls.shape.kind = Difference{{{Box{Vec3d(-1.0), Vec3d(3.0)}},
-                                 {Box{Vec3d(3.3, 3.3, 3.3) * h, (Vec3d(20.0, 7.0, 7.0) + Vec3d(end)) * h}}}};
-  options.solids = {walls};
-  Source source;
-  source.shape.kind = Box{Vec3d(14.2, 2.0, 2.0) * h, Vec3d(20.3 + end, 7.8, 7.8) * h};
-  source.velocity = Vec3d(1.0, 0.6, 0.5);
-  options.sources = {source};
-  Solver solver(options);
-  FrameStats stats;
-  for (int n = 0; n < 5; ++n) {
-    stats = solver.next().stats;
-    CAPTURE(n, end);
-    CHECK(largestDifference(solver.state(), 0.0) < 1.3);
-    CHECK(std::abs(stats.deficit) < h * h * h);
-  }
 }
 
 TEST_CASE("flows: what refills a film of a source is new, and not faster than what it replaces") {

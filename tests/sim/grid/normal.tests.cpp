@@ -18,3 +18,14 @@ TEST_CASE("normal: none where the gradient is zero", "[sim]") {
   CHECK(normalAt(ball, Vec3d(0.0), 0.1) == Vec3d(0.0));
   CHECK(normalAt([](const Vec3d&) { return 3.0; }, Vec3d(1.0), 0.1) == Vec3d(0.0));
 }
+
+TEST_CASE("normal: at a cell, from its neighbours", "[sim]") {
+  const auto distance = FloatGrid::create(0.0f);
+  const Vec3d up = Vec3d(2.0, 1.0, -2.0) / 3.0;
+  for (int n = 0; n < 27; ++n) {
+    const Coord cell(n / 9, n / 3 % 3, n % 3);
+    distance->tree().setValue(cell, static_cast<float>(0.5 * cell.asVec3d().dot(up)));
+  }
+  CHECK((normalAt(distance->constTree(), Coord(1, 1, 1)) - up).length() < 1e-6);
+  CHECK(normalAt(distance->constTree(), Coord(40, 1, 1)) == Vec3d(0.0));
+}

@@ -169,6 +169,9 @@ TEST_CASE("cut: the same points, closed, every triangle of one piece without a j
     if (fades) CHECK(deviation(s, s.fading.coordinate, s.fading.gradient, c) < 2.0f * kOnePiece);
   }
   for (std::uint32_t t = 0; t < area.size(); ++t) CHECK(area[t] == Approx(areaOf(torus, t)));
+  std::set<std::uint32_t> used;
+  for (const Vec3I& c : s.triangles) used.insert({c[0], c[1], c[2]});
+  CHECK(used.size() == s.positions.size());
 }
 
 TEST_CASE("cut: the same on any number of threads") {
