@@ -1,7 +1,7 @@
 #include "tools/frames/color_between.h"
 
-#include "render/render.h"
 #include "tests/scratch.h"
+#include "tests/tools/halves.h"
 
 #include <catch2/catch.hpp>
 
@@ -17,14 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A picture that is black left of the middle and white right of it.
+// Black left of the middle and white right of it.
 fs::path writeHalves(const fs::path& file, int width, int height) {
-  render::Picture picture{width, height, {}};
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < 3; ++c) picture.rgb.push_back(2 * x < width ? 0.0f : 1.0f);
-  render::writePng(picture, file);
-  return file;
+  return fluidtex::writeHalves(file, width, height, {0.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f});
 }
 
 texture::Options lookedUp(const fs::path& exemplar) {

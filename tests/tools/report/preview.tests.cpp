@@ -1,7 +1,7 @@
 #include "tools/report/preview.h"
 
-#include "render/render.h"
 #include "tests/scratch.h"
+#include "tests/tools/halves.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <catch2/catch.hpp>
@@ -15,13 +15,7 @@ namespace {
 
 // Red on the left, blue on the right.
 fs::path writeHalves(const fs::path& file, int width, int height) {
-  render::Picture picture{width, height, {}};
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (const float channel : {2 * x < width ? 1.0f : 0.0f, 0.0f, 2 * x < width ? 0.0f : 1.0f})
-        picture.rgb.push_back(channel);
-  render::writePng(picture, file);
-  return file;
+  return fluidtex::writeHalves(file, width, height, {1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f});
 }
 
 }  // namespace
