@@ -8,7 +8,6 @@
 
 using namespace fluidtex;
 using namespace fluidtex::benchmarks;
-using Catch::Contains;
 using sim::Coord;
 
 namespace {
@@ -117,42 +116,23 @@ TEST_CASE("poisson problem: the residual is relative to the right-hand side", "[
   CHECK(residualOf(larger, inOrder(problem, 10.0, 10.0)) == Approx(std::sqrt(2.0)));
 }
 
-TEST_CASE("poisson problem: whoever solves the box finds the same", "[benchmarks]") {
+TEST_CASE("poisson problem: our solver reaches the tolerance that it says", "[benchmarks]") {
   const PoissonProblem problem = boxProblem(16);
-  const Solved ours = solveOurs(problem), eigen = solveEigen(problem), openvdb = solveOpenvdb(problem),
-               hypre = solveHypre(problem);
-  for (const auto& [name, solved] :
-       {std::pair("ours", &ours), {"Eigen", &eigen}, {"OpenVDB", &openvdb}, {"hypre", &hypre}}) {
-    CAPTURE(name);
-    if (solved == &hypre && !hypre.failed.empty()) {
-      CHECK_THAT(hypre.failed, Contains("libhypre-dev"));
-      WARN("hypre is not there; the others are compared");
-      continue;
-    }
-    CHECK(solved->failed.empty());
-    REQUIRE(solved->x.size() == problem.b.size());
-    CHECK(solved->iterations > 0);
-    CHECK(solved->setup >= 0.0);
-    CHECK(solved->solve > 0.0);
-    // OpenVDB stops on the largest error, not on the 2-norm.
-    CHECK(residualOf(problem, solved->x) <= (solved == &openvdb ? 10.0 : 1.001) * kTolerance);
-    double largest = 0.0, apart = 0.0;
-    for (std::size_t i = 0; i < solved->x.size(); ++i) {
-      largest = std::max(largest, std::abs(ours.x[i]));
-      apart = std::max(apart, std::abs(ours.x[i] - solved->x[i]));
-    }
-    CHECK(apart < 1e-4 * largest);
-  }
+  const Solved solved = solveOurs(problem);
+  CHECK(solved.failed.empty());
+  REQUIRE(solved.x.size() == problem.b.size());
+  CHECK(solved.iterations > 0);
+  CHECK(solved.solve > 0.0);
+  CHECK(residualOf(problem, solved.x) <= 1.001 * kTolerance);
 }
 
-TEST_CASE("poisson problem: two cells, by the solvers that take any", "[benchmarks]") {
+TEST_CASE("poisson problem: our solver finds the pressure of two cells", "[benchmarks]") {
   const PoissonProblem problem = twoCells();
-  for (const Solved& solved : {solveOurs(problem), solveEigen(problem)}) {
-    CHECK(solved.failed.empty());
-    REQUIRE(solved.x.size() == 2);
-    const std::vector<double> exact = inOrder(problem, 2.0, 1.0);
-    for (std::size_t i = 0; i < 2; ++i) CHECK(solved.x[i] == Approx(exact[i]).epsilon(1e-5));
-  }
+  const Solved solved = solveOurs(problem);
+  CHECK(solved.failed.empty());
+  REQUIRE(solved.x.size() == 2);
+  const std::vector<double> exact = inOrder(problem, 2.0, 1.0);
+  for (std::size_t i = 0; i < 2; ++i) CHECK(solved.x[i] == Approx(exact[i]).epsilon(1e-5));
 }
 
 TEST_CASE("poisson problem: at first, gravity drives the dam break's liquid into its floor alone",
@@ -175,9 +155,7 @@ TEST_CASE("poisson problem: at first, gravity drives the dam break's liquid into
     REQUIRE(b == Approx(first));
   }
   CHECK(problem.box == Coord(0));
-  const Solved ours = solveOurs(problem), eigen = solveEigen(problem);
-  CHECK(ours.failed.empty());
-  CHECK(eigen.failed.empty());
-  CHECK(residualOf(problem, ours.x) <= 1.001 * kTolerance);
-  CHECK(residualOf(problem, eigen.x) <= 1.001 * kTolerance);
+  const Solved solved = solveOurs(problem);
+  CHECK(solved.failed.empty());
+  CHECK(residualOf(problem, solved.x) <= 1.001 * kTolerance);
 }

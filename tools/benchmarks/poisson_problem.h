@@ -1,4 +1,4 @@
-// Pressure systems that solvers are compared on, and how each solves them.
+// Pressure systems that solvers are compared on, and how ours solves them; peers: peers/poisson.h.
 #pragma once
 
 #include "sim/poisson/poisson.h"
@@ -35,9 +35,6 @@ struct Solved {
 double residualOf(const PoissonProblem& problem, const std::vector<double>& x);
 
 Solved solveOurs(const PoissonProblem& problem);
-Solved solveEigen(const PoissonProblem& problem);
-Solved solveHypre(const PoissonProblem& problem);    // boxes only
-Solved solveOpenvdb(const PoissonProblem& problem);  // boxes only
 
 // The system's cells in the order of their coordinates, x slowest, in which peers get them.
 std::vector<int> naturalOrder(const sim::PoissonSystem& system);

@@ -4,9 +4,9 @@
 #include "texture/mesh/mesh_stats.h"
 #include "texture/mesh/prepare.h"
 #include "texture/orientation/orient.h"
-#include "tools/benchmarks/cgal_remeshing.h"
 #include "tools/benchmarks/measure.h"
 #include "tools/benchmarks/moving_surfaces.h"
+#include "tools/benchmarks/peers/cgal_remeshing.h"
 
 #include <tbb/global_control.h>
 

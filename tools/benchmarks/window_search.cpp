@@ -1,10 +1,10 @@
 // The search for windows alone: the tree that synthesis uses, beside FAISS on the same windows reduced to the
 // same principal components. Asked for are the windows of a sphere's texture as they stand after the first
 // average. Distances are those of the reduced windows, squared. Processor time of one thread.
+#include "tools/benchmarks/peers/window_search.h"
 #include "texture/optimize/matches.h"
 #include "texture/optimize/passes.h"
 #include "tools/benchmarks/measure.h"
-#include "tools/benchmarks/search_peers.h"
 #include "tools/benchmarks/textured_samples.h"
 
 #include <tbb/global_control.h>

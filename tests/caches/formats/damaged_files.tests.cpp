@@ -118,7 +118,6 @@ TEST_CASE("damaged files: mutated ones are read or refused, at once", "[caches]"
   readMutated(300);
 }
 
-// Asked for by its name: test_caches_formats "[many]"
-TEST_CASE("damaged files: many of them", "[caches][.][many]") {
+TEST_CASE("damaged files: many of them", "[caches][long]") {
   readMutated(10000);
 }

@@ -169,8 +169,7 @@ TEST_CASE("mutated files: a field of heights is read or refused, at once", "[sim
   readMutatedHeights(200);
 }
 
-// Asked for by its name: test_sim "[many]"
-TEST_CASE("mutated files: many of them", "[sim][.][many]") {
+TEST_CASE("mutated files: many of them", "[sim][long]") {
   readMutatedMeshes(10000);
   readMutatedHeights(10000);
 }

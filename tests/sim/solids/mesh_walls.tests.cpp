@@ -149,15 +149,17 @@ void checkHolds(const Cup& cup, int resolution, int frames) {
 
 TEST_CASE("mesh walls: cups with walls of 0.6 and 1 cell hold what is in them, as those of shapes do") {
   constexpr int kResolution = 24;
-  const double cells = GENERATE(0.6, 1.0), tilt = GENERATE(0.0, 20.0);
-  CAPTURE(cells, tilt);
+  const auto [round, cells, tilt] = GENERATE(table<bool, double, double>(
+      {{false, 0.6, 20.0}, {false, 1.0, 0.0}, {true, 0.6, 0.0}, {true, 1.0, 20.0}}));
+  CAPTURE(round, cells, tilt);
   Cup cup;
+  cup.round = round;
   cup.wall = cells / kResolution;
   cup.tilt = tilt * std::numbers::pi / 180.0;
   checkHolds(cup, kResolution, 12);
 }
 
-TEST_CASE("mesh walls: square and round cups hold for a second", "[slow]") {
+TEST_CASE("mesh walls: square and round cups hold for a second", "[long]") {
   constexpr int kResolution = 28;
   const bool round = GENERATE(false, true);
   const double cells = GENERATE(0.6, 1.0, 1.5, 2.0), tilt = GENERATE(0.0, 20.0);

@@ -1,4 +1,4 @@
-#include "tools/benchmarks/cgal_remeshing.h"
+#include "tools/benchmarks/peers/cgal_remeshing.h"
 
 #include "tests/texture/mesh/closed_meshes.h"
 

@@ -1,4 +1,4 @@
-#include "tools/benchmarks/search_peers.h"
+#include "tools/benchmarks/peers/window_search.h"
 
 #ifdef FLUIDTEX_FAISS
 

@@ -1,6 +1,6 @@
 // The triangle test follows Ericson: Real-Time Collision Detection (2005), sec. 5.1.5.
-#include "tools/benchmarks/closest_peers.h"
 #include "tools/benchmarks/measure.h"
+#include "tools/benchmarks/peers/closest_points.h"
 
 #include <embree3/rtcore.h>
 

@@ -1,5 +1,5 @@
-#include "tools/benchmarks/closest_peers.h"
 #include "tools/benchmarks/measure.h"
+#include "tools/benchmarks/peers/closest_points.h"
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_traits.h>

@@ -1,4 +1,4 @@
-#include "tools/benchmarks/closest_peers.h"
+#include "tools/benchmarks/peers/closest_points.h"
 
 #include "numerics/random.h"
 #include "tests/texture/mesh/closed_meshes.h"

@@ -1,6 +1,6 @@
 // hypre's conjugate gradients with its multigrid for boxes, PFMG.
 #include "tools/benchmarks/measure.h"
-#include "tools/benchmarks/poisson_problem.h"
+#include "tools/benchmarks/peers/poisson.h"
 
 #ifdef FLUIDTEX_HYPRE
 

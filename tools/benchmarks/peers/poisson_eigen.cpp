@@ -1,6 +1,6 @@
 // Eigen's conjugate gradients with incomplete Cholesky, cells in natural order.
 #include "tools/benchmarks/measure.h"
-#include "tools/benchmarks/poisson_problem.h"
+#include "tools/benchmarks/peers/poisson.h"
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>

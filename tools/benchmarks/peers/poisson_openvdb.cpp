@@ -1,6 +1,6 @@
 // OpenVDB's tools::poisson: conjugate gradients with incomplete Cholesky. It stops on the max norm.
 #include "tools/benchmarks/measure.h"
-#include "tools/benchmarks/poisson_problem.h"
+#include "tools/benchmarks/peers/poisson.h"
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/PoissonSolver.h>

@@ -1,5 +1,5 @@
+#include "tools/benchmarks/peers/cgal_remeshing.h"
 #include "texture/mesh/remesh.h"
-#include "tools/benchmarks/cgal_remeshing.h"
 #include "tools/benchmarks/measure.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
