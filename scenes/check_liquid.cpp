@@ -144,6 +144,7 @@ void checkKnownFlow(const Scene& scene, Reader& reader) {
   ofUse("period", {MotionKind::vortex, MotionKind::deformation}, "\"vortex\" or \"deformation\"");
   ofUse("rate", {MotionKind::rotation, MotionKind::vortex, MotionKind::stretch, MotionKind::sourceSink},
         "\"rotation\", \"vortex\", \"stretch\" or \"source_sink\"");
+  for (const char* key : {"speed", "strain", "widening"}) ofUse(key, {MotionKind::slot}, "\"slot\"");
   checkFiles(scene, reader);
   if (flow == MotionKind::solver || flow == MotionKind::files || !reader.clean("motion.flow")) return;
   if (reader.clean("domain") && !isBounded(domainOf(scene.sim)))

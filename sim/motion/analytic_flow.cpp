@@ -25,6 +25,10 @@ bool carriesSurface(MotionKind flow) {
   return flow == MotionKind::vortex || flow == MotionKind::deformation;
 }
 
+bool changesShape(const MotionOptions& motion) {
+  return motion.flow == MotionKind::rotation || (motion.flow == MotionKind::slot && motion.widening > 0.0);
+}
+
 KnownFlow flowOf(const Options& options, const MotionOptions& motion) {
   const Vec3d middle = 0.5 * options.size;
   switch (motion.flow) {
@@ -39,6 +43,8 @@ KnownFlow flowOf(const Options& options, const MotionOptions& motion) {
       return stretch(middle, motion.rate);
     case MotionKind::sourceSink:
       return sourceAndSink(options.size, motion.rate);
+    case MotionKind::slot:
+      return slot(motion.speed, motion.strain);
     case MotionKind::rest:
     case MotionKind::solver:
     case MotionKind::files:
@@ -52,6 +58,13 @@ Vec3d turnedBack(const Vec3d& x, const Vec3d& middle, double angle) {
   const Vec3d from = x - middle;
   const double c = std::cos(angle), s = std::sin(angle);
   return middle + Vec3d(c * from[0] + s * from[1], c * from[1] - s * from[0], from[2]);
+}
+
+// x moved towards the middle of the slit, by as far as its ends had moved when what is at x left it.
+Vec3d narrowedBack(const Vec3d& x, double middle, double time, const MotionOptions& motion) {
+  const double left = time - timeFromSlot(x[0], motion.speed, motion.strain);
+  const double aside = x[1] - middle, moved = motion.widening * std::max(left, 0.0);
+  return Vec3d(x[0], middle + std::copysign(std::max(std::abs(aside) - moved, 0.0), aside), x[2]);
 }
 
 // Along each axis.
@@ -78,7 +91,7 @@ AnalyticFlow::AnalyticFlow(const Options& options, const MotionOptions& motion)
   m_state.velocity.component[0] = nothing.component[0];
   m_state.velocity.component[1] = nothing.component[1];
   m_state.velocity.component[2] = nothing.component[2];
-  m_state.phi = start(0.0);
+  m_state.phi = pouredAt(0.0);
   if (carriesSurface(motion.flow))
     m_state.markers =
         seedMarkers(*m_state.phi, *m_solid->phi, markerSeed(options.seed, 0), m_solid->visibility.get());
@@ -91,16 +104,20 @@ AnalyticFlow::AnalyticFlow(const Options& options, const MotionOptions& motion, 
   m_state.phi->setTransform(cellTransform(options.voxelSize()));
 }
 
-// The liquid as it was poured, turned by an angle.
-FloatGrid::Ptr AnalyticFlow::start(double angle) const {
+// The liquid as it was poured, turned or widened since.
+FloatGrid::Ptr AnalyticFlow::pouredAt(double time) const {
   const double h = m_options.voxelSize();
   const Vec3d middle = 0.5 * m_options.size;
+  const auto poured = [&](const Vec3d& x) {
+    if (m_motion.flow == MotionKind::rotation) return turnedBack(x, middle, m_motion.rate * time);
+    if (m_motion.flow == MotionKind::slot) return narrowedBack(x, middle[1], time, m_motion);
+    return x;
+  };
   FloatGrid::Ptr phi = makePhi(h, bandWidth(m_options.cfl) * h);
   for (const LiquidBody& body : m_options.liquid) {
     const ShapeDistance distance(body.shape, h, domainBox(m_options));
     unite(
-        *phi, [&](const Vec3d& x) { return distance(turnedBack(x, middle, angle)); },
-        grown(m_solid->domain, kMargin));
+        *phi, [&](const Vec3d& x) { return distance(poured(x)); }, grown(m_solid->domain, kMargin));
   }
   settleSurface(*phi, *m_solid);
   return phi;
@@ -154,7 +171,7 @@ Frame AnalyticFlow::next(const std::function<void(double)>& progress) {
       const auto& [u, v, w] = m_velocity.component;
       frame.substeps.push_back({dt, u, v, w});
       frame.stats.dtMin = dt;
-      if (m_motion.flow == MotionKind::rotation) m_state.phi = start(m_motion.rate * frame.time);
+      if (changesShape(m_motion)) m_state.phi = pouredAt(frame.time);
     }
   }
   m_state.frame = frame.index;

@@ -11,6 +11,8 @@ namespace fluidtex::sim {
 // Frames whose velocity is that of `motion`, except for its trilinear interpolation. The surface:
 // - rest, stretch, source and sink: it stays, and its material moves along it. Right where the velocity is
 // tangent to it: for level sheets. What a stretched sheet loses leaves through the domain's sides.
+// - slot: the same, out of the domain's side at x = 0. With a slit that widens, its edges in y are where
+//   what left the ends of the slit has come to.
 // - rotation: it turns; its distance is the initial one at the place turned back.
 // - vortex, deformation: it is advected by the solver's own kernel (sim/flows/move_surface.h), in substeps of
 // at most Options::cfl cells, each with the velocity of its middle.
@@ -29,7 +31,7 @@ class AnalyticFlow {
 
  private:
   AnalyticFlow(const Options& options, const MotionOptions& motion, std::shared_ptr<const SolidField> solid);
-  FloatGrid::Ptr start(double turnedBy) const;
+  FloatGrid::Ptr pouredAt(double time) const;
   Velocity near(double strength) const;
   void carryTo(double time, Frame& frame, const std::function<void(double)>& progress);
 

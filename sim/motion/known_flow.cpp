@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -77,6 +78,17 @@ KnownFlow sourceAndSink(const Vec3d& size, double rate) {
   return {{}, steady, 0.0, [=](const Vec3d& x) {
             return Vec3d(along(x[0], size[0]), along(x[1], size[1]), 0.0);
           }};
+}
+
+KnownFlow slot(double speed, double strain) {
+  return {{}, steady, 0.0, [=](const Vec3d& x) {
+            return Vec3d(speed + strain * std::max(x[0], 0.0), 0.0, 0.0);
+          }};
+}
+
+double timeFromSlot(double x, double speed, double strain) {
+  if (x <= 0.0) return 0.0;
+  return strain > 0.0 ? std::log1p(strain * x / speed) / strain : x / speed;
 }
 
 KnownFlow drawnOut(const KnownFlow& unit, const Vec3d& size, double factor) {

@@ -37,6 +37,12 @@ KnownFlow stretch(const Vec3d& middle, double rate);
 // u_i = rate / 2 L_i / (3 pi) sin(3 pi x_i / L_i).
 KnownFlow sourceAndSink(const Vec3d& size, double rate);
 
+// Out of a slit in the plane x = 0, along x: at `speed` (m/s) in the slit and behind it, before it faster by
+// `strain` (1/s) times the way from it.
+KnownFlow slot(double speed, double strain);
+// How long ago (s) what is at x (m) left that slit; 0 for x <= 0.
+double timeFromSlot(double x, double speed, double strain);
+
 // A flow of the unit cube scaled to the domain [0, size], `factor` times as fast in its lengths per second.
 KnownFlow drawnOut(const KnownFlow& unit, const Vec3d& size, double factor);
 

@@ -228,13 +228,15 @@ TEST_CASE("scene faults: a flow in closed form and what it knows nothing of", "[
   checkWholeFiles({
       {"motion.flow = 'swirl'\n" + kGoodScene,
        "s.toml:1:8: error: motion.flow: \"swirl\" is unknown; give \"solver\", \"rest\", \"rotation\", "
-       "\"vortex\", \"deformation\", \"stretch\", \"source_sink\" or \"files\""},
+       "\"vortex\", \"deformation\", \"stretch\", \"source_sink\", \"slot\" or \"files\""},
       {"motion.period = 2\n" + kGoodScene,
        "s.toml:1:8: error: motion.period: is of no use here; give it together with flow = \"vortex\" or "
        "\"deformation\""},
       {"motion = { flow = 'deformation', rate = 2 }\n" + kGoodScene,
        "s.toml:1:34: error: motion.rate: is of no use here; give it together with flow = \"rotation\", "
        "\"vortex\", \"stretch\" or \"source_sink\""},
+      {"motion = { flow = 'stretch', strain = 1 }\n" + kGoodScene,
+       "s.toml:1:32: error: motion.strain: is of no use here; give it together with flow = \"slot\""},
       {"motion = { flow = 'stretch', rate = 0 }\n" + kGoodScene,
        "s.toml:1:30: error: motion.rate: 0 is too small; give a number above 0"},
   });
