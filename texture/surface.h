@@ -87,6 +87,9 @@ struct VertexTexture {
 struct Carried : VertexTexture {
   std::vector<Vec3f> orientation;  // #V, unit, tangent, turned by the flow
   std::vector<float> foam;         // #V, 0..1, barycentric; empty where the old surface had none
+  // #V, 1 where the flow goes through a surface that stays, and with it its texture: what rides with the flow
+  // slides past it. May be empty: nowhere.
+  std::vector<std::uint8_t> stays;
   bool empty() const { return previousPosition.empty(); }
 };
 

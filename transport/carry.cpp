@@ -1,5 +1,6 @@
 #include "transport/carry.h"
 
+#include "texture/labels/fresh.h"
 #include "texture/loops/parallel.h"
 #include "texture/orientation/tangent.h"
 #include "texture/vertex_arrays.h"
@@ -7,6 +8,7 @@
 #include "transport/closest_point.h"
 #include "transport/cubic_directions.h"
 #include "transport/grid_transport.h"
+#include "transport/inflow.h"
 #include "transport/pick_up.h"
 #include "transport/trust.h"
 #include "transport/turn_with_flow.h"
@@ -149,7 +151,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   const std::size_t count = next.positions.size();
   const bool onGrid = options.method == Method::grid, turning = options.orientation == Turning::vector;
   const double least = halfVoxel(frame);
-  const Backtrace trace = onGrid ? traceOnGrid(next.positions, frame) : traceBack(next.positions, frame);
+  Backtrace trace = onGrid ? traceOnGrid(next.positions, frame) : traceBack(next.positions, frame);
   const Source source{previous, ClosestPoint(previous.positions, previous.triangles),
                       angleSlopes(previous, symmetry), symmetry};
   std::vector<Vec3f> fromGrid;
@@ -160,12 +162,27 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   carried.orientation.resize(count);
   if (!previous.foam.empty()) carried.foam.resize(count);
   std::vector<float> stretched(count);
+  std::vector<std::uint8_t> out(count, 0);
+  std::vector<std::uint8_t>& stays = carried.stays;
+  stays.assign(count, 0);
+  std::vector<Vec3f> way(count);
   texture::forEachIndex(count, [&](std::uint32_t v) {
-    const Mat3d& map = trace.map[v];
+    Mat3d& map = trace.map[v];
     const double scale = std::max(least, next.spacingAt(v));
     const Vec3f& normal = next.normals[v];
     const Vec3f oldNormal = carriedNormal(normal, map);
-    const Landing landing = source.landing(trace.origin[v], oldNormal, kOtherSide * scale);
+    Landing landing = source.landing(trace.origin[v], oldNormal, kOtherSide * scale);
+    const TracedVertex vertex{Vec3d(next.positions[v]), trace.origin[v], normal, oldNormal,
+                              next.spacingAt(v)};
+    float trust = landingTrust(landing, scale, oldNormal) * trace.known[v];
+    out[v] = cameOut(vertex, landing);
+    if (!out[v] && goesThrough(vertex, landing)) {
+      const Landing here = source.landing(vertex.position, normal, kOtherSide * scale);
+      const float trustHere = landingTrust(here, scale, normal);
+      stays[v] = trustHere >= texture::kLowTrust;
+      if (stays[v]) landing = here, map = Mat3d::identity(), trust = trustHere;
+    }
+    way[v] = Vec3f(vertex.position - vertex.origin);
 
     const Texel texel = texelAt(previous, previous.coordinate, previous.gradient, landing, map, normal);
     carried.coordinate[v] = texel.coordinate;
@@ -182,15 +199,18 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
       carried.orientation[v] = turnedWithFlow(direction, map, normal);
     else
       carried.orientation[v] = texture::tangentUnit(direction, normal, anyTangent(normal));
-    carried.trust[v] = landingTrust(landing, scale, oldNormal) * trace.known[v];
+    carried.trust[v] = trust;
     stretched[v] = stretchTrust(texel.gradient, previous.spacing * next.spacingAt(v) / next.spacing);
-    carried.previousPosition[v] = Vec3f(landing.point.position);
+    const bool onOld = !out[v] && !stays[v];
+    carried.previousPosition[v] = Vec3f(onOld ? landing.point.position : vertex.origin);
   });
-  const std::vector<float> neighbors = neighborTrust(next, carried.previousPosition, trace.map);
+  const std::vector<float> neighbors = neighborTrust(next, carried.previousPosition, trace.map, stays);
   texture::forEachIndex(count, [&](std::uint32_t v) {
     const float trust = carried.trust[v] * neighbors[v];
     carried.trust[v] = std::isfinite(trust) ? std::min(trust, stretched[v]) : 0.0f;
   });
+  if (std::find(out.begin(), out.end(), 1) != out.end())
+    drawOut(next, {previous, true}, out, stays, way, carried);
   return carried;
 }
 

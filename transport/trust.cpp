@@ -39,12 +39,12 @@ float stretchTrust(const TexelGradient& gradient, double spacing) {
 }
 
 std::vector<float> neighborTrust(const texture::SurfaceMesh& mesh, const std::vector<Vec3f>& landed,
-                                 const std::vector<Mat3d>& map) {
+                                 const std::vector<Mat3d>& map, const std::vector<std::uint8_t>& stays) {
   std::vector<float> trust(mesh.positions.size(), 1.0f);
   texture::forEachIndex(mesh.triangles.size(), [&](std::uint32_t t) {
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t a = mesh.triangles[t][i], b = mesh.triangles[t][(i + 1) % 3];
-      if (a > b) continue;  // the triangle on the other side has it
+      if (a > b || stays[a] != stays[b]) continue;  // the triangle on the other side has it
       const Vec3f edge = mesh.positions[b] - mesh.positions[a];
       const Vec3f expected((map[a] + map[b]) * Vec3d(edge) * 0.5);
       const float unit = std::max({float(mesh.spacing), edge.length(), expected.length()});

@@ -20,8 +20,9 @@ float stretchTrust(const TexelGradient& gradient, double spacing);
 // #V, consistency with neighbours: deviation of the landing points `landed` (#V) of an edge's ends from the
 // flow's map (#V) of that edge, the largest over each vertex's edges. 1 up to half the larger of edge length
 // and spacing, 0 from one and a half. Low along seams where surfaces from far apart have merged, and where
-// surface was newly exposed, so that many vertices land in one place.
+// surface was newly exposed, so that many vertices land in one place. Edges are left out that lead from what
+// stays (#V, 1 where the flow goes through the surface) to what rides with the flow.
 std::vector<float> neighborTrust(const texture::SurfaceMesh& mesh, const std::vector<Vec3f>& landed,
-                                 const std::vector<Mat3d>& map);
+                                 const std::vector<Mat3d>& map, const std::vector<std::uint8_t>& stays);
 
 }  // namespace fluidtex::transport

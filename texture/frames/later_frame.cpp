@@ -149,13 +149,15 @@ std::vector<Disc> discsOf(const Synthesizer& synthesizer, const SeamModel& seams
 }
 
 // #V, 1 where labels may change. Droplets keep theirs, and so do vertices within a cross-fade, whose colour
-// would jump.
+// would jump, and surface that the flow goes through.
 std::vector<std::uint8_t> renewable(const Synthesizer& synthesizer, const VertexGraph& graph,
                                     const Carried& carried) {
   std::vector<std::uint8_t> result = searched(synthesizer, graph);
   if (result.empty()) result.assign(carried.trust.size(), 1);
   for (std::size_t v = 0; v < result.size(); ++v)
-    if (carried.fading.weight[v] > 0.0f && believed(carried.trust[v])) result[v] = 0;
+    if ((carried.fading.weight[v] > 0.0f || (!carried.stays.empty() && carried.stays[v])) &&
+        believed(carried.trust[v]))
+      result[v] = 0;
   return result;
 }
 
@@ -174,7 +176,9 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   const SynthesisOptions& options = synthesizer.options;
   const Labels labels = labelsOf(now.mesh, carried.coordinate, carried.gradient);
   const std::size_t count = labels.size();
-  const Wear wear = wearAround(seamModel(synthesizer, now, 0), labels, carried.trust);
+  SeamModel worn = seamModel(synthesizer, now, 0);
+  worn.stays = &carried.stays;
+  const Wear wear = wearAround(worn, labels, carried.trust);
   const std::vector<Strain> rates =
       strainRates(now, carried.previousPosition, carried.trust, secondsSinceLast);
   LaterFrame result{labels, std::vector<std::uint8_t>(count, 0), std::vector<float>(count)};
@@ -187,7 +191,8 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   const std::vector<Strain> ahead = strainAhead(rates, options.lookAhead, most);
   const Connection connection = strained(now, ahead);
   const MeshView view{now.mesh, now.graph, connection, now.pixel, now.members};
-  const SeamModel seams = seamModel(synthesizer, view, 0);
+  SeamModel seams = seamModel(synthesizer, view, 0);
+  seams.stays = &carried.stays;
   const Labels before = strained(labels, ahead);
 
   const std::vector<std::uint8_t> free = renewable(synthesizer, view.graph, carried);

@@ -229,7 +229,7 @@ std::vector<float> changesOf(const SeamModel& model, const Labels& carried, cons
     change[v] = badnessAt(model, proposed, 1.0f, v) - badnessAt(model, carried, trust[v], v);
     for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
       const std::uint32_t u = graph.neighbor[h];
-      if (renewed[u]) continue;
+      if (renewed[u] || model.slides(v, u)) continue;
       const float rise =
           seamCost(model, proposed[v], carried[u], h) - seamCost(model, carried[v], carried[u], h);
       change[v] += kSeamWeight * rise / float(graph.around(u).size());

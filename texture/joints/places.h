@@ -54,15 +54,20 @@ inline constexpr float kOnePiece = 0.75f;
 
 // Whether the coordinates at vertices a and b are of one piece: each, continued to the other by its gradient,
 // is what stands there.
-inline bool onePiece(const Torus& torus, const std::vector<Vec3f>& positions, const Places& places,
+inline bool onePiece(const Torus& torus, const std::vector<Vec3f>& positions,
+                     const std::vector<Vec2f>& coordinate, const std::vector<TexelGradient>& gradient,
                      std::uint32_t a, std::uint32_t b) {
-  const auto& [coordinate, gradient] = places;
   const Vec3f way = positions[b] - positions[a];
   const Vec2f there = continued(coordinate[a], gradient[a], way),
               here = continued(coordinate[b], gradient[b], -way);
   return (torus.unwrapped(coordinate[b], there) - there).length() +
              (torus.unwrapped(coordinate[a], here) - here).length() <
          2.0f * kOnePiece;
+}
+
+inline bool onePiece(const Torus& torus, const std::vector<Vec3f>& positions, const Places& places,
+                     std::uint32_t a, std::uint32_t b) {
+  return onePiece(torus, positions, places.coordinate, places.gradient, a, b);
 }
 
 }  // namespace fluidtex::texture

@@ -101,8 +101,10 @@ float seamCost(const SeamModel& model, const Label& atV, const Float8& valueV, c
 float seamCostAround(const SeamModel& model, const Labels& labels, std::uint32_t v) {
   const VertexGraph& graph = model.view.graph;
   float sum = 0.0f;
-  for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h)
-    sum += seamCost(model, labels[v], labels[graph.neighbor[h]], h);
+  for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) {
+    const std::uint32_t u = graph.neighbor[h];
+    if (!model.slides(v, u)) sum += seamCost(model, labels[v], labels[u], h);
+  }
   return sum / float(graph.around(v).size());
 }
 

@@ -14,6 +14,12 @@ struct SeamModel {
   const TexelImage& image;
   Float8 channelWeight{};  // on squared differences
   float unit = 1.0f;       // unit of cost: rms difference of random texels
+  // #V (null: none), Carried::stays: where it differs texture slides past texture, and seams cost nothing.
+  const std::vector<std::uint8_t>* stays = nullptr;
+
+  bool slides(std::uint32_t v, std::uint32_t u) const {
+    return stays != nullptr && !stays->empty() && (*stays)[v] != (*stays)[u];
+  }
 };
 // Unit of cost for an exemplar. Scans the image: keep the result.
 float seamUnit(const TexelImage& image, const Float8& channelWeight);
@@ -31,7 +37,7 @@ float seamCost(const SeamModel& model, const Label& atV, const Float8& valueV, c
                const Float8& valueU, std::uint32_t h);
 inline constexpr float kSeamLength = 0.1f;
 
-// Mean of seamCost() over a vertex's edges.
+// Mean of seamCost() over a vertex's edges, of which those cost nothing that texture slides along.
 float seamCostAround(const SeamModel& model, const Labels& labels, std::uint32_t v);
 
 // Weights of a vertex's unary cost.

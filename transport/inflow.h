@@ -1,0 +1,43 @@
+// Surface through which liquid passes: where a source, a slit or an open side of the domain gives out liquid,
+// the path of a vertex leads back to where there was no surface. Its texture is drawn out from beside it, as
+// from a roll; where the flow goes through a surface that stays, the texture stays too.
+#pragma once
+
+#include "texture/joints/places.h"
+#include "texture/surface.h"
+#include "transport/pick_up.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace fluidtex::transport {
+
+// A vertex of the new surface, traced back to the start of the frame.
+struct TracedVertex {
+  Vec3d position, origin;  // metres
+  Vec3f normal;            // unit, of the new surface
+  Vec3f carriedNormal;     // unit, the same at the origin
+  double spacing = 0.0;    // metres, there
+};
+
+// Whether the vertex has come out along the surface: its origin lies outside of the old liquid, no farther
+// from it than it has moved, and either beyond the end of the surface, by more than a tenth of the spacing in
+// the plane of the carried normal, or where the flow enters the liquid through the rim of it. landing: of the
+// origin.
+bool cameOut(const TracedVertex& vertex, const Landing& landing);
+
+// Whether the vertex moves across the surface (30 degrees or more), and the surface has not moved with it.
+// landing: of the origin.
+bool goesThrough(const TracedVertex& vertex, const Landing& landing);
+
+// Continues the exemplar coordinates (and those that fade) of vertices that ride with the flow, which are
+// neither `out` nor `stays` (#V) nor of low trust, over those that are `out`, ring by ring, by their
+// gradient: each vertex those of its neighbour in the largest piece of texture, so that joints do not go on
+// for ever. Across the direction of `way` (#V, metres: how the vertex has moved) the gradient is kept; along
+// it the texture is laid anew at one texel per spacing, since what comes out has not been strained yet. What
+// is reached has age 0 and the trust of where it comes from. Precondition: unit normals.
+void drawOut(const texture::SurfaceMesh& mesh, const texture::Torus& torus,
+             const std::vector<std::uint8_t>& out, const std::vector<std::uint8_t>& stays,
+             const std::vector<Vec3f>& way, texture::Carried& carried);
+
+}  // namespace fluidtex::transport
