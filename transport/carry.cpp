@@ -210,7 +210,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
     carried.trust[v] = std::isfinite(trust) ? std::min(trust, stretched[v]) : 0.0f;
   });
   if (std::find(out.begin(), out.end(), 1) != out.end())
-    drawOut(next, {previous, true}, out, stays, way, carried);
+    drawOut(next, {previous, true}, out, stays, way, symmetry, carried);
   return carried;
 }
 

@@ -11,12 +11,16 @@
 namespace fluidtex::transport {
 namespace {
 
-constexpr double kBeyond = 0.1;        // over the spacing
-constexpr double kFarthest = 1.25;     // over the way moved
-constexpr double kMostAcross = 0.5;    // sine of the angle between motion and surface: 30 degrees
-constexpr double kInwards = -0.15;     // of the motion, at the landing, more than at the vertex
-constexpr double kLeftBehind = 0.5;    // over the motion across the surface
-constexpr double kMostInside = -0.25;  // over the distance: what lies in the liquid is exposed, not given out
+constexpr float kOpposite = -0.9f;   // normals between which there is no parallel transport
+constexpr float kUpright = 0.35f;    // radians
+constexpr double kBeyond = 0.1;      // over the spacing
+constexpr double kFarthest = 1.25;   // over the way moved
+constexpr double kMostAcross = 0.5;  // sine of the angle between motion and surface: 30 degrees
+constexpr double kInwards = -0.15;   // of the motion, at the landing, more than at the vertex
+constexpr float kOtherFace = 0.5f;   // cosine between normals, 60 degrees
+constexpr double kLeftBehind = 0.5;  // over the motion across the surface
+constexpr double kMostInside =
+    -0.25;  // over the distance, or the spacing: what lies deeper in the liquid was laid open
 
 Vec3d planar(const Vec3d& x, const Vec3f& normal) {
   const Vec3d n(normal);
@@ -25,7 +29,7 @@ Vec3d planar(const Vec3d& x, const Vec3f& normal) {
 
 // x as at normal `from`, as it is at `to`.
 TexelGradient turned(const TexelGradient& g, const Vec3f& from, const Vec3f& to) {
-  if (from.dot(to) <= -0.9f) return g;
+  if (from.dot(to) <= kOpposite) return g;
   return {texture::turnedTangent(g.s, from, to), texture::turnedTangent(g.t, from, to)};
 }
 
@@ -68,6 +72,12 @@ void drawOutAt(const texture::SurfaceMesh& mesh, std::uint32_t u, std::uint32_t 
     fading.coordinate[v] = former.coordinate;
     fading.gradient[v] = laid(former.gradient);
   }
+  const Vec3f& d = carried.orientation[u];
+  carried.orientation[v] =
+      texture::tangentUnit(mesh.normals[u].dot(mesh.normals[v]) > kOpposite
+                               ? texture::turnedTangent(d, mesh.normals[u], mesh.normals[v])
+                               : d,
+                           mesh.normals[v], carried.orientation[v]);
   carried.age[v] = 0.0f;
   carried.trust[v] = carried.trust[u];
 }
@@ -77,12 +87,22 @@ bool crosses(const TracedVertex& vertex) {
   return std::abs(way.dot(Vec3d(vertex.normal))) > kMostAcross * way.length();
 }
 
-// #V, of the vertices in the mask: how many are of the same piece of texture.
-std::vector<std::uint32_t> sizesOfPieces(const texture::SurfaceMesh& mesh, const texture::Torus& torus,
-                                         const texture::VertexGraph& graph,
-                                         const std::vector<std::uint8_t>& mask,
-                                         const texture::Carried& carried) {
-  std::vector<std::uint32_t> size(mask.size(), 0), piece;
+// Whether the texture lies along the orientation, or turned against it as its symmetry allows, within 20
+// degrees.
+bool liesUpright(const TexelGradient& g, const Vec3f& d, const Vec3f& normal, int symmetry) {
+  const Vec3f b = texture::rowAxis(d, normal);
+  const float ss = g.s.dot(d), st = g.s.dot(b), ts = g.t.dot(d), tt = g.t.dot(b);
+  const bool mirrored = ss * tt < st * ts;
+  const float angle = mirrored ? std::atan2(st + ts, ss - tt) : std::atan2(st - ts, ss + tt);
+  return std::cos(float(symmetry) * angle) > std::cos(float(symmetry) * kUpright);
+}
+
+// #V, of the vertices in the mask: how many are upright in the same piece of texture.
+std::vector<std::uint32_t> uprightInPieces(const texture::SurfaceMesh& mesh, const texture::Torus& torus,
+                                           const texture::VertexGraph& graph,
+                                           const std::vector<std::uint8_t>& mask,
+                                           const texture::Carried& carried, int symmetry) {
+  std::vector<std::uint32_t> upright(mask.size(), 0), piece;
   std::vector<std::uint8_t> seen(mask.size(), 0);
   for (std::uint32_t start = 0; start < mask.size(); ++start) {
     if (!mask[start] || seen[start]) continue;
@@ -96,9 +116,12 @@ std::vector<std::uint32_t> sizesOfPieces(const texture::SurfaceMesh& mesh, const
         seen[u] = 1;
         piece.push_back(u);
       }
-    for (const std::uint32_t v : piece) size[v] = std::uint32_t(piece.size());
+    const auto count = std::count_if(piece.begin(), piece.end(), [&](std::uint32_t v) {
+      return liesUpright(carried.gradient[v], carried.orientation[v], mesh.normals[v], symmetry);
+    });
+    for (const std::uint32_t v : piece) upright[v] = std::uint32_t(count);
   }
-  return size;
+  return upright;
 }
 
 }  // namespace
@@ -107,24 +130,26 @@ bool cameOut(const TracedVertex& vertex, const Landing& landing) {
   const Vec3d off = vertex.origin - landing.point.position, way = vertex.position - vertex.origin;
   const double distance = off.length(), moved = way.length();
   if (crosses(vertex) || distance > kFarthest * moved) return false;
-  if (off.dot(Vec3d(landing.normal)) < kMostInside * distance) return false;
+  if (off.dot(Vec3d(landing.normal)) < kMostInside * std::max(distance, vertex.spacing)) return false;
   const double turned = way.dot(Vec3d(landing.normal - vertex.carriedNormal));
   return planar(off, vertex.carriedNormal).length() > kBeyond * vertex.spacing || turned < kInwards * moved;
 }
 
 bool goesThrough(const TracedVertex& vertex, const Landing& landing) {
   const Vec3d way = vertex.position - vertex.origin;
-  return crosses(vertex) && landing.point.distance > kLeftBehind * std::abs(way.dot(Vec3d(vertex.normal)));
+  const bool other = landing.normal.dot(vertex.carriedNormal) < kOtherFace;
+  return crosses(vertex) &&
+         (other || landing.point.distance > kLeftBehind * std::abs(way.dot(Vec3d(vertex.normal))));
 }
 
 void drawOut(const texture::SurfaceMesh& mesh, const texture::Torus& torus,
              const std::vector<std::uint8_t>& out, const std::vector<std::uint8_t>& stays,
-             const std::vector<Vec3f>& way, texture::Carried& carried) {
+             const std::vector<Vec3f>& way, int symmetry, texture::Carried& carried) {
   const texture::VertexGraph graph = texture::buildVertexGraph(mesh);
   std::vector<std::uint8_t> placed(out.size(), 0);
   for (std::uint32_t v = 0; v < out.size(); ++v)
     placed[v] = !out[v] && !stays[v] && carried.trust[v] >= texture::kLowTrust;
-  std::vector<std::uint32_t> pieceSize = sizesOfPieces(mesh, torus, graph, placed, carried);
+  std::vector<std::uint32_t> upright = uprightInPieces(mesh, torus, graph, placed, carried, symmetry);
 
   std::vector<std::uint8_t> reached = placed;
   std::vector<std::uint32_t> front =
@@ -141,17 +166,17 @@ void drawOut(const texture::SurfaceMesh& mesh, const texture::Torus& torus,
         next.push_back(u);
       }
     for (const std::uint32_t v : next) {
-      std::uint32_t from = texture::kNone, size = 0;
+      std::uint32_t from = texture::kNone, most = 0;
       float nearest = 0.0f;
       for (const std::uint32_t u : graph.around(v)) {
         if (!placed[u]) continue;
         const float distance = (mesh.positions[u] - mesh.positions[v]).lengthSqr();
-        if (from != texture::kNone && (pieceSize[u] < size || (pieceSize[u] == size && distance >= nearest)))
+        if (from != texture::kNone && (upright[u] < most || (upright[u] == most && distance >= nearest)))
           continue;
-        from = u, size = pieceSize[u], nearest = distance;
+        from = u, most = upright[u], nearest = distance;
       }
       drawOutAt(mesh, from, v, way[v], carried);
-      pieceSize[v] = size;
+      upright[v] = most;
     }
     for (const std::uint32_t v : next) placed[v] = 1;
     front.swap(next);

@@ -30,14 +30,16 @@ bool cameOut(const TracedVertex& vertex, const Landing& landing);
 // landing: of the origin.
 bool goesThrough(const TracedVertex& vertex, const Landing& landing);
 
-// Continues the exemplar coordinates (and those that fade) of vertices that ride with the flow, which are
-// neither `out` nor `stays` (#V) nor of low trust, over those that are `out`, ring by ring, by their
-// gradient: each vertex those of its neighbour in the largest piece of texture, so that joints do not go on
-// for ever. Across the direction of `way` (#V, metres: how the vertex has moved) the gradient is kept; along
-// it the texture is laid anew at one texel per spacing, since what comes out has not been strained yet. What
-// is reached has age 0 and the trust of where it comes from. Precondition: unit normals.
+// Continues the orientation and the exemplar coordinates (and those that fade) of vertices that ride with the
+// flow, which are neither `out` nor `stays` (#V) nor of low trust, over those that are `out`, ring by ring,
+// by their gradient: each vertex those of its neighbour in the largest piece of texture, counted by what of
+// it lies upright (carried.orientation, symmetry as carry() has it), so that joints do not go on for ever.
+// Across the direction of `way` (#V, metres: how the vertex has moved) the gradient is kept; along it the
+// texture is laid anew at one texel per spacing, since what comes out has not been strained yet. What is
+// reached has age 0 and the trust of where it comes from. Preconditions: unit normals; a closed, manifold
+// mesh.
 void drawOut(const texture::SurfaceMesh& mesh, const texture::Torus& torus,
              const std::vector<std::uint8_t>& out, const std::vector<std::uint8_t>& stays,
-             const std::vector<Vec3f>& way, texture::Carried& carried);
+             const std::vector<Vec3f>& way, int symmetry, texture::Carried& carried);
 
 }  // namespace fluidtex::transport

@@ -50,15 +50,16 @@ TEST_CASE("trust: neighbours that landed as the flow says are believed, others a
   const SurfaceMesh mesh = sphereMesh(12);
   const Mat3d turn = exponential(rotationAbout({1, 2, 3}, 1.0));
   const std::vector<Mat3d> map(mesh.positions.size(), turn);
+  const std::vector<std::uint8_t> stays(mesh.positions.size(), 0);
   std::vector<Vec3f> landed;
   for (const Vec3f& x : mesh.positions) landed.emplace_back(turn * Vec3d(x));
-  for (const float trust : neighborTrust(mesh, landed, map)) REQUIRE(trust == 1.0f);
+  for (const float trust : neighborTrust(mesh, landed, map, stays)) REQUIRE(trust == 1.0f);
   // The upper half came from elsewhere; and all that is far left landed in one place.
   for (std::size_t v = 0; v < landed.size(); ++v) {
     if (mesh.positions[v].z() > 0.0f) landed[v] += Vec3f(5, 0, 0);
     if (mesh.positions[v].x() < -0.8f) landed[v] = Vec3f(9, 9, 9);
   }
-  const std::vector<float> trust = neighborTrust(mesh, landed, map);
+  const std::vector<float> trust = neighborTrust(mesh, landed, map, stays);
   int torn = 0;
   for (std::size_t v = 0; v < landed.size(); ++v) {
     const Vec3f& x = mesh.positions[v];
