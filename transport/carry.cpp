@@ -162,7 +162,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   carried.orientation.resize(count);
   if (!previous.foam.empty()) carried.foam.resize(count);
   std::vector<float> stretched(count);
-  std::vector<std::uint8_t> out(count, 0);
+  std::vector<Inflow> inflow(count, Inflow::none);
   std::vector<std::uint8_t>& stays = carried.stays;
   stays.assign(count, 0);
   std::vector<Vec3f> way(count);
@@ -175,8 +175,8 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
     const TracedVertex vertex{Vec3d(next.positions[v]), trace.origin[v], normal, oldNormal,
                               next.spacingAt(v)};
     float trust = landingTrust(landing, scale, oldNormal) * trace.known[v];
-    out[v] = cameOut(vertex, landing);
-    if (!out[v] && goesThrough(vertex, landing)) {
+    inflow[v] = inflowAt(vertex, landing);
+    if (goesThrough(vertex, landing)) {
       const Landing here = source.landing(vertex.position, normal, kOtherSide * scale);
       const float trustHere = landingTrust(here, scale, normal);
       stays[v] = trustHere >= texture::kLowTrust;
@@ -201,7 +201,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
       carried.orientation[v] = texture::tangentUnit(direction, normal, anyTangent(normal));
     carried.trust[v] = trust;
     stretched[v] = stretchTrust(texel.gradient, previous.spacing * next.spacingAt(v) / next.spacing);
-    const bool onOld = !out[v] && !stays[v];
+    const bool onOld = inflow[v] != Inflow::out && !stays[v];
     carried.previousPosition[v] = Vec3f(onOld ? landing.point.position : vertex.origin);
   });
   const std::vector<float> neighbors = neighborTrust(next, carried.previousPosition, trace.map, stays);
@@ -209,8 +209,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
     const float trust = carried.trust[v] * neighbors[v];
     carried.trust[v] = std::isfinite(trust) ? std::min(trust, stretched[v]) : 0.0f;
   });
-  if (std::find(out.begin(), out.end(), 1) != out.end())
-    drawOut(next, {previous, true}, out, stays, way, symmetry, carried);
+  drawOut(next, {previous, true}, inflow, way, symmetry, carried);
   return carried;
 }
 

@@ -11,9 +11,11 @@
 namespace fluidtex::transport {
 namespace {
 
-constexpr float kOpposite = -0.9f;   // normals between which there is no parallel transport
-constexpr float kUpright = 0.35f;    // radians
-constexpr double kBeyond = 0.1;      // over the spacing
+constexpr float kOpposite = -0.9f;  // normals between which there is no parallel transport
+constexpr float kUpright = 0.35f;   // radians
+constexpr double kBeyond = 0.25;    // over the spacing
+constexpr double kUpstream = 0.7;   // cosine
+constexpr int kRimRings = 4;
 constexpr double kFarthest = 1.25;   // over the way moved
 constexpr double kMostAcross = 0.5;  // sine of the angle between motion and surface: 30 degrees
 constexpr double kInwards = -0.15;   // of the motion, at the landing, more than at the vertex
@@ -97,6 +99,27 @@ bool liesUpright(const TexelGradient& g, const Vec3f& d, const Vec3f& normal, in
   return std::cos(float(symmetry) * angle) > std::cos(float(symmetry) * kUpright);
 }
 
+// #V, 1 where something has come out, and on the rims beside that.
+std::vector<std::uint8_t> outWithRims(const texture::VertexGraph& graph, const std::vector<Inflow>& inflow) {
+  std::vector<std::uint8_t> out(inflow.size(), 0);
+  std::vector<std::uint32_t> front, next;
+  for (std::uint32_t v = 0; v < inflow.size(); ++v) {
+    out[v] = inflow[v] == Inflow::out;
+    if (out[v]) front.push_back(v);
+  }
+  for (int ring = 0; ring < kRimRings && !front.empty(); ++ring) {
+    next.clear();
+    for (const std::uint32_t v : front)
+      for (const std::uint32_t u : graph.around(v)) {
+        if (out[u] || inflow[u] != Inflow::rim) continue;
+        out[u] = 1;
+        next.push_back(u);
+      }
+    front.swap(next);
+  }
+  return out;
+}
+
 // #V, of the vertices in the mask: how many are upright in the same piece of texture.
 std::vector<std::uint32_t> uprightInPieces(const texture::SurfaceMesh& mesh, const texture::Torus& torus,
                                            const texture::VertexGraph& graph,
@@ -126,29 +149,32 @@ std::vector<std::uint32_t> uprightInPieces(const texture::SurfaceMesh& mesh, con
 
 }  // namespace
 
-bool cameOut(const TracedVertex& vertex, const Landing& landing) {
+Inflow inflowAt(const TracedVertex& vertex, const Landing& landing) {
   const Vec3d off = vertex.origin - landing.point.position, way = vertex.position - vertex.origin;
   const double distance = off.length(), moved = way.length();
-  if (crosses(vertex) || distance > kFarthest * moved) return false;
-  if (off.dot(Vec3d(landing.normal)) < kMostInside * std::max(distance, vertex.spacing)) return false;
+  if (crosses(vertex) || distance > kFarthest * moved) return Inflow::none;
+  if (off.dot(Vec3d(landing.normal)) < kMostInside * std::max(distance, vertex.spacing)) return Inflow::none;
+  const bool upstream = off.dot(way) < -kUpstream * distance * moved;
+  if (upstream && planar(off, vertex.carriedNormal).length() > kBeyond * vertex.spacing) return Inflow::out;
   const double turned = way.dot(Vec3d(landing.normal - vertex.carriedNormal));
-  return planar(off, vertex.carriedNormal).length() > kBeyond * vertex.spacing || turned < kInwards * moved;
+  return turned < kInwards * moved ? Inflow::rim : Inflow::none;
 }
 
 bool goesThrough(const TracedVertex& vertex, const Landing& landing) {
   const Vec3d way = vertex.position - vertex.origin;
-  const bool other = landing.normal.dot(vertex.carriedNormal) < kOtherFace;
-  return crosses(vertex) &&
-         (other || landing.point.distance > kLeftBehind * std::abs(way.dot(Vec3d(vertex.normal))));
+  if (!crosses(vertex) || landing.point.distance < kBeyond * vertex.spacing) return false;
+  return landing.normal.dot(vertex.carriedNormal) < kOtherFace ||
+         landing.point.distance > kLeftBehind * std::abs(way.dot(Vec3d(vertex.normal)));
 }
 
-void drawOut(const texture::SurfaceMesh& mesh, const texture::Torus& torus,
-             const std::vector<std::uint8_t>& out, const std::vector<std::uint8_t>& stays,
+void drawOut(const texture::SurfaceMesh& mesh, const texture::Torus& torus, const std::vector<Inflow>& inflow,
              const std::vector<Vec3f>& way, int symmetry, texture::Carried& carried) {
+  if (std::find(inflow.begin(), inflow.end(), Inflow::out) == inflow.end()) return;
   const texture::VertexGraph graph = texture::buildVertexGraph(mesh);
+  const std::vector<std::uint8_t> out = outWithRims(graph, inflow);
   std::vector<std::uint8_t> placed(out.size(), 0);
   for (std::uint32_t v = 0; v < out.size(); ++v)
-    placed[v] = !out[v] && !stays[v] && carried.trust[v] >= texture::kLowTrust;
+    placed[v] = !out[v] && !carried.stays[v] && carried.trust[v] >= texture::kLowTrust;
   std::vector<std::uint32_t> upright = uprightInPieces(mesh, torus, graph, placed, carried, symmetry);
 
   std::vector<std::uint8_t> reached = placed;

@@ -20,13 +20,22 @@ struct TracedVertex {
   double spacing = 0.0;    // metres, there
 };
 
-// Whether the vertex has come out along the surface: its origin lies outside of the old liquid, no farther
-// from it than it has moved, and either beyond the end of the surface, by more than a tenth of the spacing in
-// the plane of the carried normal, or where the flow enters the liquid through the rim of it. landing: of the
-// origin.
-bool cameOut(const TracedVertex& vertex, const Landing& landing);
+// What has come in since the last frame, along the surface.
+enum class Inflow : std::uint8_t {
+  none,
+  // The flow enters the old liquid at the landing, through the rim of it; no inflow unless there is some
+  // beside it.
+  rim,
+  // The origin lies upstream of the end of the old surface, outside of the liquid, by more than a quarter of
+  // the spacing in the plane of the carried normal, and no farther than the vertex has moved.
+  out
+};
 
-// Whether the vertex moves across the surface (30 degrees or more), and the surface has not moved with it.
+// landing: of the origin.
+Inflow inflowAt(const TracedVertex& vertex, const Landing& landing);
+
+// Whether the vertex moves across the surface (30 degrees or more), and the surface has not moved with it, so
+// that the origin is off it by more than a quarter of the spacing.
 // landing: of the origin.
 bool goesThrough(const TracedVertex& vertex, const Landing& landing);
 
@@ -38,8 +47,7 @@ bool goesThrough(const TracedVertex& vertex, const Landing& landing);
 // texture is laid anew at one texel per spacing, since what comes out has not been strained yet. What is
 // reached has age 0 and the trust of where it comes from. Preconditions: unit normals; a closed, manifold
 // mesh.
-void drawOut(const texture::SurfaceMesh& mesh, const texture::Torus& torus,
-             const std::vector<std::uint8_t>& out, const std::vector<std::uint8_t>& stays,
+void drawOut(const texture::SurfaceMesh& mesh, const texture::Torus& torus, const std::vector<Inflow>& inflow,
              const std::vector<Vec3f>& way, int symmetry, texture::Carried& carried);
 
 }  // namespace fluidtex::transport
