@@ -81,9 +81,8 @@ KnownFlow sourceAndSink(const Vec3d& size, double rate) {
 }
 
 KnownFlow slot(double speed, double strain) {
-  return {{}, steady, 0.0, [=](const Vec3d& x) {
-            return Vec3d(speed + strain * std::max(x[0], 0.0), 0.0, 0.0);
-          }};
+  return {
+      {}, steady, 0.0, [=](const Vec3d& x) { return Vec3d(speed + strain * std::max(x[0], 0.0), 0.0, 0.0); }};
 }
 
 double timeFromSlot(double x, double speed, double strain) {
