@@ -236,7 +236,7 @@ TEST_CASE("scene faults: a flow in closed form and what it knows nothing of", "[
        "s.toml:1:34: error: motion.rate: is of no use here; give it together with flow = \"rotation\", "
        "\"vortex\", \"stretch\" or \"source_sink\""},
       {"motion = { flow = 'stretch', strain = 1 }\n" + kGoodScene,
-       "s.toml:1:32: error: motion.strain: is of no use here; give it together with flow = \"slot\""},
+       "s.toml:1:30: error: motion.strain: is of no use here; give it together with flow = \"slot\""},
       {"motion = { flow = 'stretch', rate = 0 }\n" + kGoodScene,
        "s.toml:1:30: error: motion.rate: 0 is too small; give a number above 0"},
   });

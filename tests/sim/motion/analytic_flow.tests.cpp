@@ -94,6 +94,31 @@ TEST_CASE("analytic flow: area grows by the rate at the source and is lost at th
   }
 }
 
+TEST_CASE("analytic flow: a sheet out of a slit is drawn out by the strain and widens with the slit",
+          "[sim]") {
+  Options options = sheet();
+  options.liquid = {{Shape{Box{Vec3d(-1, 0.3, 0.2), Vec3d(2, 0.7, 0.32)}}}};
+  const double speed = 0.6, strain = 0.8, widening = 0.3;
+  AnalyticFlow flow(options,
+                    {.flow = MotionKind::slot, .speed = speed, .strain = strain, .widening = widening});
+  const Frame frame = frameAfter(flow, 12);
+  const Substep& substep = frame.substeps.at(0);
+  for (const Vec3d& x : {Vec3d(0.1, 0.4, 0.3), Vec3d(0.5, 0.9, 0.2), Vec3d(0.93, 0.2, 0.26)}) {
+    const Vec3d u = velocityAt(substep, x);
+    CHECK_THAT(u[0], WithinAbs(speed + strain * x[0], 1e-6));
+    CHECK((u[1] == 0.0 && u[2] == 0.0));
+  }
+  CHECK_THAT(velocityAt(substep, Vec3d(-0.1, 0.5, 0.3))[0], WithinAbs(speed, 1e-6));
+  // dx / dt = speed + strain x: what is at x has left the slit ln(1 + strain x / speed) / strain ago.
+  for (const double x : {0.1, 0.2}) {
+    const double left = 0.5 - std::log(1.0 + strain * x / speed) / strain;
+    CHECK_THAT(phiAt(frame, Vec3d(x, 0.7 + widening * left, 0.26)), WithinAbs(0.0, 0.1 / 32));
+    CHECK_THAT(phiAt(frame, Vec3d(x, 0.3 - widening * left, 0.26)), WithinAbs(0.0, 0.1 / 32));
+  }
+  CHECK_THAT(phiAt(frame, Vec3d(0.9, 0.7, 0.26)), WithinAbs(0.0, 1e-3));
+  CHECK_THAT(phiAt(frame, Vec3d(0.5, 0.5, 0.32)), WithinAbs(0.0, 1e-6));
+}
+
 TEST_CASE("analytic flow: a ball turns about the middle", "[sim]") {
   const double rate = 0.5 * std::numbers::pi * 24.0 / 6.0;  // a quarter in six frames
   AnalyticFlow flow(ball(Vec3d(0.75, 0.5, 0.5), 0.15), {MotionKind::rotation, 1.0, rate});

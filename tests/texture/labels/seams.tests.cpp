@@ -55,6 +55,30 @@ TEST_CASE("seams: no cost within a picture, the same from both ends of an edge")
   CHECK(seams > 30);
 }
 
+TEST_CASE("seams: no cost where texture slides past texture") {
+  const OrientedMesh surface = flatBox(20);
+  const TexelImage image = makeTexelImage(noiseImage(80, 80, 3, 1), false, 4);
+  SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
+  Labels labels;
+  std::vector<std::uint8_t> stays;
+  for (std::uint32_t v = 0; v < surface.mesh.positions.size(); ++v) {
+    stays.push_back(surface.mesh.positions[v].x() < 9.5f);
+    labels.push_back(pictureAt(surface, stays[v] ? Vec2f(5, 40) : Vec2f(30, 60), v));
+  }
+  const auto alongBorder = [&] {
+    double sum = 0.0;
+    for (std::uint32_t v = 0; v < labels.size(); ++v) {
+      const Vec3f& x = surface.mesh.positions[v];
+      if (x.z() > 1.9f && std::abs(x.x() - 9.5f) < 1.0f && x.y() > 1 && x.y() < 19)
+        sum += double(seamCostAround(model, labels, v));
+    }
+    return sum;
+  };
+  CHECK(alongBorder() > 1.0);
+  model.stays = &stays;
+  CHECK(alongBorder() == 0.0);
+}
+
 TEST_CASE("seams: specks are taken over by what surrounds them") {
   const OrientedMesh surface = flatBox(20);
   const TexelImage image = makeTexelImage(blobImage(80, 80, 3, 9.0, 1), false, 4);
