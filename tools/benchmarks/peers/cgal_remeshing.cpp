@@ -1,10 +1,10 @@
 #include "tools/benchmarks/peers/cgal_remeshing.h"
 #include "texture/mesh/remesh.h"
 #include "tools/benchmarks/measure.h"
+#include "tools/benchmarks/peers/cgal_mesh.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
-#include <CGAL/Surface_mesh.h>
 
 namespace fluidtex::benchmarks {
 
@@ -13,12 +13,7 @@ Remeshed cgalIsotropicRemeshing(const std::vector<texture::Vec3f>& positions,
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
   namespace pmp = CGAL::Polygon_mesh_processing;
-  Mesh mesh;
-  std::vector<Mesh::Vertex_index> vertex;
-  vertex.reserve(positions.size());
-  for (const texture::Vec3f& p : positions)
-    vertex.push_back(mesh.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z())));
-  for (const texture::Vec3I& t : triangles) mesh.add_face(vertex[t[0]], vertex[t[1]], vertex[t[2]]);
+  Mesh mesh = cgalMesh<Kernel::Point_3>(positions, triangles);
 
   Remeshed result;
   const double start = wallSeconds();

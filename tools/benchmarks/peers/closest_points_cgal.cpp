@@ -1,11 +1,11 @@
 #include "tools/benchmarks/measure.h"
+#include "tools/benchmarks/peers/cgal_mesh.h"
 #include "tools/benchmarks/peers/closest_points.h"
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <cmath>
 
@@ -18,12 +18,7 @@ ClosestRun cgalClosest(const std::vector<texture::Vec3f>& positions,
   using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
   using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
   using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-  Mesh mesh;
-  std::vector<Mesh::Vertex_index> vertex;
-  vertex.reserve(positions.size());
-  for (const texture::Vec3f& p : positions)
-    vertex.push_back(mesh.add_vertex(Kernel::Point_3(p.x(), p.y(), p.z())));
-  for (const texture::Vec3I& t : triangles) mesh.add_face(vertex[t[0]], vertex[t[1]], vertex[t[2]]);
+  Mesh mesh = cgalMesh<Kernel::Point_3>(positions, triangles);
 
   ClosestRun run;
   double from = processorSeconds();
