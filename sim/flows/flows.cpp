@@ -42,19 +42,22 @@ std::vector<FloatLeaf*> touchLeaves(FloatGrid& phi, const std::vector<Coord>& or
 }
 
 // Whether air lies just outside the source's surface there, on a side other than its front. place: a cell;
-// distance: the source's there.
-bool bareSide(const FloatGrid& phi, const FloatGrid& shape, const Coord& place, float distance,
-              const Vec3d& velocity) {
+// distance: the source's there. Not in solids, where phi says nothing of air: a side that counted as bare
+// there would take in the liquid of a full room forever.
+bool bareSide(const FloatGrid& phi, const FloatGrid& solidPhi, const FloatGrid& shape, const Coord& place,
+              float distance, const Vec3d& velocity) {
   const double h = phi.voxelSize()[0];
   const Vec3d normal = normalAt(shape.constTree(), place);
   if (normal == Vec3d(0.0) || normal.dot(velocity) > kFront * velocity.length()) return false;
   const Vec3d outside = place.asVec3d() + (kBare - distance / h) * normal;
-  return openvdb::tools::BoxSampler::sample(phi.constTree(), outside) > 0.0f;
+  using openvdb::tools::BoxSampler;
+  return BoxSampler::sample(solidPhi.constTree(), outside) > 0.0f &&
+         BoxSampler::sample(phi.constTree(), outside) > 0.0f;
 }
 
 // phi = min(phi, source). Where the sides of a flowing source are bare they are the surface: liquid that has
 // crept over them is removed, or the little that rises there would draw up more.
-void fill(FloatGrid& phi, const SourceGrids& source) {
+void fill(FloatGrid& phi, const FloatGrid& solidPhi, const SourceGrids& source) {
   const std::vector<FloatLeaf*> leaves = touchLeaves(phi, wetLeaves(*source.phi, CoordBBox::inf()));
   const float background = phi.background(), band = 2.0f * static_cast<float>(phi.voxelSize()[0]);
   std::vector<std::array<float, kLeafSize>> filled(leaves.size());
@@ -65,7 +68,7 @@ void fill(FloatGrid& phi, const SourceGrids& source) {
     for (int i = 0; i < kLeafSize; ++i) {
       const bool bare =
           source.speed != Vec3d(0.0) && std::abs(liquid[i]) < band &&
-          bareSide(phi, *source.phi, leaves[n]->offsetToGlobalCoord(i), liquid[i], source.speed);
+          bareSide(phi, solidPhi, *source.phi, leaves[n]->offsetToGlobalCoord(i), liquid[i], source.speed);
       filled[n][i] = std::clamp(bare ? liquid[i] : std::min(was[i], liquid[i]), -background, background);
     }
   });
@@ -229,9 +232,9 @@ std::vector<const FloatGrid*> Flows::places() const {
   return grids;
 }
 
-void applyFlows(FloatGrid& phi, Markers& markers, const RunningFlows& flows) {
+void applyFlows(FloatGrid& phi, Markers& markers, const FloatGrid& solidPhi, const RunningFlows& flows) {
   for (const auto& [source, factor] : flows.sources) {
-    fill(phi, *source);
+    fill(phi, solidPhi, *source);
     dropWithin(markers, *source->phi, false);
   }
   for (const FloatGrid* drain : flows.drains) {

@@ -55,8 +55,8 @@ class Flows {
 std::vector<std::string> flowWarnings(const Options& options, const Solids& solids);
 
 // Fills the sources and empties the drains: changes phi, which must be reinitialised afterwards, and drops
-// air markers in sources and liquid markers in drains.
-void applyFlows(FloatGrid& phi, Markers& markers, const RunningFlows& flows);
+// air markers in sources and liquid markers in drains. solidPhi: the solids' signed distance, metres.
+void applyFlows(FloatGrid& phi, Markers& markers, const FloatGrid& solidPhi, const RunningFlows& flows);
 
 // The solids with given velocities added: at open faces in sources, and at open faces on stream sides of the
 // domain. On stream sides the velocity `before` is advected outward by itself and by the waves of shallow

@@ -32,11 +32,11 @@ void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, con
   if (left != nullptr) dropLeft(markers, *left);
   advectPhi(phi, velocity, *solid.phi, dt, visibility);
   correctPhi(phi, markers, *solid.phi, visibility);
-  applyFlows(phi, markers, flows);
+  applyFlows(phi, markers, *solid.phi, flows);
   extendBeyond(phi, solid, {}, kDeepInSolid, left);
   redistance(phi, solid, kReinitIterations);
   correctPhi(phi, markers, *solid.phi, visibility);
-  applyFlows(phi, markers, flows);
+  applyFlows(phi, markers, *solid.phi, flows);
   maintainMarkers(markers, phi, *solid.phi, seed, visibility);
   trimBand(phi, *solid.phi);
 }

@@ -81,7 +81,7 @@ void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& af
 bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options& options, StepReport* report,
             const RunningFlows& flows, const MaskGrid& known) {
   FloatGrid& phi = *liquid.phi;
-  applyFlows(phi, liquid.markers, flows);
+  applyFlows(phi, liquid.markers, *solid.phi, flows);
   settleSurface(phi, solid, known);
   liquid.markers =
       seedMarkers(phi, *solid.phi, markerSeed(options.seed, liquid.steps), solid.visibility.get());
