@@ -1,16 +1,14 @@
 # Most of what a small file takes to compile are headers, and templates that its neighbours instantiate too: the sources
 # of a folder are compiled a few at a time as one. So names in them are unique within their folder, unnamed namespaces
-# included. Editors and tools that go by file want FLUIDTEX_UNITY=OFF, as the presets debug and fuzz have it.
-option(FLUIDTEX_UNITY "Compile the sources of a folder a few at a time as one file" ON)
-
-# The most that keeps a change of one source below 15 s.
-set(batch_size 6)
+# included. Large batches are built sooner from nothing; 6 is the most that keeps a change of one source below 15 s (preset
+# develop). Editors and tools that go by file want 1 (presets debug and fuzz).
+set(FLUIDTEX_BATCH 24 CACHE STRING "How many sources of a folder are compiled as one file, at most")
 
 # fluidtex_in_batches(TARGET [ALONE SOURCES...]): in the order in which the target names them. ALONE: sources that are
 # compiled alone, because they take long or use a name for themselves that others in their folder have.
 function(fluidtex_in_batches target)
   cmake_parse_arguments(batch "" "" "ALONE" ${ARGN})
-  if(NOT FLUIDTEX_UNITY)
+  if(FLUIDTEX_BATCH LESS 2)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
@@ -29,7 +27,7 @@ function(fluidtex_in_batches target)
   list(REMOVE_DUPLICATES folders)
   foreach(folder ${folders})
     list(LENGTH ${folder} count)
-    math(EXPR batches "(${count} + ${batch_size} - 1) / ${batch_size}")
+    math(EXPR batches "(${count} + ${FLUIDTEX_BATCH} - 1) / ${FLUIDTEX_BATCH}")
     set(number 0)
     foreach(source ${${folder}})
       math(EXPR batch "${number} * ${batches} / ${count}")

@@ -55,7 +55,7 @@ void writeSheet(const fs::path& out, int first, int last) {
   writeContactSheets({{pictures, int(kVariants.size()), kSheetWidth, out / "compare.jpg"}});
 }
 
-void writeVideo(const fs::path& out, int first, int last, double frameRate) {
+void writeSideBySide(const fs::path& out, int first, int last, double frameRate) {
   std::vector<ContactSheet> sheets;
   for (int frame = first; frame <= last; ++frame) {
     const std::string name = render::frameName(frame) + ".png";
@@ -93,7 +93,7 @@ void compare(CommonOptions options) {
   if (!options.quiet) print("{}", toMarkdown(rows));
   if (options.noRender) return;
   writeSheet(out, first, last);
-  writeVideo(out, first, last, plain.sim.frameRate);
+  writeSideBySide(out, first, last, plain.sim.frameRate);
 }
 
 }  // namespace

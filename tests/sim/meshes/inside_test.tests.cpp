@@ -2,21 +2,14 @@
 
 #include "sim/shapes/shape_triangles.h"
 #include "tests/sim/meshes/mesh_files.h"
+#include "tests/sim/meshes/somewhere.h"
 
 #include <catch2/catch.hpp>
-
-#include <cmath>
 
 using namespace fluidtex::sim;
 using openvdb::BBoxd;
 
 namespace {
-
-// Somewhere in the unit cube, another place for each n.
-Vec3d somewhere(int n) {
-  const auto share = [&](double step) { return std::fmod((n + 1) * step, 1.0); };
-  return {share(0.8191725134), share(0.6710436067), share(0.5497004779)};
-}
 
 TriangleMesh ball() {
   return triangulate(Shape{Sphere{Vec3d(0.5), 0.31}}, openvdb::BBoxd(Vec3d(0.0), Vec3d(1.0)), 0.05);

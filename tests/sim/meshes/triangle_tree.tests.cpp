@@ -1,6 +1,7 @@
 #include "sim/meshes/triangle_tree.h"
 
 #include "sim/options.h"
+#include "tests/sim/meshes/somewhere.h"
 
 #include <openvdb/math/Proximity.h>
 
@@ -11,12 +12,6 @@
 using namespace fluidtex::sim;
 
 namespace {
-
-// Somewhere in the unit cube, another place for each n.
-Vec3d somewhere(int n) {
-  const auto share = [&](double step) { return std::fmod((n + 1) * step, 1.0); };
-  return {share(0.8191725134), share(0.6710436067), share(0.5497004779)};
-}
 
 TriangleMesh triangles(int count, double size) {
   TriangleMesh mesh;
