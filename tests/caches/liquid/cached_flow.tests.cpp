@@ -47,6 +47,21 @@ double carriedError(const std::vector<sim::Frame>& frames, const Clip& clip) {
   return largest / clip.h;
 }
 
+// A ball that goes once round in 96 frames is where it was, and the velocity carries its points with it.
+void checkTurn(Way way) {
+  INFO(nameOf(way));
+  Clip clip;
+  clip.flow = rotation(Vec3d(0.5), std::numbers::pi / 2.0);
+  clip.ball = {Vec3d(0.5, 0.25, 0.5), 0.2};
+  clip.frames = 97;
+  const Scratch scratch;
+  const CacheFiles files = writeCache(way, clip, scratch.path);
+  const std::vector<sim::Frame> frames = framesOf(files.options, clip);
+  CHECK(surfaceError(*frames.back().surfacePhi, clip.at(clip.frames)) < files.accuracy);
+  CHECK(carriedError(frames, clip) < 0.1);
+  for (const sim::Frame& frame : frames) CHECK(frame.stats.explained.value_or(1.0) > 0.9);
+}
+
 }  // namespace
 
 TEST_CASE("cached_flow: free fall, in each way that a cache is written", "[caches]") {
@@ -81,20 +96,14 @@ TEST_CASE("cached_flow: free fall, in each way that a cache is written", "[cache
 }
 
 TEST_CASE("cached_flow: a whole turn in 96 frames brings points home", "[caches][slow]") {
-  Clip clip;
-  clip.flow = rotation(Vec3d(0.5), std::numbers::pi / 2.0);
-  clip.ball = {Vec3d(0.5, 0.25, 0.5), 0.2};
-  clip.frames = 97;
-  for (const Way way : {Way::staggered, Way::threeGrids, Way::turned, Way::yUpMillimeters, Way::ply,
-                        Way::mantaflowMesh, Way::flipFluids, Way::vtk}) {
-    INFO(nameOf(way));
-    const Scratch scratch;
-    const CacheFiles files = writeCache(way, clip, scratch.path);
-    const std::vector<sim::Frame> frames = framesOf(files.options, clip);
-    CHECK(surfaceError(*frames.back().surfacePhi, clip.at(clip.frames)) < files.accuracy);
-    CHECK(carriedError(frames, clip) < 0.1);
-    for (const sim::Frame& frame : frames) CHECK(frame.stats.explained.value_or(1.0) > 0.9);
-  }
+  for (const Way way : {Way::staggered, Way::ply}) checkTurn(way);
+}
+
+TEST_CASE("cached_flow: a whole turn brings points home, in further ways that a cache is written",
+          "[caches][long]") {
+  for (const Way way :
+       {Way::threeGrids, Way::turned, Way::yUpMillimeters, Way::mantaflowMesh, Way::flipFluids, Way::vtk})
+    checkTurn(way);
 }
 
 TEST_CASE("cached_flow: steady motion, of grids that lie where the surface is", "[caches]") {

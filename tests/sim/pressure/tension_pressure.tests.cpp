@@ -19,12 +19,11 @@ struct Sides {
   double at(const Coord& cell, int side) const { return pressure.at(liquid.numbering.at(cell), side); }
 };
 
-Sides sidesOf(int cells, const FloatGrid& phi) {
-  const auto solid = Solids(tank(cells, {})).at(0.0);
-  const Velocity velocity = makeVelocity(1.0 / cells, phi.constTree());
+Sides sidesOf(const SolidField& solid, const FloatGrid& phi) {
+  const Velocity velocity = makeVelocity(solid.voxelSize, phi.constTree());
   const auto& [u, v, w] = velocity.component;
-  Sides sides{gatherLiquid(phi, *solid, {&u->constTree(), &v->constTree(), &w->constTree()}), {}};
-  sides.pressure = SurfacePressure(sides.liquid, phi, *solid, 1.0);
+  Sides sides{gatherLiquid(phi, solid, {&u->constTree(), &v->constTree(), &w->constTree()}), {}};
+  sides.pressure = SurfacePressure(sides.liquid, phi, solid, 1.0);
   return sides;
 }
 
@@ -36,7 +35,7 @@ TEST_CASE("surface pressure: a film's middle yields to its outside") {
   const auto film = makePhi(h, 4 * h);
   unite(
       *film, [&](const Vec3d& x) { return std::abs(x[2] - 0.5 - 0.5 * h) - 0.6 * h; }, firstCells(Coord(32)));
-  const Sides sides = sidesOf(32, *film);
+  const Sides sides = sidesOf(*Solids(tank(32, {})).at(0.0), *film);
   for (const int side : {4, 5}) CHECK(std::abs(sides.at(Coord(16, 16, 16), side)) < 1e-3);
 }
 
@@ -44,6 +43,7 @@ TEST_CASE("surface pressure: where the surface touches a cell's centre it is one
   // Any difference would act over next to no way, and throw the liquid out.
   constexpr int kCells = 16;
   const double h = 1.0 / kCells;
+  const auto solid = Solids(tank(kCells, {})).at(0.0);
   std::uint32_t state = 1;
   const auto random = [&] {
     return static_cast<float>((state = state * 1664525u + 1013904223u) >> 8) / (1 << 24);
@@ -56,7 +56,7 @@ TEST_CASE("surface pressure: where the surface touches a cell's centre it is one
       phi->tree().setValue(middle.offsetBy(n / 49 - 3, n / 7 % 7 - 3, n % 7 - 3),
                            static_cast<float>(h) * (1.6f * random() - 0.6f));
     phi->tree().setValue(middle, static_cast<float>(-1e-4 * h));
-    const Sides sides = sidesOf(kCells, *phi);
+    const Sides sides = sidesOf(*solid, *phi);
     double low = kForever, high = -kForever;
     for (int side = 0; side < 6; ++side) {
       Coord beside = middle;

@@ -169,7 +169,7 @@ TEST_CASE("unbounded: goes on from a state as if it had not stopped", "[sim][slo
   options.viscosity = 4.0;
   options.walls = {{DomainFace::zLow, {.kind = WallKind::friction, .slipLength = 0.1}}};
   options.solids = std::vector<Solid>(1);
-  options.solids[0].shape = {Box{Vec3d(-9.0, 0.4, 0.1), Vec3d(1.0, 0.6, 0.2)}};
+  options.solids[0].shape = {Box{Vec3d(-3.0, 0.4, 0.1), Vec3d(1.0, 0.6, 0.2)}};
   options.solids[0].pivot = Vec3d(-1.0, 0.5, 0.0);
   options.solids[0].keyframes = {{.time = 0.0}, {.time = 1.0, .turn = 90.0}};
   Solver whole(options);

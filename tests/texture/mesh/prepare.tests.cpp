@@ -175,7 +175,7 @@ TEST_CASE("prepare: spheres before and after they merge, thin sheets, one voxel,
 
 TEST_CASE("prepare: any finite values, no distance at all, give a sound mesh") {
   openvdb::initialize();
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 18; ++seed) {
     auto grid = FloatGrid::create(3.0f);
     std::uint64_t random = seed;
     for (int n = 0; n < 6 * 6 * 6; ++n) {
