@@ -2,6 +2,7 @@
 
 #include "texture/joints/places.h"
 #include "texture/labels/fresh.h"
+#include "texture/labels/pieces.h"
 #include "texture/loops/parallel.h"
 #include "texture/orientation/tangent.h"
 
@@ -125,25 +126,16 @@ std::vector<std::uint32_t> uprightInPieces(const texture::SurfaceMesh& mesh, con
                                            const texture::VertexGraph& graph,
                                            const std::vector<std::uint8_t>& mask,
                                            const texture::Carried& carried, int symmetry) {
-  std::vector<std::uint32_t> upright(mask.size(), 0), piece;
-  std::vector<std::uint8_t> seen(mask.size(), 0);
-  for (std::uint32_t start = 0; start < mask.size(); ++start) {
-    if (!mask[start] || seen[start]) continue;
-    piece.assign(1, start);
-    seen[start] = 1;
-    for (std::size_t i = 0; i < piece.size(); ++i)
-      for (const std::uint32_t u : graph.around(piece[i])) {
-        if (!mask[u] || seen[u] ||
-            !onePiece(torus, mesh.positions, carried.coordinate, carried.gradient, piece[i], u))
-          continue;
-        seen[u] = 1;
-        piece.push_back(u);
-      }
+  std::vector<std::uint32_t> upright(mask.size(), 0);
+  const auto joined = [&](std::uint32_t v, std::uint32_t h) {
+    return onePiece(torus, mesh.positions, carried.coordinate, carried.gradient, v, graph.neighbor[h]);
+  };
+  texture::forEachPiece(graph, mask, joined, [&](const std::vector<std::uint32_t>& piece) {
     const auto count = std::count_if(piece.begin(), piece.end(), [&](std::uint32_t v) {
       return liesUpright(carried.gradient[v], carried.orientation[v], mesh.normals[v], symmetry);
     });
     for (const std::uint32_t v : piece) upright[v] = std::uint32_t(count);
-  }
+  });
   return upright;
 }
 

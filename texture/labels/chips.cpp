@@ -17,7 +17,7 @@ void absorbChips(const SeamModel& model, const std::vector<std::uint8_t>& free, 
     for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h)
       joined[h] = continues(model, labels[v], labels[graph.neighbor[h]], h);
   });
-  const auto isJoined = [&](std::uint32_t h) { return joined[h] != 0; };
+  const auto isJoined = [&](std::uint32_t, std::uint32_t h) { return joined[h] != 0; };
   const auto isFree = [&](std::uint32_t v) {  // and so are the neighbours it continues to
     for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h)
       if (joined[h] && !free[graph.neighbor[h]]) return false;

@@ -66,7 +66,7 @@ std::optional<Pieces> measurePieces(const TexturedSurface& surface, const Image&
   if (measured == 0) return std::nullopt;
   Pieces result;
   std::size_t inChips = 0;
-  const auto isJoined = [&](std::uint32_t h) { return joined[h] != 0; };
+  const auto isJoined = [&](std::uint32_t, std::uint32_t h) { return joined[h] != 0; };
   forEachPiece(ground.graph, counted, isJoined, [&](const std::vector<std::uint32_t>& piece) {
     ++result.pieces;
     if (piece.size() < kChip) inChips += piece.size();

@@ -40,14 +40,11 @@ TEST_CASE("pieces: half-edges that do not join part them") {
   const SurfaceMesh mesh = sphereMesh(3);
   const VertexGraph graph = buildVertexGraph(mesh);
   const std::vector<std::uint8_t> all(mesh.positions.size(), 1);
-  std::vector<std::uint32_t> from(graph.neighbor.size());
-  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
-    for (std::uint32_t h = graph.first[v]; h < graph.first[v + 1]; ++h) from[h] = v;
   int count = 0;
   forEachPiece(
       graph, all,
-      [&](std::uint32_t h) {
-        return (mesh.positions[from[h]].z() > 0.0f) == (mesh.positions[graph.neighbor[h]].z() > 0.0f);
+      [&](std::uint32_t v, std::uint32_t h) {
+        return (mesh.positions[v].z() > 0.0f) == (mesh.positions[graph.neighbor[h]].z() > 0.0f);
       },
       [&](const std::vector<std::uint32_t>&) { ++count; });
   CHECK(count == 2);
