@@ -1,6 +1,8 @@
 #include "transport/carry.h"
 
+#include "texture/labels/chips.h"
 #include "texture/labels/fresh.h"
+#include "texture/labels/pieces.h"
 #include "texture/loops/parallel.h"
 #include "texture/orientation/tangent.h"
 #include "texture/vertex_arrays.h"
@@ -166,8 +168,8 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   std::vector<std::uint8_t>& stays = carried.stays;
   stays.assign(count, 0);
   std::vector<Vec3f> way(count);
-  texture::forEachIndex(count, [&](std::uint32_t v) {
-    Mat3d& map = trace.map[v];
+  const auto place = [&](std::uint32_t v, bool mayStay) {
+    Mat3d map = trace.map[v];
     const double scale = std::max(least, next.spacingAt(v));
     const Vec3f& normal = next.normals[v];
     const Vec3f oldNormal = carriedNormal(normal, map);
@@ -176,10 +178,11 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
                               next.spacingAt(v)};
     float trust = landingTrust(landing, scale, oldNormal) * trace.known[v];
     inflow[v] = inflowAt(vertex, landing);
-    if (goesThrough(vertex, landing)) {
+    stays[v] = 0;
+    if (mayStay && goesThrough(vertex, landing)) {
       const Landing here = source.landing(vertex.position, normal, kOtherSide * scale);
       const float trustHere = landingTrust(here, scale, normal);
-      stays[v] = trustHere >= texture::kLowTrust;
+      stays[v] = trustHere >= texture::kLowTrust && hasStayed(vertex, here);
       if (stays[v]) landing = here, map = Mat3d::identity(), trust = trustHere;
     }
     way[v] = Vec3f(vertex.position - vertex.origin);
@@ -203,7 +206,19 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
     stretched[v] = stretchTrust(texel.gradient, previous.spacing * next.spacingAt(v) / next.spacing);
     const bool onOld = inflow[v] != Inflow::out && !stays[v];
     carried.previousPosition[v] = Vec3f(onOld ? landing.point.position : vertex.origin);
-  });
+  };
+  texture::forEachIndex(count, [&](std::uint32_t v) { place(v, true); });
+  if (texture::any(stays)) {
+    // So few that they would be a chip are no surface that stays.
+    const std::vector<std::uint8_t> through = stays;
+    texture::forEachPiece(texture::buildVertexGraph(next), through,
+                          [&](const std::vector<std::uint32_t>& piece) {
+                            if (piece.size() >= texture::kChip) return;
+                            for (const std::uint32_t v : piece) place(v, false);
+                          });
+    for (std::uint32_t v = 0; v < count; ++v)
+      if (stays[v]) trace.map[v] = Mat3d::identity();
+  }
   const std::vector<float> neighbors = neighborTrust(next, carried.previousPosition, trace.map, stays);
   texture::forEachIndex(count, [&](std::uint32_t v) {
     const float trust = carried.trust[v] * neighbors[v];

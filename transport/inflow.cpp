@@ -22,6 +22,7 @@ constexpr double kMostAcross = 0.5;  // sine of the angle between motion and sur
 constexpr double kInwards = -0.15;   // of the motion, at the landing, more than at the vertex
 constexpr float kOtherFace = 0.5f;   // cosine between normals, 60 degrees
 constexpr double kLeftBehind = 0.5;  // over the motion across the surface
+constexpr double kStayed = 0.25;     // over the motion across the surface
 constexpr double kMostInside =
     -0.25;  // over the distance, or the spacing: what lies deeper in the liquid was laid open
 
@@ -85,9 +86,12 @@ void drawOutAt(const texture::SurfaceMesh& mesh, std::uint32_t u, std::uint32_t 
   carried.trust[v] = carried.trust[u];
 }
 
+double movedAcross(const TracedVertex& vertex) {
+  return std::abs((vertex.position - vertex.origin).dot(Vec3d(vertex.normal)));
+}
+
 bool crosses(const TracedVertex& vertex) {
-  const Vec3d way = vertex.position - vertex.origin;
-  return std::abs(way.dot(Vec3d(vertex.normal))) > kMostAcross * way.length();
+  return movedAcross(vertex) > kMostAcross * (vertex.position - vertex.origin).length();
 }
 
 // Whether the texture lies along the orientation, or turned against it as its symmetry allows, within 20
@@ -153,10 +157,13 @@ Inflow inflowAt(const TracedVertex& vertex, const Landing& landing) {
 }
 
 bool goesThrough(const TracedVertex& vertex, const Landing& landing) {
-  const Vec3d way = vertex.position - vertex.origin;
   if (!crosses(vertex) || landing.point.distance < kBeyond * vertex.spacing) return false;
   return landing.normal.dot(vertex.carriedNormal) < kOtherFace ||
-         landing.point.distance > kLeftBehind * std::abs(way.dot(Vec3d(vertex.normal)));
+         landing.point.distance > kLeftBehind * movedAcross(vertex);
+}
+
+bool hasStayed(const TracedVertex& vertex, const Landing& here) {
+  return here.point.distance < kStayed * movedAcross(vertex);
 }
 
 void drawOut(const texture::SurfaceMesh& mesh, const texture::Torus& torus, const std::vector<Inflow>& inflow,

@@ -39,6 +39,11 @@ Inflow inflowAt(const TracedVertex& vertex, const Landing& landing);
 // landing: of the origin.
 bool goesThrough(const TracedVertex& vertex, const Landing& landing);
 
+// Whether the surface was where the vertex is: nearer than a quarter of what the flow has moved across it.
+// Where both are off, as in a splash, nothing has stayed.
+// here: the landing of the vertex's own place.
+bool hasStayed(const TracedVertex& vertex, const Landing& here);
+
 // Continues the orientation and the exemplar coordinates (and those that fade) of vertices that ride with the
 // flow, which are neither `out` nor `stays` (#V) nor of low trust, over those that are `out`, ring by ring,
 // by their gradient: each vertex those of its neighbour in the largest piece of texture, counted by what of

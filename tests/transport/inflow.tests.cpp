@@ -102,6 +102,15 @@ TEST_CASE("inflow: a body that moves with the flow takes all of its texture alon
   }
 }
 
+TEST_CASE("inflow: the end of a thread is too small to stay", "[transport]") {
+  // Its end has nine vertices, that of the slab some 450.
+  SurfaceMesh mesh = boxMesh({0, -0.02, -0.02}, {1.2, 0.02, 0.02}, {60, 2, 2});
+  mesh.spacing = 1.0 / kTexelsPerMeter;
+  const Carried carried = carry(texturedMesh(mesh, constantDirection({1, 0.3, 0})), inflow(0.0), mesh);
+  CHECK(std::count(carried.stays.begin(), carried.stays.end(), 1) == 0);
+  requireWhole(carried, mesh);
+}
+
 TEST_CASE("inflow: a strip of other texture at the rim does not go on for ever", "[transport]") {
   const SurfaceMesh mesh = slab();
   const sim::Frame frame = inflow(0.0);
@@ -142,4 +151,13 @@ TEST_CASE("inflow: liquid comes out where there was none, no farther than it mov
   CHECK(goesThrough({{0, 0, 0}, {0, 0, 0.1}, {0, 0, 1}, {0, 0, 1}, 0.02}, landing));
   landing.point.distance = 0.004;  // the surface has moved along
   CHECK_FALSE(goesThrough({{0, 0, 0}, {0, 0, 0.1}, {0, 0, 1}, {0, 0, 1}, 0.02}, landing));
+}
+
+TEST_CASE("inflow: a surface has stayed where it moved by less than a quarter of the flow's way across it",
+          "[transport]") {
+  Landing here;
+  here.point.distance = 0.02;
+  CHECK(hasStayed({{0, 0, 0}, {0, 0, 0.1}, {0, 0, 1}, {0, 0, 1}, 0.02}, here));
+  CHECK_FALSE(hasStayed({{0, 0, 0}, {0, 0, 0.06}, {0, 0, 1}, {0, 0, 1}, 0.02}, here));
+  CHECK_FALSE(hasStayed({{0, 0, 0}, {0.1, 0, 0.06}, {0, 0, 1}, {0, 0, 1}, 0.02}, here));
 }
