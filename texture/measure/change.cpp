@@ -15,6 +15,8 @@ namespace {
 
 constexpr float kSame = 0.5f;           // texels between a coordinate and the one carried there
 constexpr float kStep = 1.0f / 255.0f;  // of a file's colours: smaller differences count as none
+// Spacings from the last surface. What was there lies on it; what came in since is off it by more.
+constexpr double kThere = 0.25;
 
 // Error of the smooth reading between vertices over the error of reading a vertex from its neighbours,
 // measured on sheets whose texture moved exactly.
@@ -77,10 +79,10 @@ class LastSurface {
       for (int i = 0; i < 3; ++i) m_triangle[next[surface.triangles[k][i]]++] = k;
   }
 
-  // Nothing where the surface is farther away than the spacing of its vertices.
+  // Nothing where the surface is farther away than kThere.
   std::optional<Landing> at(const Vec3f& x) const {
     const TexturedSurface& surface = m_ground.surface;
-    const float limit = float(m_ground.spacing * m_ground.spacing);
+    const auto limit = float(kThere * kThere * m_ground.spacing * m_ground.spacing);
     std::pair<float, std::uint32_t> triangle{limit, 0}, vertex{std::numeric_limits<float>::max(), 0};
     std::optional<Landing> result;
     const auto distance2 = [&](std::uint32_t v) { return (surface.positions[v] - x).lengthSqr(); };

@@ -8,7 +8,8 @@
 
 namespace fluidtex::texture {
 
-// Measures of change between two frames. Vertices of new surface are left out.
+// Measures of change between two frames. Vertices of new surface are left out: those whose previous position
+// is off the last one by more than a quarter of the spacing.
 struct Change {
   // 99.9th percentile, over vertices, of the change along the flow: mean over R, G, B of the difference from
   // the last frame's colour at the previous position, interpolated.

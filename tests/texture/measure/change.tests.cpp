@@ -116,16 +116,16 @@ TEST_CASE("change: where there was no surface, nothing has changed", "[texture]"
   TexturedSurface after = before;
   CHECK_FALSE(measureChange({}, after, picture, true));
   CHECK_FALSE(measureChange(before, {}, picture, true));
-  // White where it comes from farther away than a spacing.
+  // White where it comes from farther away than a quarter of the spacing.
   for (std::size_t v = 0; v < after.positions.size(); v += 5) {
     after.color[v] = Vec4f(1.0f);
-    after.previousPosition[v] += after.normals[v] * 1.01f;
+    after.previousPosition[v] += after.normals[v] * 0.26f;
   }
   const auto off = measureChange(before, after, picture, true);
   REQUIRE(off);
   CHECK(off->pop == 0.0);
   for (std::size_t v = 0; v < after.positions.size(); v += 5)
-    after.previousPosition[v] = after.positions[v] + after.normals[v] * 0.99f;
+    after.previousPosition[v] = after.positions[v] + after.normals[v] * 0.24f;
   CHECK(measureChange(before, after, picture, true)->pop > 0.3);
   for (Vec3f& x : after.previousPosition) x.z() += 100.0f;
   CHECK_FALSE(measureChange(before, after, picture, true));
