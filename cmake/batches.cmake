@@ -1,7 +1,7 @@
 # Most of what a small file takes to compile are headers, and templates that its neighbours instantiate too: the sources
 # of a folder are compiled a few at a time as one. So names in them are unique within their folder, unnamed namespaces
-# included. Large batches are built sooner from nothing; 6 is the most that keeps a change of one source below 15 s (preset
-# develop). Editors and tools that go by file want 1 (presets debug and fuzz).
+# included. Large batches are built sooner from nothing; 6 is the most that keeps a change of one source below 15 s, as
+# preset develop has it. Editors and tools that go by file want 1 (presets debug and fuzz).
 set(FLUIDTEX_BATCH 24 CACHE STRING "How many sources of a folder are compiled as one file, at most")
 
 # fluidtex_in_batches(TARGET [ALONE SOURCES...]): in the order in which the target names them. ALONE: sources that are

@@ -76,19 +76,29 @@ void forEachFile(const Spoil& spoil) {
   }
 }
 
+constexpr int kDamages = 3;
+
+void checkDamage(const Options& options, const fs::path& file, const std::string& whole, int damage) {
+  const std::string damaged[kDamages] = {whole.substr(0, whole.size() / 2), whole.substr(0, 5),
+                                         "something else entirely"};
+  INFO(damaged[damage].size() << " bytes");
+  writeBytes(file, damaged[damage]);
+  // What is damaged in blur is what makes the unit of the velocities known.
+  CHECK_THAT(endOf(options, moving()), Contains(file.filename().string()));
+}
+
 }  // namespace
 
 TEST_CASE("bad_data: a frame cut short or replaced ends a run with the file's name", "[caches][slow]") {
-  // One kind of damage a file, in turn.
   int turn = 0;
   forEachFile([&](const Options& options, const fs::path& file, const std::string& whole) {
-    const std::string kinds[] = {whole.substr(0, whole.size() / 2), whole.substr(0, 5),
-                                 "something else entirely"};
-    const std::string& bytes = kinds[turn++ % 3];
-    INFO(bytes.size() << " bytes");
-    writeBytes(file, bytes);
-    // What is damaged in blur is what makes the unit of the velocities known.
-    CHECK_THAT(endOf(options, moving()), Contains(file.filename().string()));
+    checkDamage(options, file, whole, turn++ % kDamages);
+  });
+}
+
+TEST_CASE("bad_data: each file cut short or replaced in each way", "[caches][long]") {
+  forEachFile([](const Options& options, const fs::path& file, const std::string& whole) {
+    for (int damage = 0; damage < kDamages; ++damage) checkDamage(options, file, whole, damage);
   });
 }
 
