@@ -81,7 +81,9 @@ void ColorProfile::become(void* profile) {
   m_transform = {cmsCreateTransform(profile, formatOf(m_channels), linearSrgb().get(), TYPE_RGB_FLT,
                                     INTENT_RELATIVE_COLORIMETRIC,
                                     cmsFLAGS_BLACKPOINTCOMPENSATION | cmsFLAGS_NOCACHE | cmsFLAGS_NOOPTIMIZE),
-                 [](void* t) { t != nullptr && (cmsDeleteTransform(t), true); }};
+                 [](void* t) {
+                   if (t != nullptr) cmsDeleteTransform(t);
+                 }};
   if (!m_transform) throw Unreadable("is damaged or of no kind that can be used");
   if (m_channels > 3) return;
   const std::vector<float> in = places(m_channels);

@@ -141,7 +141,7 @@ void GridFile::skipVoxels() {
 }
 
 openvdb::GridBase::Ptr GridFile::read() {
-  const openvdb::GridBase::Ptr grid = openvdb::GridBase::createGrid(type());
+  openvdb::GridBase::Ptr grid = openvdb::GridBase::createGrid(type());
   grid->setSaveFloatAsHalf(m_descriptor.saveFloatAsHalf());
   m_in.seekg(m_begin);
   readGrid(grid, m_descriptor, m_in);

@@ -20,7 +20,7 @@ std::string lowered(std::string text) {
 
 // "red" and "R" say the same.
 std::string component(const std::string& word) {
-  const std::string small = lowered(word);
+  std::string small = lowered(word);
   for (const char* name : {"red", "green", "blue", "alpha", "depth"})
     if (small == name) return small == "depth" ? "z" : small.substr(0, 1);
   return small;
@@ -58,8 +58,8 @@ std::vector<Group> groupsOf(const std::vector<Part>& parts) {
                                 [&](const Group& other) { return other.prefix == prefix; });
       if (group == groups.end()) {
         const std::string& part = parts[p].name;
-        groups.push_back(
-            {int(p), prefix, part.empty() || prefix.empty() ? part + prefix : part + "." + prefix, {}});
+        const char* between = part.empty() || prefix.empty() ? "" : ".";
+        groups.push_back({int(p), prefix, std::string(part).append(between).append(prefix), {}});
         group = groups.end() - 1;
       }
       group->channel.emplace(component(dot == full.npos ? full : full.substr(dot + 1)), int(c));
@@ -123,6 +123,7 @@ const Group* shownOf(const std::vector<const Group*>& candidates, const std::vec
 Layer chooseLayer(const std::vector<Part>& parts, bool asNumbers) {
   const std::vector<Group> groups = groupsOf(parts);
   std::vector<const Group*> all;
+  all.reserve(groups.size());
   for (const Group& group : groups) all.push_back(&group);
   std::vector<std::vector<const char*>> wanted = {{"r", "g", "b"}};
   if (asNumbers) wanted.push_back({"x", "y", "z"});

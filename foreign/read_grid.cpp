@@ -57,7 +57,7 @@ typename To::Ptr withValuesOf(const From& from) {
   for (; tile; ++tile)
     if (const Value value(*tile); value != background || tile.isValueOn())
       tree->addTile(tile.getLevel(), tile.getCoord(), value, tile.isValueOn());
-  const auto result = To::create(tree);
+  auto result = To::create(tree);
   result->insertMeta(from);
   result->setTransform(from.transform().copy());
   return result;

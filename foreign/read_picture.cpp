@@ -163,7 +163,7 @@ Opened openPicture(const std::filesystem::path& file, Wanted wanted) {
 }
 
 // The largest number of a type, which is read as 1.
-double whiteOf(TypeDesc type) {
+double whiteOf(const TypeDesc& type) {
   switch (type.basetype) {
     case TypeDesc::UINT8:
       return std::numeric_limits<std::uint8_t>::max();
@@ -222,7 +222,7 @@ Window shownOf(const Opened& opened) {
 
 // Channels first to last, band by band: a file that says much and holds little then takes little. Fewer rows
 // than there are where it fails.
-std::string readRows(Opened& opened, int first, int last, TypeDesc type) {
+std::string readRows(Opened& opened, int first, int last, const TypeDesc& type) {
   constexpr std::size_t kBand = 4 << 20;  // bytes
   const ImageSpec& spec = opened.spec;
   const std::size_t row = std::size_t(spec.width) * std::size_t(last - first + 1) * type.size();
@@ -248,7 +248,7 @@ std::string readRows(Opened& opened, int first, int last, TypeDesc type) {
 }
 
 // The layer's channels inside of the window, each sample `size` bytes.
-std::string samplesOf(Opened& opened, const Window& window, TypeDesc type) {
+std::string samplesOf(Opened& opened, const Window& window, const TypeDesc& type) {
   const auto [first, last] = std::minmax_element(opened.layer.channels.begin(), opened.layer.channels.end());
   const std::size_t size = type.size(), stored = std::size_t(*last - *first + 1),
                     kept = opened.layer.channels.size(), row = std::size_t(opened.spec.width) * stored * size;

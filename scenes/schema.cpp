@@ -14,8 +14,9 @@ void describeWall(Visitor& visitor, sim::Wall& wall) {
 
 void describeMotion(Visitor& visitor, sim::MotionOptions& motion) {
   visitor.table("motion", [&] {
-    choice(visitor, "flow", motion.flow,
-           {"solver", "rest", "rotation", "vortex", "deformation", "stretch", "source_sink", "slot", "files"});
+    choice(
+        visitor, "flow", motion.flow,
+        {"solver", "rest", "rotation", "vortex", "deformation", "stretch", "source_sink", "slot", "files"});
     visitor.number("period", motion.period, kPositive);
     visitor.number("rate", motion.rate, kPositive);
     visitor.number("speed", motion.speed, kPositive);

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kSize = 204;
 // Of a side: what Blender offers.
 constexpr int kMostCells = 10000;
-constexpr std::string_view kEnd("C01", 4);  // with a zero behind it
+constexpr std::string_view kEnd("C01\0", 4);
 
 openvdb::Coord takeCoord(Bytes& bytes) {
   const auto i = bytes.take<std::int32_t>(), j = bytes.take<std::int32_t>(), k = bytes.take<std::int32_t>();

@@ -93,7 +93,7 @@ std::vector<To> TextArrays::take(ArrayType type, std::uint64_t rows, std::uint64
     return numbers;
   }
   const std::size_t size = count * sizeOf(type.type);
-  const std::vector<To> numbers = numbersOf<To>(m_rest.substr(0, size), type.type, std::endian::big);
+  std::vector<To> numbers = numbersOf<To>(m_rest.substr(0, size), type.type, std::endian::big);
   m_rest.remove_prefix(size);
   return numbers;
 }

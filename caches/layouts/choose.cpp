@@ -108,7 +108,7 @@ std::vector<std::string> parts(const std::string& names) {
 
 std::vector<std::string> givenVelocity(const std::filesystem::path& file, const std::vector<GridHead>& grids,
                                        const std::string& given, bool& onFaces) {
-  const std::vector<std::string> names = parts(given);
+  std::vector<std::string> names = parts(given);
   if (names.size() != 1 && names.size() != 3)
     throw LayoutError("files.velocity_name: \"" + given + "\" names " + std::to_string(names.size()) +
                       " grids; name one of vectors, or three, \"u,v,w\"");

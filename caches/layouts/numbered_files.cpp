@@ -150,6 +150,7 @@ std::vector<NumberedFiles> sequencesIn(const fs::path& folder, IsWanted isWanted
     add(folder, name, split.number, files);
   }
   std::vector<NumberedFiles> result;
+  result.reserve(sequences.size());
   for (auto& [pattern, files] : sequences) result.push_back(std::move(files));
   return result;
 }

@@ -58,12 +58,12 @@ sim::Frame frameOf(openvdb::io::File& vdb) {
   const double h = number("voxel");
   // Reading a transform can change its last bits.
   const auto grid = [&](const std::string& name) {
-    const auto read = openvdb::gridPtrCast<openvdb::FloatGrid>(vdb.readGrid(name));
+    auto read = openvdb::gridPtrCast<openvdb::FloatGrid>(vdb.readGrid(name));
     if (!read) throw openvdb::TypeError("grid " + name + " is not of floats");
     return read;
   };
   const auto centred = [&](const std::string& name) {
-    const FloatGrid::Ptr result = sim::fromOpenVdb(*grid(name));
+    FloatGrid::Ptr result = sim::fromOpenVdb(*grid(name));
     result->setTransform(sim::cellTransform(h));
     return result;
   };

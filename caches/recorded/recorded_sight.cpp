@@ -18,7 +18,7 @@ std::string nameOf(int sight, int word) {
 }
 
 openvdb::Int64Grid::Ptr wordsOf(const sim::Visibility& visibility, int sight, int word) {
-  const auto grid = openvdb::Int64Grid::create(0);
+  auto grid = openvdb::Int64Grid::create(0);
   grid->setName(nameOf(sight, word));
   for (const sim::Coord& origin : visibility.origins()) {
     const sim::Visibility::Leaf& cells = *visibility.leaf(origin);
@@ -30,7 +30,7 @@ openvdb::Int64Grid::Ptr wordsOf(const sim::Visibility& visibility, int sight, in
 }
 
 openvdb::Int64Grid::Ptr readWords(openvdb::io::File& file, int sight, int word) {
-  const auto grid = openvdb::gridPtrCast<openvdb::Int64Grid>(file.readGrid(nameOf(sight, word)));
+  auto grid = openvdb::gridPtrCast<openvdb::Int64Grid>(file.readGrid(nameOf(sight, word)));
   if (!grid) throw openvdb::TypeError("grid " + nameOf(sight, word) + " is not of words");
   return grid;
 }

@@ -9,7 +9,9 @@
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -167,8 +169,9 @@ void gather(const FloatTree& tree, const Coord& origin, int halo, float* out, bo
   thread_local std::array<Fill, kFills> fills;
   std::array<bool, kFills> used{};
   const auto filledWith = [&](float value) -> const float* {
+    const auto bits = std::bit_cast<std::uint32_t>(value);  // tells -0 from 0, and knows NaN again
     for (int n = 0; n < kFills; ++n) {
-      if (!fills[n].filled || std::memcmp(fills[n].value.data(), &value, sizeof(float)) != 0) continue;
+      if (!fills[n].filled || std::bit_cast<std::uint32_t>(fills[n].value.front()) != bits) continue;
       used[n] = true;
       return fills[n].value.data();
     }

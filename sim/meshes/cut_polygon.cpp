@@ -31,6 +31,7 @@ std::vector<Place> laidFlat(const std::vector<Vec3d>& x) {
     if (std::abs(normal[a]) > std::abs(normal[axis])) axis = a;
   const int s = (axis + 1) % 3, t = (axis + 2) % 3;
   std::vector<Place> flat;
+  flat.reserve(x.size());
   for (const Vec3d& p : x) flat.push_back(normal[axis] > 0.0 ? Place{p[s], p[t]} : Place{p[t], p[s]});
   return flat;
 }
@@ -100,6 +101,7 @@ Triangles cutPolygon(const std::vector<Vec3d>& points, const std::vector<std::si
   const std::size_t n = corners.size();
   if (n == 3) return {{corners[0], corners[1], corners[2]}};
   std::vector<Vec3d> x;
+  x.reserve(n);
   for (const std::size_t corner : corners) x.push_back(points[corner]);
   const Fan fan = bestFan(x);
   constexpr std::size_t kMost = 8192;  // the search for ears takes the square of it

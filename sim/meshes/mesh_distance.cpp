@@ -64,6 +64,7 @@ TriangleMesh within(const TriangleMesh& mesh, const BBoxd& box) {
   TriangleMesh part;
   for (const Vec3I& t : mesh.triangles) {
     std::vector<Vec3d> polygon;
+    polygon.reserve(3);
     for (int c = 0; c < 3; ++c) polygon.emplace_back(mesh.positions[t[c]]);
     bool beyond = false;
     for (int a = 0; a < 3; ++a) {

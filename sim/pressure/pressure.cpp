@@ -190,6 +190,7 @@ MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surf
   valid->setTransform(faceTransform(solid.voxelSize, axis));
   const std::vector<FloatLeaf*> leaves = faceLeaves(liquid, grid);
   std::vector<MaskGrid::TreeType::LeafNodeType*> masks;
+  masks.reserve(leaves.size());
   for (const FloatLeaf* leaf : leaves) masks.push_back(valid->tree().touchLeaf(leaf->origin()));
 
   tbb::parallel_for(Range(0, static_cast<int>(leaves.size())), [&](const Range& range) {

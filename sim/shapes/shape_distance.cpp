@@ -80,6 +80,7 @@ ShapeDistance::Node ShapeDistance::Node::of(const Shape& shape, double voxelSize
                                             const openvdb::BBoxd& domain, const openvdb::BBoxd& reach) {
   const auto nodesOf = [&](const std::vector<Shape>& parts) {
     std::vector<Node> nodes;
+    nodes.reserve(parts.size());
     for (const Shape& part : parts) nodes.push_back(of(part, voxelSize, domain, reach));
     return nodes;
   };

@@ -82,7 +82,7 @@ double centreDistance(const SolidDistance& distance, const Coord& cell, double h
   if (ahead.normalize()) look((0.25 - d / h) * ahead, kOnWall * h);
   for (const double far : {0.5, 0.375, 0.25, 0.125}) {
     for (int n = 0; n < 27 && !isTrue(); ++n)
-      if (n != 13) look(far * Vec3d(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1), kOnWall * h);
+      if (n != 13) look(far * Coord(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1).asVec3d(), kOnWall * h);
   }
   if (isTrue()) return d;
   return depth < kForever || allSolid ? -std::min(depth, 0.5 * h) : d;

@@ -115,6 +115,7 @@ Solids::Placed Solids::placed(std::size_t index, double t) const {
 
 std::vector<Solids::Placed> Solids::placed(double t, const std::vector<std::size_t>& set) const {
   std::vector<Placed> solids;
+  solids.reserve(set.size());
   for (const std::size_t i : set) solids.push_back(placed(i, t));
   return solids;
 }
@@ -238,6 +239,7 @@ void Solids::addSpeeds(SolidField& field, const std::vector<Placed>& solids) con
     FloatGrid::Ptr grid = FloatGrid::create(0.0f);
     grid->setTransform(faceTransform(h, axis));
     std::vector<FloatLeaf*> leaves;
+    leaves.reserve(origins.size());
     for (const Coord& origin : origins) leaves.push_back(grid->tree().touchLeaf(origin));
     tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
       for (int c = 0; c < kLeafSize; ++c) {

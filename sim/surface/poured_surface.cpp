@@ -48,7 +48,7 @@ double withoutJoints(const Distance& body, const Vec3d& x, double h) {
   if (std::abs(here) > kOnJoint * h) return here;
   const auto isDeeper = [&](const Vec3d& at) { return body(at) < here - 0.2 * step; };
   for (int n = 0; n < 13; ++n) {
-    const Vec3d way = step * Vec3d(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
+    const Vec3d way = step * Coord(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1).asVec3d();
     if (isDeeper(x + way) && isDeeper(x - way)) return -step;
   }
   return here;

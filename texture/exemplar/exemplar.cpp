@@ -113,10 +113,9 @@ void makeMatch(Exemplar& exemplar, Image guidance, const SynthesisOptions& synth
   for (int level = 0; level < levels; ++level) {
     if (level > 0) {
       premultiplied = halve(premultiplied, toroidal);
-      encoded = encodedColors(premultiplied, exemplar.colorChannels);
       for (auto& channel : channels) channel.first = halve(channel.first, toroidal);
     }
-    Image match = std::move(encoded);
+    Image match = level == 0 ? encoded : encodedColors(premultiplied, exemplar.colorChannels);
     for (const auto& [channel, scale] : channels) match = withChannels(match, channel, scale);
     exemplar.match.push_back(std::move(match));
   }

@@ -103,7 +103,8 @@ void fillQuery(const Windows& windows, std::size_t p, const Values& value, Windo
   const PixelSource* pixels = windows.pixels.data() + p * area;
   for (std::size_t k = 0; k < area; ++k) {
     const PixelSource& pixel = pixels[k];
-    const Vec2f at = laid(way, Vec2f(float(int(k) % width - middle), float(int(k) / width - middle)));
+    const int row = int(k) / width, column = int(k) % width;
+    const Vec2f at = laid(way, Vec2f(float(column - middle), float(row - middle)));
     const auto i = std::size_t((int(at[1]) + middle) * width + int(at[0]) + middle);
     query.mask[i] = pixel.missing() ? 0.0f : 1.0f;
     const Float8 sum = pixel.weight[0] * value[pixel.vertex[0]] + pixel.weight[1] * value[pixel.vertex[1]] +
