@@ -13,8 +13,6 @@
 #include <cstring>
 #include <stdexcept>
 
-extern char** environ;
-
 namespace fluidtex::render {
 namespace {
 
@@ -123,6 +121,7 @@ Outcome runOther(const std::vector<std::string>& arguments, const std::string& i
   open(err, pipeEnds);
 
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
 

@@ -92,8 +92,8 @@ class TileTracer {
     m_rays.clear();
     m_paths.clear();
     for (std::size_t pixel = 0; pixel < m_sum.size(); ++pixel) {
-      const float x = static_cast<float>(m_x0 + static_cast<int>(pixel) % m_width) + 0.5f;
-      const float y = static_cast<float>(m_y0 + static_cast<int>(pixel) / m_width) + 0.5f;
+      const int column = static_cast<int>(pixel) % m_width, row = static_cast<int>(pixel) / m_width;
+      const float x = static_cast<float>(m_x0 + column) + 0.5f, y = static_cast<float>(m_y0 + row) + 0.5f;
       for (int sample = firstSample; sample < lastSample; ++sample) {
         const Vec2f offset = tentOffset(m_points[pixel].point(sample, kFilter), kFilterRadius);
         m_rays.push_back({m_world.camera.origin, m_world.camera.direction(x + offset[0], y + offset[1])});

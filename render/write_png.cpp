@@ -84,8 +84,10 @@ void writePng(const Picture& picture, const std::filesystem::path& file, std::ve
     for (std::size_t i = range.begin(); i != range.end(); ++i) pixels[i] = encoded(picture.rgb[i]);
   });
   std::vector<png_bytep> rows;
+  rows.reserve(std::size_t(picture.height));
   for (int y = 0; y < picture.height; ++y) rows.push_back(&pixels[std::size_t(y) * picture.width * 3]);
   std::vector<png_text> texts;
+  texts.reserve(notes.size());
   for (PictureNote& note : notes) texts.push_back(noteOf(note));
 
   const auto fail = [&](const std::string& why) {

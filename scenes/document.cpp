@@ -215,7 +215,7 @@ const Entry* find(const Table& table, const std::string& key) {
 
 Node readDocument(const std::filesystem::path& file, Faults& faults) {
   const Origin top = inFile(file.string(), 1, 1);
-  const Node nothing{Table{}, top};
+  Node nothing{Table{}, top};
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
     faults.add(top, "file", "is a folder", kGiveScene);

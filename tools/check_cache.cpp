@@ -48,6 +48,7 @@ bool isTelling(const caches::VelocityFactor& factor) {
 std::vector<int> beginsOf(int first, int last, int pairs) {
   std::vector<int> begins;
   const int count = std::min(pairs, last - first);
+  begins.reserve(std::size_t(std::max(count, 0)));
   for (int n = 0; n < count; ++n)
     begins.push_back(count == 1 ? first : first + int(std::int64_t(last - 1 - first) * n / (count - 1)));
   return begins;

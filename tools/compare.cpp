@@ -70,7 +70,7 @@ void writeSideBySide(const fs::path& out, int first, int last, double frameRate)
   });
 }
 
-void compare(CommonOptions options) {
+void compare(const CommonOptions& options) {
   int first = 1, last = 0;
   const scenes::Scene plain = loadScene(options);
   parseFrames(options.frames, plain, first, last);

@@ -30,7 +30,7 @@ std::string variable(const char* name) {
 fs::path blender() {
   std::istringstream folders(variable("PATH"));
   for (std::string folder; std::getline(folders, folder, ':');)
-    if (const fs::path program = fs::path(folder) / "blender";
+    if (fs::path program = fs::path(folder) / "blender";
         access(program.c_str(), X_OK) == 0 && !fs::is_directory(program))
       return program;
   throw std::runtime_error(

@@ -72,8 +72,9 @@ Command versionCommand(const Program& program) {
 Command helpCommand(const Program& program) {
   const auto asked = std::make_shared<std::string>();
   std::vector<std::string> names;
+  names.reserve(program.commands.size() + 1);
   for (const Command& command : program.commands) names.push_back(command.name);
-  names.push_back("help");
+  names.emplace_back("help");
   Command command{"help", "Print what a command does and its options"};
   command.options = {{"command",
                       asked.get(),

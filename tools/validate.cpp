@@ -205,8 +205,7 @@ int validate(const ValidateOptions& options) {
     }
     if (n + 1 < jobs.size() && jobs[n + 1].test == job.test) continue;
     if (job.test->summarize) {
-      const std::vector<Row> measured = ofCase;
-      for (const Row& row : job.test->summarize(measured)) take(row);
+      for (const Row& row : job.test->summarize(ofCase)) take(row);
     }
     if (!options.plots.empty()) plotConvergence(job.test->name, ofCase, options.plots);
     ofCase.clear();

@@ -30,7 +30,7 @@ double rateOf(const fs::path& run) {
       fmt::format("{}: no run says there how many frames a second; give --rate N", run.string()));
 }
 
-void makeVideo(VideoOptions options) {
+void makeVideo(const VideoOptions& options) {
   fs::path pictures = fs::absolute(options.pictures).lexically_normal();
   // "out/frames/" and "out/frames/." have an empty last name.
   if (!pictures.has_filename()) pictures = pictures.parent_path();

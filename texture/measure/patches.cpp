@@ -212,7 +212,8 @@ CoverageMap::CoverageMap(const Image& encoded, Dice& dice) : m_internals(std::ma
     return In::kWidth + dice.unit() * std::max(size - 1.0 - 2.0 * In::kWidth, 0.0);
   };
   for (Eigen::Index i = 0; i < patches.rows(); ++i) {
-    const double angle = 2.0 * std::numbers::pi * double(i / In::kEach) / In::kTurns;
+    const Eigen::Index turn = i / In::kEach;
+    const double angle = 2.0 * std::numbers::pi * double(turn) / In::kTurns;
     const double c = std::cos(angle), s = std::sin(angle), x = within(picture.width),
                  y = within(picture.height);
     float* out = patches.row(i).data();

@@ -89,7 +89,7 @@ void cut(benchmark::State& state, const std::string& row) {
 
 // Writes the frame's file into the folder as a run does, and gives its name.
 fs::path write(Format format, const fs::path& folder) {
-  const fs::path file = folder / tools::frameFile(format, kFrames);
+  fs::path file = folder / tools::frameFile(format, kFrames);
   if (format == Format::ply) {
     tools::writeAtomically(
         file, [&](const fs::path& temporary) { tools::writePly(texturedSheet(), joints(), temporary); });

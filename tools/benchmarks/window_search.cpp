@@ -110,7 +110,8 @@ void report(benchmark::State& state, const std::string& row, const SearchProblem
   state.counters["query_ns"] = 1e9 * run.seconds;
   state.counters["mean_nearest"] = run.nearest;
   state.counters["mean_all"] = run.all;
-  state.counters["windows"] = double(problem.windows.size() / texture::kDescriptorSize);
+  const std::size_t windows = problem.windows.size() / texture::kDescriptorSize;
+  state.counters["windows"] = double(windows);
   state.counters["queries"] = double(problem.size());
   keep(row, "s / query", run.seconds);
 }

@@ -25,7 +25,7 @@ struct Appended {
   // Appends an array and returns the element that tells of it.
   template <typename T>
   std::string add(const char* type, const std::string& name, int components, const std::vector<T>& values) {
-    const std::string element = fmt::format(
+    std::string element = fmt::format(
         "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"appended\" offset=\"{}\"/>\n",
         type, name, components, bytes);
     arrays.emplace_back(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));

@@ -45,10 +45,11 @@ class Looker {
 
   void lookAt(int x, int y, Seen& seen) const {
     std::array<render::Ray, kPoints> rays;
-    for (int i = 0; i < kPoints; ++i)
-      rays[std::size_t(i)] = {m_camera.origin,
-                              m_camera.direction(float(x) + (float(i % kAcross) + 0.5f) / kAcross,
-                                                 float(y) + (float(i / kAcross) + 0.5f) / kAcross)};
+    for (int i = 0; i < kPoints; ++i) {
+      const int column = i % kAcross, row = i / kAcross;
+      rays[std::size_t(i)] = {m_camera.origin, m_camera.direction(float(x) + (float(column) + 0.5f) / kAcross,
+                                                                  float(y) + (float(row) + 0.5f) / kAcross)};
+    }
     m_scene.intersect(rays, render::Coherence::alike);
     std::vector<float> luminance(m_ways.size(), 0.0f);
     Vec3f position(0.0f);

@@ -48,6 +48,7 @@ float most(const std::vector<float>& values) {
 
 std::vector<float> lengths(const std::vector<texture::Vec3f>& vectors) {
   std::vector<float> found;
+  found.reserve(vectors.size());
   for (const texture::Vec3f& v : vectors) found.push_back(v.length());
   return found;
 }

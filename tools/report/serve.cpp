@@ -102,7 +102,7 @@ void serveRun(const fs::path& out, int port, const std::function<void(int)>& rea
   });
   server.set_default_headers({{"Cache-Control", "no-cache"}, {"X-Content-Type-Options", "nosniff"}});
   server.set_exception_handler(
-      [](const httplib::Request&, httplib::Response& response, std::exception_ptr fault) {
+      [](const httplib::Request&, httplib::Response& response, const std::exception_ptr& fault) {
         response.status = kFailedToAnswer;
         try {
           std::rethrow_exception(fault);

@@ -108,7 +108,8 @@ ShownRun shownRun(const ReportFolders& folders) {
                  framesIn(folders.run / "surface", ".ply"),
                  {}};
   shown.video = videoIn(folders.pictures, shown.figures["title"].get<std::string>());
-  if (shown.figures["title"] == "") shown.figures["title"] = fs::canonical(folders.run).filename().string();
+  if (shown.figures["title"].get<std::string>().empty())
+    shown.figures["title"] = fs::canonical(folders.run).filename().string();
   for (const Json& frame : shown.figures["frames"])
     if (frame["vertices"] == 0) std::erase(shown.surfaces, frame["frame"].get<int>());
   return shown;
