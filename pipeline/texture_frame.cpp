@@ -94,8 +94,14 @@ Texturing makeTexturing(const scenes::Scene& scene, const texture::CacheFolder& 
 
 Texturing makeTexturing(const scenes::Scene& scene, texture::Exemplar exemplar,
                         const texture::CacheFolder& cache) {
-  return {scene, texture::makeSynthesizer(std::move(exemplar), scene.texture.synthesis, cache),
-          orientationGuide(scene), textureScale(scene), textureGuidance(scene)};
+  return {scene,
+          texture::makeSynthesizer(std::move(exemplar), scene.texture.synthesis, cache),
+          orientationGuide(scene),
+          textureScale(scene),
+          textureGuidance(scene),
+          texture::moves(scene.texture)
+              ? Animation(scene.texture.exemplar.animation, scene.texture.exemplar.toroidal)
+              : Animation()};
 }
 
 TexturedFrame textureFrame(Texturing& texturing, const TexturedSurface& last, const sim::Frame& frame,
@@ -154,8 +160,11 @@ TexturedFrame textureFrame(Texturing& texturing, const TexturedSurface& last, co
     const Stopwatch stage(seconds.synthesize, watch.seconds);
     std::function<void(double)> progress;
     if (watch.progress) progress = [&](double part) { watch.progress(Stage::synthesize, part); };
+    const std::vector<float> levels =
+        texturing.animation.byGuidance() ? surface.levels[0].guidance : std::vector<float>{};
     result.surface =
         textured(texturing, std::move(surface), carried, frame.index, result.synthesis, progress);
+    texturing.animation.show(frame.time, levels, result.surface);
   }
   {
     const Stopwatch stage(seconds.transport, watch.seconds);

@@ -3,6 +3,7 @@
 // library.
 #pragma once
 
+#include "pipeline/animation.h"
 #include "pipeline/orientation_guide.h"
 #include "pipeline/texture_guidance.h"
 #include "pipeline/texture_scale.h"
@@ -25,6 +26,7 @@ struct Texturing {
   OrientationGuide orientation;
   TextureScale scale;
   TextureGuidance guidance;
+  Animation animation;
 };
 
 // Reads what the scene's settings name: exemplar, maps, vector and scalar fields. cache: folder of search

@@ -183,11 +183,41 @@ void checkSpacing(const Scene& scene, Reader& reader) {
   }
 }
 
+void checkAnimation(const Scene& scene, Reader& reader) {
+  const texture::AnimationOptions& animation = scene.texture.exemplar.animation;
+  const std::string path = "texture.animation", by = path + ".by";
+  const bool moves = !animation.pattern.empty();
+  if (!moves) {
+    // Another picture than the scene's own may be given instead of a sequence.
+    const bool own = reader.clean("texture.exemplar") && !reader.originOf("texture.exemplar").commandLine();
+    if (own && reader.given(path))
+      reader.fault(path, "the exemplar is one picture",
+                   "give a sequence of them, for example exemplar = \"lava_%04d.png\"");
+    return;
+  }
+  if (reader.clean("texture.between") && scene.texture.exemplar.between == texture::Between::file)
+    reader.fault("texture.between", "\"file\" is one picture, and the exemplar a sequence",
+                 "give \"points\" or \"exemplar\"");
+  if (!reader.clean(by) || animation.by != texture::ShowBy::guidance) return;
+  const std::string map = "texture.guidance.map";
+  if (reader.given(map))
+    reader.fault(map, "is of no use: guidance chooses pictures of the sequence, not places in them",
+                 "leave it out, or give texture.animation.by = \"time\"");
+  if (scene.texture.guidance.by == texture::GuidanceBy::none)
+    reader.fault(by, "there is no guidance to choose the picture",
+                 "give [texture.guidance] with by and [[texture.guidance.point]], or by = \"time\"");
+  if (reader.clean("texture.between") && scene.texture.exemplar.between == texture::Between::exemplar)
+    reader.fault("texture.between",
+                 "\"exemplar\" is one picture for all places, and by = \"guidance\" shows many",
+                 "give \"points\"");
+}
+
 }  // namespace
 
 void checkTexture(const Scene& scene, Reader& reader) {
   checkScale(scene, reader);
   checkGuidance(scene, reader);
+  checkAnimation(scene, reader);
   checkMaps(scene, reader);
   checkOrientation(scene, reader);
   if (!scene.onto.files.empty() && reader.clean("frames")) checkSequence(scene.onto, "texture.onto", reader);

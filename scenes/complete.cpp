@@ -47,6 +47,9 @@ void complete(Scene& scene, const Reader& reader) {
       sequence->frameRate = scene.sim.frameRate;
   }
 
+  texture::AnimationOptions& animation = scene.texture.exemplar.animation;
+  if (animation.files.empty()) animation.by = texture::ShowBy::time;
+
   texture::SynthesisOptions& synthesis = scene.texture.synthesis;
   followCoherence(scene.texture, reader);
   if (!reader.given("texture.first_iterations"))

@@ -70,8 +70,8 @@ std::vector<Node> readOverrides(const Overrides& overrides, Faults& faults) {
       return Node{Table{{"texture", Node{Table{{key, Node{value, origin}}}, origin}}}, origin};
     };
     layers.push_back(layer("exemplar", name));
-    // Whether it wraps, the maps over it, their relief and a finer picture were said of the scene's own
-    // picture; --set may say it of this one.
+    // Whether it wraps, the maps over it, their relief, a finer picture and what chooses pictures of a
+    // sequence were said of the scene's own; --set may say it of this one.
     layers.insert(layers.begin(),
                   {layer("toroidal", false), layer("map", List{}), layer("between", std::string("points")),
                    layer("between_file", std::string())});
@@ -82,6 +82,8 @@ std::vector<Node> readOverrides(const Overrides& overrides, Faults& faults) {
       const Node unguided{Table{{"by", Node{std::string("none"), origin}}}, origin};
       layers.insert(layers.begin(), layer("guidance", unguided.value));
     }
+    const Node byTime{Table{{"by", Node{std::string("time"), origin}}}, origin};
+    layers.insert(layers.begin(), layer("animation", byTime.value));
     const Node flat{Table{{"height", Node{0.0, origin}}}, origin};
     const Node unbumped{Table{{"bump", Node{flat.value, origin}}}, origin};
     layers.insert(layers.begin(), Node{Table{{"render", Node{unbumped.value, origin}}}, origin});
@@ -121,9 +123,9 @@ std::string nameOfCache(const std::filesystem::path& cache) {
 Node documentOfCache(const std::filesystem::path& cache) {
   const Origin origin{0, 1, 1, cache.string(), ""};
   const auto leaf = [&](auto value) { return Node{std::move(value), origin}; };
-  const auto table = [&](std::vector<std::pair<std::string, Node>> entries) {
+  const auto table = [&](const std::vector<std::pair<std::string, Node>>& entries) {
     Table result;
-    for (auto& [key, node] : entries) result.push_back({key, std::move(node)});
+    for (const auto& [key, node] : entries) result.push_back({key, node});
     return Node{std::move(result), origin};
   };
   const auto quality = [&](std::int64_t points, std::int64_t width, std::int64_t height,

@@ -28,6 +28,8 @@ class Reader : public Visitor {
             const std::vector<std::string>& endings) override;
   void files(const std::string& key, std::filesystem::path& value,
              const std::vector<std::string>& endings) override;
+  void picture(const std::string& key, std::filesystem::path& value,
+               texture::AnimationOptions& sequence) override;
   void path(const std::string& key, std::filesystem::path& value) override;
   void choice(const std::string& key, int& value, const std::vector<std::string>& words) override;
   int alternative(int current, const std::vector<std::string>& keys, Need need) override;

@@ -1,5 +1,6 @@
 // How each kind of value is read: its type, then its limits.
 #include "scenes/format.h"
+#include "scenes/numbered_files.h"
 #include "scenes/reader.h"
 
 #include <algorithm>
@@ -273,6 +274,36 @@ void Reader::files(const std::string& key, std::filesystem::path& value,
   if (hasEnding(path, *node, full, endings)) value = full;
 }
 
+void Reader::picture(const std::string& key, std::filesystem::path& value,
+                     texture::AnimationOptions& sequence) {
+  const Node* node = look(key, Need::optional);
+  const std::string* name = node ? std::get_if<std::string>(&node->value) : nullptr;
+  if (!name || name->find('%') == std::string::npos) return file(key, value, {});
+  std::error_code unknown;
+  const std::filesystem::path literal =
+      node->origin.commandLine() ? std::filesystem::path(*name) : m_folder / *name;
+  if (std::filesystem::exists(literal, unknown)) return file(key, value, {});
+  files(key, sequence.pattern, {});
+  const std::string path = pathOf(key);
+  if (!clean(path)) return;
+  const NumberedFiles found = numberedFiles(sequence.pattern);
+  if (!found.missing.empty()) {
+    m_faults.add(node->origin, path, found.missing.string() + " is missing, and there are later ones",
+                 "give pictures of consecutive numbers");
+    return;
+  }
+  if (found.files.size() < 2) {
+    const std::string pattern = sequence.pattern.string();
+    m_faults.add(node->origin, path,
+                 found.files.empty() ? "no such file: " + pattern : "there is one picture only of " + pattern,
+                 "give the pattern of two pictures or more, or the name of one");
+    return;
+  }
+  sequence.first = found.first;
+  sequence.files = found.files;
+  value = found.files.front();
+}
+
 void Reader::path(const std::string& key, std::filesystem::path& value) {
   const Node* node = look(key, Need::optional);
   std::filesystem::path full;
@@ -291,6 +322,7 @@ void Reader::choice(const std::string& key, int& value, const std::vector<std::s
     return;
   }
   std::vector<std::string> known;
+  known.reserve(words.size());
   for (const std::string& other : words) known.push_back(quoted(other));
   m_faults.add(node->origin, path, quoted(*word) + " is unknown", "give " + listed(known, "or"));
 }

@@ -46,6 +46,12 @@ inline bool putsOnto(const Scene& scene) {
   return !scene.onto.files.empty() || (scene.comesAsMeshes && scene.ontoSource);
 }
 
+// Whether each frame shows one picture of a sequence, the same at all places.
+inline bool showsMovingPicture(const Scene& scene) {
+  const texture::AnimationOptions& animation = scene.texture.exemplar.animation;
+  return texture::moves(scene.texture) && animation.by == texture::ShowBy::time;
+}
+
 // What the command line adds to a scene file.
 struct Overrides {
   Quality quality = Quality::standard;

@@ -181,7 +181,10 @@ void describeGuidance(Visitor& visitor, texture::Options& texture) {
   choice(visitor, "by", guidance.by,
          {"none", "height", "temperature", "speed", "vorticity", "curvature", "age", "renewal", "foam",
           "field", "attribute"});
-  if (guidance.by != texture::GuidanceBy::none)
+  // Where it chooses pictures of a sequence it chooses no places in them.
+  const texture::AnimationOptions& animation = texture.exemplar.animation;
+  const bool ofPictures = !animation.pattern.empty() && animation.by == texture::ShowBy::guidance;
+  if (guidance.by != texture::GuidanceBy::none && !ofPictures)
     visitor.file("map", texture.exemplar.guidance, {});
   else
     visitor.absent("map");
@@ -208,7 +211,7 @@ void describeTexture(Visitor& visitor, Scene& scene, Need need) {
       "texture",
       [&] {
         if (need == Need::required)
-          visitor.file("exemplar", texture.exemplar.file, {});
+          visitor.picture("exemplar", texture.exemplar.file, texture.exemplar.animation);
         else
           visitor.absent("exemplar");
         visitor.flag("toroidal", texture.exemplar.toroidal);
@@ -252,6 +255,11 @@ void describeTexture(Visitor& visitor, Scene& scene, Need need) {
           visitor.integer("repulsion_sweeps", texture.surface.repulsionSweeps, {.low = 0, .high = 1000});
         });
         visitor.table("scale", [&] { describeScale(visitor, scene); });
+        visitor.table("animation", [&] {
+          visitor.number("rate", texture.exemplar.animation.rate, kPositive);
+          visitor.flag("loop", texture.exemplar.animation.loop);
+          choice(visitor, "by", texture.exemplar.animation.by, {"time", "guidance"});
+        });
         visitor.table("guidance", [&] { describeGuidance(visitor, texture); });
         visitor.list("map", texture.exemplar.maps, [&](texture::MapOptions& map) {
           visitor.text("name", map.name);

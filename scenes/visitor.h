@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sim/options.h"
+#include "texture/options.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -49,6 +50,9 @@ class Visitor {
   // is not checked.
   virtual void files(const std::string& key, std::filesystem::path& value,
                      const std::vector<std::string>& endings) = 0;
+  // An existing file, or a sequence as above: then its first file and what there is of it.
+  virtual void picture(const std::string& key, std::filesystem::path& value,
+                       texture::AnimationOptions& sequence) = 0;
   // A file, a folder or a pattern of files. Its existence is not checked.
   virtual void path(const std::string& key, std::filesystem::path& value) = 0;
   // One of a few words, by index.

@@ -35,6 +35,10 @@ class Writer : public Visitor {
     put(key,
         value.empty() ? Json() : Json(std::filesystem::absolute(value).lexically_normal().generic_string()));
   }
+  void picture(const std::string& key, std::filesystem::path& value,
+               texture::AnimationOptions& sequence) override {
+    file(key, sequence.pattern.empty() ? value : sequence.pattern, {});
+  }
   void path(const std::string& key, std::filesystem::path& value) override { file(key, value, {}); }
   void files(const std::string& key, std::filesystem::path& value,
              const std::vector<std::string>& endings) override {

@@ -161,8 +161,25 @@ enum class Between {
   file,      // looked up in the same picture at another resolution
 };
 
+// What decides which picture of a sequence a place shows.
+enum class ShowBy {
+  time,
+  guidance,  // the level that texture.guidance gives, 0: the first picture, to 1: the last
+};
+
+// An exemplar that moves: pictures of one size, whose texels are the same places at different times.
+struct AnimationOptions {
+  std::filesystem::path pattern;             // with %d or %04d for the number; empty: one picture that stays
+  int first = 0;                             // number of the first picture
+  std::vector<std::filesystem::path> files;  // all of them, in order
+  double rate = 24.0;                        // pictures a second
+  bool loop = true;                          // the first follows the last; else the last stays
+  ShowBy by = ShowBy::time;
+};
+
 struct ExemplarOptions {
-  std::filesystem::path file;
+  std::filesystem::path file;  // of a sequence the first
+  AnimationOptions animation;
   bool toroidal = false;  // periodic: the left edge continues at the right edge, the top at the bottom
   std::filesystem::path guidance;  // image of the exemplar's size, read as numbers 0..1; empty: none
   std::vector<MapOptions> maps;
@@ -187,5 +204,15 @@ struct Options {
   OrientationOptions orientation;
   SynthesisOptions synthesis;
 };
+
+// Whether colours are looked up at exemplar coordinates.
+inline bool looksUp(const Options& options) {
+  return options.synthesis.method == Method::coordinates && options.laterFrames != LaterFrames::advect;
+}
+
+// Whether the exemplar moves: where colours are carried, its first picture stays.
+inline bool moves(const Options& options) {
+  return !options.exemplar.animation.files.empty() && looksUp(options);
+}
 
 }  // namespace fluidtex::texture

@@ -111,8 +111,15 @@ void printPlan(const scenes::Scene& scene, const CheckOptions& options) {
     points = onFiles;
   else
     printPlannedPoints(scene, points);
-  print("exemplar  {}, {} x {} pixels{}\n", scene.texture.exemplar.file.string(), exemplar.color.width,
-        exemplar.color.height, scene.texture.exemplar.toroidal ? ", toroidal" : "");
+  const texture::AnimationOptions& animation = scene.texture.exemplar.animation;
+  print("exemplar  {}, {} x {} pixels{}\n",
+        (animation.files.empty() ? scene.texture.exemplar.file : animation.pattern).string(),
+        exemplar.color.width, exemplar.color.height, scene.texture.exemplar.toroidal ? ", toroidal" : "");
+  if (!animation.files.empty())
+    print("animation {} pictures, {}\n", animation.files.size(),
+          animation.by == texture::ShowBy::guidance
+              ? std::string("which guidance chooses")
+              : fmt::format("{:g} a second, {}", animation.rate, animation.loop ? "over and over" : "once"));
   const double pixels = double(exemplar.color.width) * exemplar.color.height;
   print("texture   one point shows one pixel: ");
   if (spacing > 0.0)
@@ -124,7 +131,9 @@ void printPlan(const scenes::Scene& scene, const CheckOptions& options) {
           fitNote(scene.texture, exemplar.color.width, exemplar.color.height, points.value_or(0.0));
       !note.empty())
     print("          {}\n", note);
-  print("guidance  {}\n", exemplar.guided ? scene.texture.exemplar.guidance.string() : std::string("none"));
+  print("guidance  {}\n", exemplar.guided ? scene.texture.exemplar.guidance.string()
+                          : animation.by == texture::ShowBy::guidance ? std::string("chooses pictures")
+                                                                      : std::string("none"));
   for (const texture::MapOptions& map : scene.texture.exemplar.maps) {
     const bool matched = map.weight > 0.0 && exemplar.mapChannels > 0;
     print("map       {}, {}\n", map.name,
@@ -134,8 +143,9 @@ void printPlan(const scenes::Scene& scene, const CheckOptions& options) {
                              : "looked up");
   }
   if (exemplar.mapChannels > 0)
-    print("matching  maps take {} channel{}, which hold{} {:.0f}% of their differences\n",
-          exemplar.mapChannels, exemplar.mapChannels > 1 ? "s" : "", exemplar.mapChannels > 1 ? "" : "s",
+    print("matching  {} take {} channel{}, which hold{} {:.0f}% of their differences\n",
+          animation.files.empty() ? "maps" : "the later pictures", exemplar.mapChannels,
+          exemplar.mapChannels > 1 ? "s" : "", exemplar.mapChannels > 1 ? "" : "s",
           100.0 * exemplar.mapShare);
   if (detail)
     print("between   the points, a picture of {} x {} pixels is looked up\n", detail->color.width,
@@ -149,7 +159,8 @@ void printPlan(const scenes::Scene& scene, const CheckOptions& options) {
   if (!scene.sim.sources.empty()) print(", and {:.0f} kB a cell of what flows in", kBytesPerLiquidCell / 1e3);
   print("\n");
   const bool finer = detail && !scene.texture.exemplar.betweenFile.empty();
-  const double copied = pixels + (finer ? double(detail->color.width) * detail->color.height : 0.0);
+  const double copied = pixels * (scenes::showsMovingPicture(scene) ? 2 + last - first : 1) +
+                        (finer ? double(detail->color.width) * detail->color.height : 0.0);
   tellDisk(scene, options, last - first + 1, double(liquid.cells), points.value_or(0.0), copied);
   if (points)
     printTime(scene, options, plannedTime(scene, liquid, *points, pixels, threadsOf(options)), last);

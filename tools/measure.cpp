@@ -6,6 +6,7 @@
 #include "texture/measure/measure.h"
 #include "texture/measure/pieces.h"
 #include "texture/measure/wear.h"
+#include "texture/shown/maps.h"
 #include "tools/base/atomic_file.h"
 #include "tools/base/console.h"
 #include "tools/base/errors.h"
@@ -91,6 +92,8 @@ class Measurer {
     texture::TexturedSurface surface = readPly(m_run.surfaceOf(frame), m_run.color.width, m_run.color.height);
     if (surface.empty()) return surface;
     surface.spacing = spacingOf(m_run, surface, frame);
+    // What moves in the exemplar is no change of the texture: it is measured in one picture.
+    if (m_run.moves) texture::lookUpColor(m_run.color, m_run.toroidal, surface);
     if (m_spacing == 0.0) m_spacing = surface.spacing;
     return surface;
   }

@@ -1,6 +1,7 @@
 // fluidtex new NAME: a scene to begin with, commented, and a picture for it.
 #include "render/render.h"
 #include "scenes/exemplars/scales.h"
+#include "scenes/numbered_files.h"
 #include "texture/exemplar/read_image.h"
 #include "texture/exemplar/srgb.h"
 #include "tools/base/atomic_file.h"
@@ -137,7 +138,7 @@ void newScene(const NewScene& wishes) {
   const bool own = !wishes.exemplar.empty();
   std::string exemplar = picture.filename().string();
   if (own) {
-    texture::readImage(wishes.exemplar);
+    texture::readImage(scenes::firstOf(wishes.exemplar));
     exemplar =
         fs::proximate(fs::absolute(wishes.exemplar), fs::absolute(folder.empty() ? "." : folder)).string();
   } else {

@@ -11,6 +11,7 @@
 #include "tools/base/work.h"
 #include "tools/common_options.h"
 #include "tools/draw_by_cycles.h"
+#include "tools/formats/exemplar_picture.h"
 #include "tools/frames/color_between.h"
 #include "tools/frames/picture_notes.h"
 #include "tools/frames/progress.h"
@@ -129,13 +130,18 @@ class Drawing {
     // Coordinates count in pixels of the exemplar, whose size does not matter to vertices' colours.
     int width = 1, height = 1;
     std::optional<texture::Detail> detail;
+    bool moves = false;
     if (m_scene.texture.exemplar.between != texture::Between::points) {
       const FinishedRun run = openRun(from, {});
       width = run.color.width, height = run.color.height;
       if (run.looksUp) detail = detailOf(optionsOf(run, m_scene.texture));
+      const bool ofExemplar = m_scene.texture.exemplar.between == texture::Between::exemplar;
+      moves = ofExemplar && run.moves;
+      if (moves && !run.movesWithTime) detail.reset();  // no picture has the colours of all places
     }
     for (const int frame : m_frames.drawn) {
       nowAt(kOnPicture, frame);
+      if (detail && moves) detail = detailOfFrame(from, frame, detail->toroidal);
       texture::TexturedSurface surface = readPly(surfaceOf(from, frame), width, height);
       if (m_scene.render.bump.any() && !surface.empty()) {
         if (!hasMap(surface, m_scene.render.bump))

@@ -42,8 +42,7 @@ class Crust {
   }
 
   // Crust whose cracks open the farther the more molten it is.
-  Color colorAtStage(double x, double y) const {
-    const double stage = stageAt(x, y);
+  Color colorAtStage(double x, double y, double stage) const {
     const double wide = 0.55 * stage * stage - 0.03;
     const double fine = 0.20 * smooth(0.3, 0.8, stage) * noise(m_options.seed, 42, x, y, 9);
     return colorAt(x, y, {0.2 + 0.6 * stage, wide, fine});
@@ -111,11 +110,17 @@ std::vector<std::uint8_t> makeLava(const Lava& options) {
   return rendered(options.size, options.samples, [&](double x, double y) { return crust.colorAt(x, y); });
 }
 
+std::vector<std::uint8_t> makeLavaAtStage(double stage, const Lava& options) {
+  const Crust crust(options);
+  return rendered(options.size, options.samples,
+                  [&](double x, double y) { return crust.colorAtStage(x, y, stage); });
+}
+
 CoolingLava makeCoolingLava(const Lava& options) {
   const Crust crust(options);
-  return {
-      rendered(options.size, options.samples, [&](double x, double y) { return crust.colorAtStage(x, y); }),
-      levelMap(options.size, [&](double x, double y) { return crust.stageAt(x, y); })};
+  return {rendered(options.size, options.samples,
+                   [&](double x, double y) { return crust.colorAtStage(x, y, crust.stageAt(x, y)); }),
+          levelMap(options.size, [&](double x, double y) { return crust.stageAt(x, y); })};
 }
 
 }  // namespace fluidtex::exemplars

@@ -27,4 +27,9 @@ struct CoolingLava {
 inline constexpr Lava kCooling{.size = 384, .plates = 20};
 CoolingLava makeCoolingLava(const Lava& options = kCooling);
 
+// One stage of cooling everywhere, 0: dark crust, to 1: melt with a few rafts of skin on it, on plates that
+// stay where they are: pictures for an exemplar that moves, by temperature.
+inline constexpr Lava kLavaStages{.size = 192, .plates = 10};
+std::vector<std::uint8_t> makeLavaAtStage(double stage, const Lava& options = kLavaStages);
+
 }  // namespace fluidtex::exemplars

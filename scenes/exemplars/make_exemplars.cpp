@@ -2,11 +2,14 @@
 // WIDTH the green scales alone, green_scales_WIDTH.png: the same picture, so many pixels wide.
 #include "scenes/exemplars/foam.h"
 #include "scenes/exemplars/lava.h"
+#include "scenes/exemplars/ripples.h"
 #include "scenes/exemplars/scales.h"
 #include "scenes/write_png.h"
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 
 namespace {
@@ -18,6 +21,18 @@ bool write(const std::string& file, int size, const std::vector<std::uint8_t>& p
   if (channels == 3) spec.attribute("oiio:ColorSpace", "sRGB");
   if (!fluidtex::scenes::writePng(file, spec, pixels.data())) return false;
   std::cout << file << "\n";
+  return true;
+}
+
+// FOLDER/0000.png and so on.
+bool writeSequence(const std::filesystem::path& folder, int pictures, int size,
+                   const std::function<std::vector<std::uint8_t>(int)>& pixels) {
+  std::filesystem::create_directories(folder);
+  for (int n = 0; n < pictures; ++n) {
+    char name[32];
+    std::snprintf(name, sizeof name, "%04d.png", n);
+    if (!write((folder / name).string(), size, pixels(n))) return false;
+  }
   return true;
 }
 
@@ -41,6 +56,8 @@ int main(int argc, char** argv) {
   const fluidtex::exemplars::CoolingLava cooling = fluidtex::exemplars::makeCoolingLava();
   const fluidtex::exemplars::FoamyWater water;
   const fluidtex::exemplars::FoamImages foam = fluidtex::exemplars::makeFoam(water);
+  const fluidtex::exemplars::Ripples ripples;
+  constexpr int kStages = 12;
   const int coolingSize = fluidtex::exemplars::kCooling.size;
   const bool written =
       write((folder / "green_scales.png").string(), scales.size,
@@ -51,6 +68,10 @@ int main(int argc, char** argv) {
       write((folder / "lava_cooling.png").string(), coolingSize, cooling.pixels) &&
       write((folder / "lava_cooling_guidance.png").string(), coolingSize, cooling.guidance) &&
       write((folder / "foam.png").string(), water.size, foam.pixels) &&
-      write((folder / "foam_guidance.png").string(), water.size, foam.guidance);
+      write((folder / "foam_guidance.png").string(), water.size, foam.guidance) &&
+      writeSequence(folder / "lava_stages", kStages, fluidtex::exemplars::kLavaStages.size,
+                    [](int n) { return fluidtex::exemplars::makeLavaAtStage(double(n) / (kStages - 1)); }) &&
+      writeSequence(folder / "ripples", ripples.pictures, ripples.size,
+                    [&](int n) { return fluidtex::exemplars::makeRipples(ripples, n); });
   return written ? 0 : 2;
 }

@@ -27,6 +27,9 @@ class Recorder : public Visitor {
   void files(const std::string& key, std::filesystem::path&, const std::vector<std::string>&) override {
     see(key);
   }
+  void picture(const std::string& key, std::filesystem::path&, texture::AnimationOptions&) override {
+    see(key);
+  }
   void path(const std::string& key, std::filesystem::path&) override { see(key); }
   void choice(const std::string& key, int&, const std::vector<std::string>&) override { see(key); }
   int alternative(int current, const std::vector<std::string>&, Need) override { return current; }

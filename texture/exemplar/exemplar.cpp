@@ -71,6 +71,10 @@ void check(const Image& color, bool toroidal, const SynthesisOptions& synthesis,
   if (!visible) throw ExemplarError(name + " is fully transparent, so there is no texture to take from it.");
 }
 
+// Of the pictures of a sequence besides the first: how many are matched, and their weight together.
+constexpr std::size_t kSequenceMatched = 16;
+constexpr double kSequenceWeight = 2.0;
+
 bool anyMatched(const std::map<std::string, ExemplarMap>& maps) {
   return std::any_of(maps.begin(), maps.end(), [](const auto& map) { return map.second.weight > 0.0f; });
 }
@@ -87,8 +91,14 @@ int lanesForMaps(const Exemplar& exemplar, const SynthesisOptions& synthesis) {
          (synthesis.gradientWeight > 0.0);
 }
 
-// Fills match and its description of the maps from exemplar.color and exemplar.maps.
-void makeMatch(Exemplar& exemplar, Image guidance, const SynthesisOptions& synthesis, int levels) {
+// What is matched beside the colours.
+struct MatchedInputs {
+  Image guidance;  // one channel, or empty
+  std::map<std::string, ExemplarMap> maps;
+};
+
+// Fills match and its description of the maps.
+void makeMatch(Exemplar& exemplar, MatchedInputs inputs, const SynthesisOptions& synthesis, int levels) {
   const bool toroidal = exemplar.toroidal;
   Image premultiplied = premultipliedColors(exemplar.color);
   Image encoded = encodedColors(premultiplied, exemplar.colorChannels);
@@ -96,11 +106,11 @@ void makeMatch(Exemplar& exemplar, Image guidance, const SynthesisOptions& synth
 
   // Computed at full size and reduced with the colours, each in its own space.
   std::vector<std::pair<Image, float>> channels;
-  if (!guidance.data.empty())
-    channels.emplace_back(std::move(guidance), float(std::sqrt(synthesis.guidanceWeight)));
-  if (anyMatched(exemplar.maps)) {
+  if (!inputs.guidance.data.empty())
+    channels.emplace_back(std::move(inputs.guidance), float(std::sqrt(synthesis.guidanceWeight)));
+  if (anyMatched(inputs.maps)) {
     MatchedMaps matched =
-        matchedMaps(exemplar.maps, exemplar.color, encoded, toroidal, lanesForMaps(exemplar, synthesis));
+        matchedMaps(inputs.maps, exemplar.color, encoded, toroidal, lanesForMaps(exemplar, synthesis));
     exemplar.mapChannels = matched.image.channels;
     exemplar.mapShare = matched.share;
     if (exemplar.mapChannels > 0) channels.emplace_back(std::move(matched.image), 1.0f);
@@ -122,8 +132,8 @@ void makeMatch(Exemplar& exemplar, Image guidance, const SynthesisOptions& synth
 }
 
 // File name that hashes all that makeMatch() depends on.
-std::string nameOfMatch(const Exemplar& exemplar, const Image& guidance, const SynthesisOptions& synthesis,
-                        int levels) {
+std::string nameOfMatch(const Exemplar& exemplar, const MatchedInputs& inputs,
+                        const SynthesisOptions& synthesis, int levels) {
   const auto bits = [](double value) { return std::bit_cast<std::int64_t>(value); };
   std::vector<std::int64_t> settings{exemplar.color.width,
                                      exemplar.color.height,
@@ -133,8 +143,8 @@ std::string nameOfMatch(const Exemplar& exemplar, const Image& guidance, const S
                                      bits(synthesis.featureWeight),
                                      bits(synthesis.gradientWeight),
                                      bits(synthesis.guidanceWeight)};
-  std::vector<std::span<const float>> data{exemplar.color.data, guidance.data};
-  for (const auto& [name, map] : exemplar.maps) {
+  std::vector<std::span<const float>> data{exemplar.color.data, inputs.guidance.data};
+  for (const auto& [name, map] : inputs.maps) {
     if (!(map.weight > 0.0f)) continue;
     for (const int size : {map.image.width, map.image.height, map.image.channels}) settings.push_back(size);
     settings.push_back(bits(map.weight));
@@ -144,27 +154,29 @@ std::string nameOfMatch(const Exemplar& exemplar, const Image& guidance, const S
 }
 
 // makeMatch(), or its cached result.
-void keptOrMadeMatch(Exemplar& exemplar, Image guidance, const SynthesisOptions& synthesis, int levels,
+void keptOrMadeMatch(Exemplar& exemplar, MatchedInputs inputs, const SynthesisOptions& synthesis, int levels,
                      const CacheFolder& cache) {
-  if (cache.path.empty()) return makeMatch(exemplar, std::move(guidance), synthesis, levels);
+  if (cache.path.empty()) return makeMatch(exemplar, std::move(inputs), synthesis, levels);
   const auto eachPart = [](auto& result, const auto& visit) {
     visit(result.mapChannels), visit(result.mapShare);
     for (auto& image : result.match)
       visit(image.width), visit(image.height), visit(image.channels), visit(image.data);
   };
-  const std::string name = nameOfMatch(exemplar, guidance, synthesis, levels);
+  const std::string name = nameOfMatch(exemplar, inputs, synthesis, levels);
   if (const auto kept = readKept(cache, name)) {
     exemplar.match.resize(std::size_t(levels));
     const char* at = kept->data.get();
     return eachPart(exemplar, ByteReader{at});
   }
-  makeMatch(exemplar, std::move(guidance), synthesis, levels);
+  makeMatch(exemplar, std::move(inputs), synthesis, levels);
   std::vector<char> bytes;
   eachPart(exemplar, ByteWriter{bytes});
   writeKept(cache, name, std::move(bytes));
 }
 
-Exemplar prepare(Image color, Image guidance, std::map<std::string, ExemplarMap> maps, bool toroidal,
+// sequence: further pictures, matched but not looked up.
+Exemplar prepare(Image color, Image guidance, std::map<std::string, ExemplarMap> maps,
+                 const std::map<std::string, ExemplarMap>& sequence, bool toroidal,
                  const SynthesisOptions& synthesis, int levels, const std::string& name,
                  const CacheFolder& cache) {
   check(color, toroidal, synthesis, name);
@@ -181,15 +193,38 @@ Exemplar prepare(Image color, Image guidance, std::map<std::string, ExemplarMap>
   // Transported colours have no maps beside them.
   if (synthesis.method != Method::coordinates)
     for (auto& [own, map] : exemplar.maps) map.weight = 0.0f;
-  keptOrMadeMatch(exemplar, std::move(guidance), synthesis, std::max(levels, 1), cache);
+  MatchedInputs inputs{std::move(guidance), exemplar.maps};
+  inputs.maps.insert(sequence.begin(), sequence.end());
+  keptOrMadeMatch(exemplar, std::move(inputs), synthesis, std::max(levels, 1), cache);
   return exemplar;
+}
+
+// The other pictures of a sequence as maps of colours, encoded and premultiplied as colours are matched.
+std::map<std::string, ExemplarMap> sequenceMaps(const AnimationOptions& animation, const Image& color) {
+  std::map<std::string, ExemplarMap> maps;
+  const std::size_t others = animation.files.size() < 2 ? 0 : animation.files.size() - 1;
+  const std::size_t matched = std::min<std::size_t>(others, kSequenceMatched);
+  std::size_t next = 0;  // of the matched ones
+  for (std::size_t n = 1; n <= others; ++n) {
+    // All are read, so that what is wrong with one is told before anything is made.
+    Image picture = readImage(animation.files[n]);
+    const std::string name = animation.files[n].string();
+    if (picture.width != color.width || picture.height != color.height)
+      throw ExemplarError(name + " has " + sizeOf(picture) + " pixels, and the first of its sequence " +
+                          sizeOf(color) + "; all must be of one size.");
+    if (n != 1 + next * others / matched) continue;
+    ++next;
+    maps["picture " + std::to_string(n)] = {encodedColors(premultipliedColors(std::move(picture)), 3),
+                                            MapHolds::values, float(kSequenceWeight / double(matched))};
+  }
+  return maps;
 }
 
 }  // namespace
 
 Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
                       Image guidance, const CacheFolder& cache, std::map<std::string, ExemplarMap> maps) {
-  return prepare(std::move(color), std::move(guidance), std::move(maps), toroidal, synthesis, levels,
+  return prepare(std::move(color), std::move(guidance), std::move(maps), {}, toroidal, synthesis, levels,
                  "the image", cache);
 }
 
@@ -205,8 +240,9 @@ Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& sy
   }
   std::map<std::string, ExemplarMap> maps;
   for (const MapOptions& map : options.maps) maps[map.name] = loadMap(map, color.width, options.toroidal);
-  return prepare(std::move(color), std::move(guidance), std::move(maps), options.toroidal, synthesis, levels,
-                 options.file.string(), cache);
+  const std::map<std::string, ExemplarMap> sequence = sequenceMaps(options.animation, color);
+  return prepare(std::move(color), std::move(guidance), std::move(maps), sequence, options.toroidal,
+                 synthesis, levels, options.file.string(), cache);
 }
 
 }  // namespace fluidtex::texture

@@ -39,10 +39,13 @@ struct Exemplar {
 };
 
 // Reads an image (8- or 16-bit, float; grey, RGB, RGBA, CMYK converted to RGB) and builds `levels` pyramid
-// levels. `match` is cached in `cache`, keyed by all that it depends on.
-// Throws ExemplarError: missing; not an image; smaller than the largest window, which is shortened at levels
-// that leave no choice of places (fittingWindow); too small for any window; fully transparent; values that
-// are not finite; a guidance map of another size.
+// levels. `match` is cached in `cache`, keyed by all that it depends on. Of a sequence `color` is the first
+// picture, and the others are matched beside it, so that joints hold over all of them: sixteen at most,
+// spread evenly, reduced to principal components as maps are (texture/exemplar/matched_maps.h), which
+// together count twice as much as the first. Throws ExemplarError: missing; not an image; smaller than the
+// largest window, which is shortened at levels that leave no choice of places (fittingWindow); too small for
+// any window; fully transparent; values that are not finite; a guidance map or a picture of a sequence of
+// another size.
 Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels,
                       const CacheFolder& cache = {});
 

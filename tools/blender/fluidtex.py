@@ -150,7 +150,7 @@ class Run:
         if not self.frames():
             raise Problem(f"{path}: holds no surface/NNNN.ply; give the folder of a run of fluidtex")
         self.folder = folder
-        self.scene, self.spacing = {}, {}
+        report, self.scene, self.spacing = {}, {}, {}
         try:
             with open(os.path.join(folder, "run.json"), encoding="utf-8") as file:
                 report = json.load(file)
@@ -172,8 +172,12 @@ class Run:
         finer = texture.get("between") == "file"
         self.between = (own.get("between") or texture.get("between_file") or "") if finer else ""
         self.toroidal = bool(texture.get("toroidal"))
-        # Else colours were carried, and no place in the exemplar has them.
-        self.looked_up = texture.get("method") == "coordinates" and texture.get("later_frames") != "advect"
+        # Else colours were carried, and no place in the exemplar has them. Of an exemplar that moves the points
+        # have the colours of their frame.
+        moves = bool((report.get("inputs") or {}).get("texture.exemplar", {}).get("count"))
+        self.looked_up = (
+            texture.get("method") == "coordinates" and texture.get("later_frames") != "advect" and not moves
+        )
 
     def frames(self):
         """Numbers of the frames that have a surface now, ascending."""

@@ -13,6 +13,7 @@ struct Appearance {
   bool seeThrough = false;       // some of its alpha is below 1
   double gloss = 1.0;            // strength of the coat, 0..1
   double roughness = 0.05;       // of the coat, GGX alpha
+  bool moves = false;            // the picture is one frame's
 };
 
 }  // namespace fluidtex::tools

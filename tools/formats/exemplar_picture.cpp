@@ -1,5 +1,6 @@
 #include "tools/formats/exemplar_picture.h"
 
+#include "render/frame_name.h"
 #include "texture/exemplar/srgb.h"
 
 #include <png.h>
@@ -10,6 +11,10 @@
 #include <vector>
 
 namespace fluidtex::tools {
+
+std::string exemplarFile(int frame) {
+  return std::string(kMovingExemplar) + "/" + render::frameName(frame) + ".png";
+}
 
 bool isSeeThrough(const texture::Image& color) {
   for (std::size_t i = 3; i < color.data.size(); i += 4)

@@ -25,7 +25,7 @@ void write(Format format, const ExportMesh& mesh, const Appearance& appearance, 
     case Format::glb:
       return writeGlb(mesh, appearance, out);
     case Format::obj:
-      return writeObj(mesh, out);
+      return writeObj(mesh, appearance, out);
     case Format::usda:
       return writeUsda(mesh, appearance, out);
     case Format::vtp:
@@ -74,8 +74,10 @@ void writeExports(const texture::TexturedSurface& surface, int frame, double tim
       mesh = exportMesh(surface, !appearance.picture.empty(), appearance.toroidal,
                         blends ? JointsAs::blend : JointsAs::cut, frame, time);
     const fs::path file = out / frameFile(format, frame);
-    if (format == Format::obj && !fs::exists(file.parent_path() / kObjMaterials))
-      writeTextAtomically(file.parent_path() / kObjMaterials, mtlOf(appearance));
+    if (format == Format::obj) {
+      const fs::path materials = file.parent_path() / objMaterials(appearance, frame);
+      if (!fs::exists(materials)) writeTextAtomically(materials, mtlOf(appearance));
+    }
     writeAtomicallyTo(file, [&](std::ostream& to) { write(format, *mesh, appearance, to); });
   }
 }
@@ -88,6 +90,7 @@ void updateSequences(const Exports& exports, const fs::path& out) {
     const std::vector<Listed> files = filesIn(out / names.folder, names.extension);
     if (files.empty()) continue;
     std::vector<int> frames;
+    frames.reserve(files.size());
     for (const Listed& file : files) frames.push_back(file.frame);
     // A frame without surface has none of the values.
     const int fullest = std::max_element(files.begin(), files.end(), [](const Listed& a, const Listed& b) {

@@ -1,5 +1,6 @@
 #include "tools/formats/obj.h"
 
+#include "render/frame_name.h"
 #include "texture/exemplar/srgb.h"
 #include "tools/formats/text_stream.h"
 
@@ -10,10 +11,14 @@
 
 namespace fluidtex::tools {
 
-void writeObj(const ExportMesh& mesh, std::ostream& out) {
+std::string objMaterials(const Appearance& appearance, int frame) {
+  return appearance.moves ? render::frameName(frame) + ".mtl" : kObjMaterials;
+}
+
+void writeObj(const ExportMesh& mesh, const Appearance& appearance, std::ostream& out) {
   TextStream text(out);
   text.put("# fluidtex, metres, Y up, frame {}, {:g} s\nmtllib {}\no surface\n", mesh.frame, mesh.time,
-           kObjMaterials);
+           objMaterials(appearance, mesh.frame));
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const texture::Vec3f& x = mesh.positions[v];
     text.put("v {} {} {}", x[0], x[2], -x[1]);

@@ -127,7 +127,7 @@ void putMesh(TextStream& text, const ExportMesh& mesh, bool pictured) {
   text.put("    }}\n");
 }
 
-void putMaterial(TextStream& text, const Appearance& appearance) {
+void putMaterial(TextStream& text, const Appearance& appearance, int frame) {
   const char* wrap = appearance.toroidal ? "repeat" : "clamp";
   text.put(
       "\n    def Material \"material\"\n    {{\n"
@@ -144,14 +144,19 @@ void putMaterial(TextStream& text, const Appearance& appearance) {
       "            token outputs:surface\n        }}\n\n"
       "        def Shader \"picture\"\n        {{\n"
       "            uniform token info:id = \"UsdUVTexture\"\n"
-      "            asset inputs:file = @../{}@\n            token inputs:sourceColorSpace = \"sRGB\"\n"
+      "            asset inputs:file = @../{}@\n{}            token inputs:sourceColorSpace = \"sRGB\"\n"
       "            float2 inputs:st.connect = </liquid/material/st.outputs:result>\n"
       "            token inputs:wrapS = \"{}\"\n            token inputs:wrapT = \"{}\"\n"
       "            float outputs:a\n            float3 outputs:rgb\n        }}\n\n"
       "        def Shader \"st\"\n        {{\n"
       "            uniform token info:id = \"UsdPrimvarReader_float2\"\n"
       "            string inputs:varname = \"st\"\n            float2 outputs:result\n        }}\n    }}\n",
-      appearance.picture, wrap, wrap);
+      appearance.picture,
+      // A stage takes values that change from the frames' files by their times.
+      appearance.moves ? fmt::format("            asset inputs:file.timeSamples = {{ {}: @../{}@ }}\n", frame,
+                                     appearance.picture)
+                       : "",
+      wrap, wrap);
 }
 
 void putHead(TextStream& text, int first, int last, double frameRate) {
@@ -171,7 +176,7 @@ void writeUsda(const ExportMesh& mesh, const Appearance& appearance, std::ostrea
   const bool blends = findColumn(mesh.corner, "joint") != nullptr;
   const bool pictured = !appearance.picture.empty() && !blends;
   putMesh(text, mesh, pictured);
-  if (pictured) putMaterial(text, appearance);
+  if (pictured) putMaterial(text, appearance, mesh.frame);
   text.put("}}\n");
 }
 

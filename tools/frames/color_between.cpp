@@ -1,17 +1,13 @@
 #include "tools/frames/color_between.h"
 
 #include "texture/exemplar/read_image.h"
+#include "tools/formats/exemplar_picture.h"
 
 #include <fmt/core.h>
 
 #include <cmath>
 
 namespace fluidtex::tools {
-
-bool looksUp(const texture::Options& options) {
-  return options.synthesis.method == texture::Method::coordinates &&
-         options.laterFrames != texture::LaterFrames::advect;
-}
 
 texture::Joints jointsOf(const texture::Options& options, const texture::TexturedSurface& surface) {
   if (!looksUp(options)) return {};
@@ -31,6 +27,12 @@ std::optional<texture::Detail> detailOf(const texture::Options& options) {
         "{} has {} x {} pixels, and its exemplar {} {} x {}; the same picture has the same shape.",
         exemplar.betweenFile.string(), finer.width, finer.height, exemplar.file.string(), width, height));
   return texture::makeDetail(std::move(finer), exemplar.toroidal, width);
+}
+
+texture::Detail detailOfFrame(const std::filesystem::path& out, int frame, bool toroidal) {
+  texture::Image shown = texture::readImage(out / exemplarFile(frame));
+  const int width = shown.width;
+  return texture::makeDetail(std::move(shown), toroidal, width);
 }
 
 render::ColorBetween colorBetween(const std::optional<texture::Detail>& detail,

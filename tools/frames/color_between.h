@@ -4,12 +4,10 @@
 #include "render/render.h"
 #include "texture/shown/color_between.h"
 
+#include <filesystem>
 #include <optional>
 
 namespace fluidtex::tools {
-
-// Whether colours are looked up at exemplar coordinates.
-bool looksUp(const texture::Options& options);
 
 // findJoints() of the surface; none where colours are not looked up at exemplar coordinates.
 texture::Joints jointsOf(const texture::Options& options, const texture::TexturedSurface& surface);
@@ -18,6 +16,9 @@ texture::Joints jointsOf(const texture::Options& options, const texture::Texture
 // scene says so, or because its colours are not looked up at exemplar coordinates. Throws ExemplarError if it
 // cannot be read or has not the exemplar's aspect ratio.
 std::optional<texture::Detail> detailOf(const texture::Options& options);
+
+// The same of an exemplar that moves, as a frame of the run in `out` shows it. Throws as detailOf().
+texture::Detail detailOfFrame(const std::filesystem::path& out, int frame, bool toroidal);
 
 // Look-up of `detail` on `surface`, whose joints these are; empty without `detail`. All must outlive the
 // result.

@@ -16,7 +16,7 @@ struct DiskPlan {
   double surfaces = 0.0;  // bytes of all frames, in all formats
   double pictures = 0.0;  // and the video
   double state = 0.0;     // while a new one takes the place of the last, both are there
-  double page = 0.0;      // report.html, exemplar.png and between.png
+  double page = 0.0;      // report.html, exemplar.png, exemplar/ and between.png
   double total() const { return surfaces + pictures + state + page; }
 };
 

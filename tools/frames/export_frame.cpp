@@ -1,5 +1,6 @@
 #include "tools/frames/export_frame.h"
 
+#include "scenes/numbered_files.h"
 #include "texture/exemplar/read_image.h"
 #include "texture/shown/vector_maps.h"
 #include "tools/base/atomic_file.h"
@@ -32,9 +33,12 @@ Appearance appearanceOf(const Json& scene, const texture::Image& color) {
   appearance.frameRate = valueOf(scene, "/frame_rate", usual.frameRate);
   const bool lookedUp = valueOf<std::string>(scene, "/texture/method", "") == "coordinates" &&
                         valueOf<std::string>(scene, "/texture/later_frames", "") != "advect";
-  if (lookedUp)
+  // Vertices of one picture each have their colours.
+  if (lookedUp && valueOf<std::string>(scene, "/texture/animation/by", "time") == "time")
     appearance.picture =
         valueOf<std::string>(scene, "/texture/between", "") == "file" ? kBetweenFile : kExemplarFile;
+  appearance.moves = appearance.picture == kExemplarFile &&
+                     scenes::isPattern(valueOf<std::string>(scene, "/texture/exemplar", ""));
   appearance.toroidal = valueOf(scene, "/texture/toroidal", false);
   appearance.seeThrough = isSeeThrough(color);
   appearance.gloss = valueOf(scene, "/render/gloss", usual.gloss);
@@ -58,7 +62,12 @@ void writeFrameExports(const fs::path& out, int frame, const Exports& exports, c
     surface.spacing = spacingOf(out, surface, frame);
     texture::recoverGradients(exports.appearance.toroidal, surface);
   }
-  writeExports(surface, frame, time, exports, to);
+  Exports own = exports;
+  if (own.appearance.moves) {
+    own.appearance.picture = exemplarFile(frame);
+    own.appearance.seeThrough = isSeeThrough(texture::readImage(out / own.appearance.picture));
+  }
+  writeExports(surface, frame, time, own, to);
 }
 
 void exportFrame(const fs::path& out, int frame, const Exports& exports, const texture::Image& color) {

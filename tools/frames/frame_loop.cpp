@@ -10,6 +10,7 @@
 #include "tools/base/errors.h"
 #include "tools/base/fingerprint.h"
 #include "tools/base/work.h"
+#include "tools/formats/exemplar_picture.h"
 #include "tools/frames/check_relief.h"
 #include "tools/frames/color_between.h"
 #include "tools/frames/disk_plan.h"
@@ -95,6 +96,7 @@ class FrameLoop {
     if (!m_options.resume || !continueFromState()) {
       nowAt(kOnMotion);
       m_motion = pipeline::makeMotion(m_scene);
+      refuseOwnPictures();
       clearEarlierRun(m_options.out, m_scene.name);
     }
     writePictures(m_options.out, exemplarColor(), m_scene.texture.exemplar.betweenFile);
@@ -121,6 +123,14 @@ class FrameLoop {
   }
 
  private:
+  // Pictures of a sequence are read as they are shown, and those of an earlier run go before that.
+  void refuseOwnPictures() const {
+    for (const fs::path& file : m_scene.texture.exemplar.animation.files)
+      for (const char* folder : {kMovingExemplar, "frames"})
+        if (fs::weakly_canonical(file.parent_path()) == fs::weakly_canonical(m_options.out / folder))
+          throw UsageError(fmt::format("{}: lies where this run writes; give another --out", file.string()));
+  }
+
   void warn(const std::string& warning) const {
     spdlog::warn("{}", warning);
     if (!m_options.quiet) say("warning: {}\n", warning);
@@ -139,9 +149,11 @@ class FrameLoop {
     if (points <= 0.0) return;
     const auto pixelsOf = [](const texture::Image& color) { return double(color.width) * color.height; };
     const bool finer = m_detail && !m_scene.texture.exemplar.betweenFile.empty();
-    const double copied = pixelsOf(exemplarColor()) + (finer ? pixelsOf(m_detail->color) : 0.0);
-    const DiskPlan plan = plannedDisk(m_scene, m_last - m_options.firstFrame + 1, points,
-                                      double(liquid.cells), copied, m_options.render, m_options.formats);
+    const int frames = m_last - m_options.firstFrame + 1;
+    const double copied = pixelsOf(exemplarColor()) * (scenes::showsMovingPicture(m_scene) ? 1 + frames : 1) +
+                          (finer ? pixelsOf(m_detail->color) : 0.0);
+    const DiskPlan plan = plannedDisk(m_scene, frames, points, double(liquid.cells), copied, m_options.render,
+                                      m_options.formats);
     spdlog::info("disk: {}", textOf(plan));
     if (!m_options.quiet) say("disk: {}\n", textOf(plan));
     if (const std::string note = diskNote(plan, m_options.out); !note.empty()) warn(note);
@@ -255,6 +267,10 @@ class FrameLoop {
       const texture::Joints joints = jointsOf(m_scene.texture, m_surface);
       writeAtomically(surfaceFile, [&](const fs::path& file) { writePly(m_surface, joints, file); });
     }
+    if (const std::optional<texture::Image> shown = m_texturing.animation.pictureAt(time)) {
+      pipeline::Stopwatch watch(seconds.write);
+      writeTextAtomically(m_options.out / exemplarFile(frame), pngOf(*shown));
+    }
     if (m_options.render) writePicture(frame, time, surfaceFile, seconds);
     nowAt(kOnFrameFiles, frame);
     pipeline::Stopwatch watch(seconds.write);
@@ -265,7 +281,7 @@ class FrameLoop {
                       [&](const fs::path& file) { writePly(other, jointsOf(m_scene.texture, other), file); });
     }
     std::vector<JournalLine> lines;
-    for (const std::string& file : resultsOf(frame, m_options.render, putsOnto))
+    for (const std::string& file : resultsOf(frame, frameFilesOf(m_scene, m_options.render)))
       lines.push_back(lineOfFile(file, fingerprintOf(m_options.out / file)));
     addToJournal(m_options.out, lines);
     if (m_exports.formats.size() > 1) exportFrame(m_options.out, frame, m_exports, exemplarColor());
@@ -283,6 +299,8 @@ class FrameLoop {
       surface.spacing = m_surface.spacing;
       const texture::Joints joints = jointsOf(m_scene.texture, surface);
       const double progress = m_scene.frames > 1 ? double(frame - 1) / (m_scene.frames - 1) : 0.0;
+      if (m_detail && scenes::showsMovingPicture(m_scene))
+        m_detail = detailOfFrame(m_options.out, frame, m_scene.texture.exemplar.toroidal);
       picture = render::render(surface, m_solids.at(time), m_scene.render,
                                {m_scene.sim.size, progress, frame, colorBetween(m_detail, surface, joints),
                                 m_detail && m_detail->seeThrough, m_scene.domainOrigin},

@@ -52,9 +52,8 @@ std::optional<EarlierFrames> earlierFrames(const scenes::Scene& scene, const Run
   if (!changed.empty()) refuse(changed);
   const int done = state->solver.frame;
   const Journal journal = readJournal(options.out);
-  const std::optional<Broken> broken =
-      firstBroken(options.out, journal, options.firstFrame, std::min(done, last), options.render,
-                  scenes::putsOnto(scene));
+  const std::optional<Broken> broken = firstBroken(options.out, journal, options.firstFrame,
+                                                   std::min(done, last), frameFilesOf(scene, options.render));
   // Of the last frame all is there that its files are made of.
   const bool again = broken && broken->written && broken->frame == done;
   if (broken && !again)

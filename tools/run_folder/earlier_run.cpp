@@ -22,7 +22,7 @@ void removeFrames(const fs::path& folder, const char* extension) {
 }  // namespace
 
 void removeLeftovers(const fs::path& out) {
-  for (const char* folder : {"", "frames", "onto", "state"}) removeTemporaries(out / folder);
+  for (const char* folder : {"", "frames", "onto", kMovingExemplar, "state"}) removeTemporaries(out / folder);
   for (const FormatFiles& format : kFormatFiles) removeTemporaries(out / format.folder);
 }
 
@@ -37,6 +37,8 @@ void clearEarlierRun(const fs::path& out, const std::string& sceneName) {
   fs::remove(out / filesOf(Format::obj).folder / kObjMaterials);
   removeFrames(out / "frames", ".png");
   removeFrames(out / "onto", ".ply");
+  removeFrames(out / kMovingExemplar, ".png");
+  removeFrames(out / filesOf(Format::obj).folder, ".mtl");
   for (const FormatFiles& format : kFormatFiles) {
     removeFrames(out / format.folder, format.extension);
     if (format.sequence != nullptr) fs::remove(out / (sceneName + format.sequence));
@@ -44,19 +46,24 @@ void clearEarlierRun(const fs::path& out, const std::string& sceneName) {
   if (fs::exists(out / "log.txt")) fs::resize_file(out / "log.txt", 0);
 }
 
-std::vector<std::string> resultsOf(int frame, bool rendered, bool onto) {
+FrameFiles frameFilesOf(const scenes::Scene& scene, bool rendered) {
+  return {rendered, scenes::putsOnto(scene), scenes::showsMovingPicture(scene)};
+}
+
+std::vector<std::string> resultsOf(int frame, const FrameFiles& files) {
   const std::string name = render::frameName(frame);
   std::vector<std::string> results;
-  if (rendered) results.push_back("frames/" + name + ".png");
+  if (files.picture) results.push_back("frames/" + name + ".png");
   results.push_back(frameFile(Format::ply, frame));
-  if (onto) results.push_back("onto/" + name + ".ply");
+  if (files.onto) results.push_back("onto/" + name + ".ply");
+  if (files.exemplar) results.push_back(exemplarFile(frame));
   return results;
 }
 
 std::optional<Broken> firstBroken(const fs::path& out, const Journal& journal, int first, int last,
-                                  bool rendered, bool onto) {
+                                  const FrameFiles& files) {
   for (int frame = first; frame <= last; ++frame)
-    for (const std::string& name : resultsOf(frame, rendered, onto))
+    for (const std::string& name : resultsOf(frame, files))
       if (!isWhole(journal, out, name))
         return Broken{frame, name, fs::exists(out / name), journal.files.contains(name)};
   return std::nullopt;

@@ -2,6 +2,7 @@
 // in the same folders stay.
 #pragma once
 
+#include "scenes/scene.h"
 #include "tools/run_folder/journal.h"
 
 #include <filesystem>
@@ -19,9 +20,17 @@ void removeLeftovers(const std::filesystem::path& out);
 // between leaves nothing that could be resumed wrongly.
 void clearEarlierRun(const std::filesystem::path& out, const std::string& sceneName);
 
-// Files of a frame, relative to `out`: its surface, its picture if `rendered`, the scene's own mesh if
-// `onto`.
-std::vector<std::string> resultsOf(int frame, bool rendered, bool onto);
+// What a run writes of each frame besides its surface.
+struct FrameFiles {
+  bool picture = false;
+  bool onto = false;      // the scene's own mesh
+  bool exemplar = false;  // the picture of an exemplar that moves
+};
+
+FrameFiles frameFilesOf(const scenes::Scene& scene, bool rendered);
+
+// Files of a frame, relative to `out`.
+std::vector<std::string> resultsOf(int frame, const FrameFiles& files);
 
 struct Broken {
   int frame = 0;
@@ -32,6 +41,6 @@ struct Broken {
 
 // The first result of frames first..last that is not as the journal says.
 std::optional<Broken> firstBroken(const std::filesystem::path& out, const Journal& journal, int first,
-                                  int last, bool rendered, bool onto);
+                                  int last, const FrameFiles& files);
 
 }  // namespace fluidtex::tools

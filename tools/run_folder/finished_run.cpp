@@ -1,6 +1,7 @@
 #include "tools/run_folder/finished_run.h"
 
 #include "render/frame_name.h"
+#include "scenes/numbered_files.h"
 #include "texture/exemplar/read_image.h"
 #include "tools/base/errors.h"
 #include "tools/base/work.h"
@@ -90,9 +91,12 @@ double spacingOf(const FinishedRun& run, const texture::TexturedSurface& surface
 
 double spacingOf(const fs::path& out, const texture::TexturedSurface& surface, int frame) {
   const Json none{{"frames", Json::array()}};
-  return spacingOf(
-      FinishedRun{out, fs::exists(out / "run.json") ? readReport(out) : none, {}, {}, false, false, {}},
-      surface, frame);
+  return spacingOf(FinishedRun{.out = out,
+                               .report = fs::exists(out / "run.json") ? readReport(out) : none,
+                               .exemplar = {},
+                               .color = {},
+                               .frames = {}},
+                   surface, frame);
 }
 
 const fs::path& existing(const fs::path& out) {
@@ -103,9 +107,10 @@ const fs::path& existing(const fs::path& out) {
 }
 
 FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
-  FinishedRun run{out, readReport(out), exemplar, {}, false, false, {}};
+  FinishedRun run{.out = out, .report = readReport(out), .exemplar = exemplar, .color = {}, .frames = {}};
   const Json& texture = run.report["scene"]["texture"];
   if (exemplar.empty()) run.exemplar = fs::path(texture.value("exemplar", ""));
+  run.exemplar = scenes::firstOf(run.exemplar);
   // A folder that was moved to another machine has its own.
   if (exemplar.empty() && !fs::exists(run.exemplar) && fs::exists(out / kExemplarFile))
     run.exemplar = out / kExemplarFile;
@@ -114,6 +119,8 @@ FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
                                  run.exemplar.string()));
   run.toroidal = texture.value("toroidal", false);
   run.looksUp = texture.value("method", "") == "coordinates" && texture.value("later_frames", "") != "advect";
+  run.moves = run.looksUp && scenes::isPattern(texture.value("exemplar", ""));
+  run.movesWithTime = run.moves && texture.value("/animation/by"_json_pointer, "time") == "time";
   run.color = texture::readImage(run.exemplar);
   nowAt(kOnRun);
   run.frames = framesIn(out / "surface", ".ply");

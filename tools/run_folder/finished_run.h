@@ -16,7 +16,9 @@ struct FinishedRun {
   std::filesystem::path exemplar;  // the image's name
   texture::Image color;            // and its pixels, linear RGBA
   bool toroidal = false;
-  bool looksUp = false;     // colours were looked up at exemplar coordinates
+  bool looksUp = false;  // colours were looked up at exemplar coordinates
+  // The exemplar is a sequence, and `color` its first picture; a frame shows one of them, or places differ.
+  bool moves = false, movesWithTime = false;
   std::vector<int> frames;  // with a surface on disk, ascending; never empty
   std::filesystem::path surfaceOf(int frame) const;
 };

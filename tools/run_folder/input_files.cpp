@@ -19,6 +19,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kOnto = "texture.onto.files";
+
 // Files behind one key; a single one is a sequence without a place for its number.
 struct Input {
   std::string key;
@@ -47,6 +49,12 @@ class Collector : public scenes::Visitor {
 
   void file(const std::string& key, fs::path& value, const Words&) override { add(key, value, false); }
   void files(const std::string& key, fs::path& value, const Words&) override { add(key, value, true); }
+  void picture(const std::string& key, fs::path& value, texture::AnimationOptions& sequence) override {
+    add(key, sequence.pattern.empty() ? value : sequence.pattern, !sequence.pattern.empty());
+    if (sequence.pattern.empty()) return;
+    inputs.back().files.first = sequence.first;
+    inputs.back().files.last = sequence.first + int(sequence.files.size()) - 1;
+  }
   void path(const std::string&, fs::path&) override {}
   // The numbers of a sequence stand behind its name in the same table.
   void integer(const std::string& key, int& value, const Limits&, Need) override {
@@ -83,7 +91,7 @@ std::vector<Input> inputsOf(scenes::Scene scene) {
   scenes::describe(collector, scene);
   // One a frame: how many, no key says. Those of frames that nobody asks for need not be there.
   for (Input& input : collector.inputs) {
-    if (input.key != "texture.onto.files") continue;
+    if (input.key != kOnto) continue;
     int count = 0;
     while (count < scene.frames && fs::exists(input.files.fileOf(count))) ++count;
     input.files.last = input.files.first + std::max(1, count) - 1;
@@ -186,7 +194,7 @@ std::string contentDifference(const Json& before, const Json& current, const sce
     const Json& then = before.at(key);
     const int count = then.value("count", 1);
     Fingerprint now = fingerprintIn(current.at(key));
-    if (sequence && count != files.count()) {
+    if (sequence && count != files.count() && key == kOnto) {
       // As many as there were: more frames have more of them.
       files.last = files.first + std::max(1, count) - 1;
       now = contentOf(files);

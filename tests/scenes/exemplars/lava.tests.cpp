@@ -78,4 +78,26 @@ TEST_CASE("cooling lava: both images are toroidal", "[scenes]") {
   }
 }
 
+TEST_CASE("lava: its stages of cooling have the same plates, and glow the more the more molten", "[scenes]") {
+  CHECK((shipped("lava_stages/0000.png", kLavaStages.size) == makeLavaAtStage(0.0, kLavaStages)));
+  CHECK((shipped("lava_stages/0011.png", kLavaStages.size) == makeLavaAtStage(1.0, kLavaStages)));
+  const Lava options{.size = 64, .plates = 4, .samples = 1};
+  double before = -1.0;
+  Pixels last;
+  for (const double stage : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const Pixels pixels = makeLavaAtStage(stage, options);
+    double red = 0.0;
+    std::size_t darker = 0;
+    for (std::size_t i = 0; i < pixels.size(); i += 3) {
+      red += pixels[i];
+      if (!last.empty() && pixels[i] + 12 < last[i]) ++darker;
+    }
+    CHECK(red > before);
+    // A place that glows does not go dark where it gets hotter.
+    CHECK(darker < pixels.size() / 3 / 50);
+    before = red;
+    last = pixels;
+  }
+}
+
 }  // namespace fluidtex::exemplars

@@ -11,7 +11,7 @@ using namespace fluidtex;
 namespace {
 
 std::string objOf(const tools::ExportMesh& mesh) {
-  return written([&](std::ostream& out) { tools::writeObj(mesh, out); });
+  return written([&](std::ostream& out) { tools::writeObj(mesh, {}, out); });
 }
 
 std::vector<std::string> linesThatBegin(const std::string& text, const std::string& with) {

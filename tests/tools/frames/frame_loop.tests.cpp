@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 
 namespace fs = std::filesystem;
@@ -121,4 +122,88 @@ TEST_CASE("fluidtex run: interrupted while the video is written, it exits with 1
   again.emplace_back("--resume");
   CHECK(runProgram(again).exitCode == 0);
   CHECK(fs::exists(scratch.path / "out" / "small.mp4"));
+}
+
+namespace {
+
+const std::string kRipples = FLUIDTEX_SOURCE "/scenes/exemplars/ripples/%04d.png";
+
+std::vector<std::string> movingRun(const fs::path& out, const Words& more = {}) {
+  Words words{"run",        kSmallScene,
+              "--exemplar", kRipples,
+              "--set",      "texture.toroidal=true",
+              "--set",      "texture.animation.rate=18",
+              "--frames",   "1:3",
+              "--out",      out.string()};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+}  // namespace
+
+TEST_CASE("fluidtex run: an exemplar that moves, in its own picture a frame, resumed to the same bytes",
+          "[tools]") {
+  const Scratch scratch;
+  const fs::path whole = scratch.path / "whole", parts = scratch.path / "parts";
+  Finished run =
+      runProgram(movingRun(whole, {"--format", "glb,usda,obj", "--set", "texture.between=exemplar"}));
+  INFO(run.all());
+  REQUIRE(run.exitCode == 0);
+  for (const char* frame : {"0001", "0002", "0003"}) {
+    CHECK(fs::exists(whole / "exemplar" / (std::string(frame) + ".png")));
+    CHECK_THAT(readBytes(whole / "usd" / (std::string(frame) + ".usda")),
+               Catch::Contains("timeSamples = { " + std::to_string(std::stoi(frame)) + ": @../exemplar/" +
+                               std::string(frame) + ".png@ }"));
+    CHECK_THAT(readBytes(whole / "glb" / (std::string(frame) + ".glb")),
+               Catch::Contains("../exemplar/" + std::string(frame) + ".png"));
+    CHECK_THAT(readBytes(whole / "obj" / (std::string(frame) + ".obj")),
+               Catch::Contains("mtllib " + std::string(frame) + ".mtl"));
+    CHECK_THAT(readBytes(whole / "obj" / (std::string(frame) + ".mtl")),
+               Catch::Contains("map_Kd ../exemplar/" + std::string(frame) + ".png"));
+  }
+  CHECK(readBytes(whole / "exemplar" / "0001.png") != readBytes(whole / "exemplar" / "0002.png"));
+
+  const Words first{"--format", "glb,usda,obj", "--set", "texture.between=exemplar"};
+  Words begun = movingRun(parts, first);
+  std::replace(begun.begin(), begun.end(), std::string("1:3"), std::string("1:1"));
+  REQUIRE(runProgram(begun).exitCode == 0);
+  Words resumed = movingRun(parts, first);
+  resumed.push_back("--resume");
+  run = runProgram(resumed);
+  INFO(run.all());
+  REQUIRE(run.exitCode == 0);
+  for (const char* folder : {"exemplar", "frames", "glb", "obj", "surface", "usd"})
+    for (const auto& entry : fs::directory_iterator(whole / folder))
+      CHECK(readBytes(entry.path()) == readBytes(parts / folder / entry.path().filename()));
+
+  // Drawn again it shows the same pictures.
+  const fs::path again = scratch.path / "again";
+  run = runProgram({"render", kSmallScene, "--exemplar", kRipples, "--set", "texture.toroidal=true", "--set",
+                    "texture.animation.rate=18", "--set", "texture.between=exemplar", "--from",
+                    whole.string(), "--out", again.string(), "--frames", "2:2"});
+  INFO(run.all());
+  REQUIRE(run.exitCode == 0);
+  CHECK(readBytes(again / "frames" / "0002.png") == readBytes(whole / "frames" / "0002.png"));
+
+  // What moves in the exemplar is no change of the texture.
+  REQUIRE(runProgram({"measure", whole.string(), "--json", (scratch.path / "m.json").string()}).exitCode ==
+          0);
+  const auto measured = nlohmann::json::parse(readBytes(scratch.path / "m.json"));
+  CHECK(measured.at("mean").at("change").get<double>() < 0.05);
+}
+
+TEST_CASE("fluidtex run: guidance chooses pictures of an exemplar, place by place", "[tools]") {
+  const Scratch scratch;
+  const fs::path out = scratch.path / "out";
+  const Finished run =
+      runProgram({"run", kSmallScene, "--set",
+                  "texture.exemplar=" FLUIDTEX_SOURCE "/scenes/exemplars/lava_stages/%04d.png", "--set",
+                  "texture.animation.by=guidance", "--set", "texture.guidance.by=height", "--set",
+                  "texture.guidance.point=[{ value = 0.0, level = 0.0 }, { value = 0.4, level = 1.0 }]",
+                  "--frames", "1:2", "--no-render", "--format", "glb", "--out", out.string()});
+  INFO(run.all());
+  REQUIRE(run.exitCode == 0);
+  CHECK_FALSE(fs::exists(out / "exemplar"));
+  // No picture has the colours of all places.
+  CHECK_THAT(readBytes(out / "glb" / "0002.glb"), !Catch::Contains(".png"));
 }

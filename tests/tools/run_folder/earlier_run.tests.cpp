@@ -63,7 +63,7 @@ TEST_CASE("earlier run: the log is emptied, so that a logger that has it open go
 TEST_CASE("earlier run: the first result that is not as it was written is named", "[tools]") {
   const Scratch scratch;
   const auto broken = [&](int first, int last, bool rendered) {
-    return firstBroken(scratch.path, readJournal(scratch.path), first, last, rendered, false);
+    return firstBroken(scratch.path, readJournal(scratch.path), first, last, {.picture = rendered});
   };
   const auto written = [&](const std::string& name) {
     put(scratch.path / name);
