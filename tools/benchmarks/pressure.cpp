@@ -1,6 +1,7 @@
 // Pressure systems, ours against other solvers. Seconds are set-up and solve together, without filling the
 // matrix.
 #include "tools/benchmarks/measure.h"
+#include "tools/benchmarks/peers/poisson.h"
 #include "tools/benchmarks/poisson_problem.h"
 
 #include <tbb/global_control.h>
