@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kOnto = "texture.onto.files";
+constexpr const char *kOnto = "texture.onto.files", *kExemplar = "texture.exemplar";
 
 // Files behind one key; a single one is a sequence without a place for its number.
 struct Input {
@@ -194,7 +194,7 @@ std::string contentDifference(const Json& before, const Json& current, const sce
     const Json& then = before.at(key);
     const int count = then.value("count", 1);
     Fingerprint now = fingerprintIn(current.at(key));
-    if (sequence && count != files.count() && key == kOnto) {
+    if (sequence && count != files.count() && key != kExemplar) {
       // As many as there were: more frames have more of them.
       files.last = files.first + std::max(1, count) - 1;
       now = contentOf(files);

@@ -194,6 +194,27 @@ TEST_CASE("input files: a sequence may go on, with what there was as it was", "[
   CHECK_FALSE(contentDifference(before, contentsOf(scene), scene).empty());
 }
 
+TEST_CASE("input files: a picture more or another one is another exemplar that moves", "[tools]") {
+  using namespace fluidtex::tools;
+  const Scratch scratch;
+  sceneIn(scratch.path);
+  const auto scene = [&] {
+    return fluidtex::scenes::loadScene(scratch.path / "s.toml",
+                                       {.set = {"texture.exemplar=" + (scratch.path / "p_%d.png").string()}});
+  };
+  for (const char* name : {"p_2.png", "p_3.png"}) std::ofstream(scratch.path / name) << name;
+  const Json before = contentsOf(scene());
+  CHECK(before.at("texture.exemplar").at("first") == 2);
+  CHECK(before.at("texture.exemplar").at("count") == 2);
+  CHECK(contentDifference(before, contentsOf(scene()), scene()).empty());
+  std::ofstream(scratch.path / "p_4.png") << "p_4.png";
+  CHECK(contentDifference(before, contentsOf(scene()), scene()) ==
+        (scratch.path / "p_%d.png").string() + " (texture.exemplar) has changed since the run began");
+  fs::remove(scratch.path / "p_4.png");
+  std::ofstream(scratch.path / "p_3.png") << "another";
+  CHECK_FALSE(contentDifference(before, contentsOf(scene()), scene()).empty());
+}
+
 TEST_CASE("input files: of meshes that are one a frame, those there are", "[tools]") {
   using namespace fluidtex::tools;
   const Scratch scratch;
