@@ -179,12 +179,12 @@ struct AnimationOptions {
 
 struct ExemplarOptions {
   std::filesystem::path file;  // of a sequence the first
-  AnimationOptions animation;
   bool toroidal = false;  // periodic: the left edge continues at the right edge, the top at the bottom
   std::filesystem::path guidance;  // image of the exemplar's size, read as numbers 0..1; empty: none
   std::vector<MapOptions> maps;
   Between between = Between::points;
   std::filesystem::path betweenFile;
+  AnimationOptions animation;
 };
 
 struct Options {
