@@ -278,11 +278,8 @@ void Reader::picture(const std::string& key, std::filesystem::path& value,
                      texture::AnimationOptions& sequence) {
   const Node* node = look(key, Need::optional);
   const std::string* name = node ? std::get_if<std::string>(&node->value) : nullptr;
-  if (!name || name->find('%') == std::string::npos) return file(key, value, {});
-  std::error_code unknown;
-  const std::filesystem::path literal =
-      node->origin.commandLine() ? std::filesystem::path(*name) : m_folder / *name;
-  if (std::filesystem::exists(literal, unknown)) return file(key, value, {});
+  if (!name || !isPattern(node->origin.commandLine() ? std::filesystem::path(*name) : m_folder / *name))
+    return file(key, value, {});
   files(key, sequence.pattern, {});
   const std::string path = pathOf(key);
   if (!clean(path)) return;

@@ -1,28 +1,12 @@
 #include "texture/shown/maps.h"
 
 #include "tests/texture/exemplar/test_images.h"
+#include "tests/texture/shown/two_vertices.h"
 
 #include <catch2/catch.hpp>
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
-
-namespace {
-
-// Two vertices on an exemplar of 8 x 4 texels; the second one still shows a quarter of its former place.
-TexturedSurface twoVertices() {
-  TexturedSurface surface;
-  surface.exemplarWidth = 8;
-  surface.exemplarHeight = 4;
-  surface.positions.resize(2);
-  surface.coordinate = {{2.0f, 1.0f}, {5.5f, 2.0f}};
-  surface.fading = noFading(2);
-  surface.fading.coordinate[1] = {2.0f, 1.0f};
-  surface.fading.weight[1] = 0.25f;
-  return surface;
-}
-
-}  // namespace
 
 TEST_CASE("maps: looked up at the exemplar coordinates in any resolution, with what fades") {
   const int scale = GENERATE(1, 2, 5);

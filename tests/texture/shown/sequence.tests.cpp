@@ -1,6 +1,7 @@
 #include "texture/shown/sequence.h"
 
 #include "tests/texture/exemplar/test_images.h"
+#include "tests/texture/shown/two_vertices.h"
 #include "texture/shown/maps.h"
 
 #include <catch2/catch.hpp>
@@ -9,18 +10,6 @@ using namespace fluidtex::texture;
 using namespace fluidtex::testing;
 
 namespace {
-
-TexturedSurface threeVertices() {
-  TexturedSurface surface;
-  surface.exemplarWidth = 8;
-  surface.exemplarHeight = 8;
-  surface.positions.resize(3);
-  surface.coordinate = {{2.0f, 1.0f}, {5.5f, 2.0f}, {3.0f, 3.25f}};
-  surface.fading = noFading(3);
-  surface.fading.coordinate[1] = {2.0f, 1.0f};
-  surface.fading.weight[1] = 0.25f;
-  return surface;
-}
 
 void checkSame(const Vec4f& a, const Vec4f& b) {
   for (int c = 0; c < 4; ++c) CHECK(a[c] == Approx(b[c]).margin(1e-6));
@@ -76,27 +65,26 @@ TEST_CASE("sequence: pictures are mixed as light, by alpha", "[texture]") {
 
 TEST_CASE("sequence: each vertex shows its own pictures, with what fades", "[texture]") {
   std::vector<Image> pictures;
-  for (const std::uint64_t seed : {1, 2, 3}) {
-    pictures.push_back(blobImage(8, 8, 4, 6.0, seed));
-  }
-  TexturedSurface surface = threeVertices();
-  lookUpColors(pictures, {{0, 1, 0.0f}, {1, 2, 0.0f}, {1, 2, 0.5f}}, true, surface);
+  for (const std::uint64_t seed : {1, 2, 3}) pictures.push_back(blobImage(8, 4, 4, 4.0, seed));
   TexturedSurface alone[3];
   for (std::size_t n = 0; n < 3; ++n) {
-    alone[n] = threeVertices();
+    alone[n] = twoVertices();
     lookUpColor(pictures[n], true, alone[n]);
   }
+  TexturedSurface surface = twoVertices();
+  lookUpColors(pictures, {{0, 1, 0.0f}, {1, 2, 0.0f}}, true, surface);
   checkSame(surface.color[0], alone[0].color[0]);
   checkSame(surface.color[1], alone[1].color[1]);
-  checkSame(surface.color[2], 0.5f * (alone[1].color[2] + alone[2].color[2]));
+  lookUpColors(pictures, {{1, 2, 0.5f}, {2, 0, 0.25f}}, true, surface);
+  checkSame(surface.color[0], 0.5f * (alone[1].color[0] + alone[2].color[0]));
+  checkSame(surface.color[1], 0.75f * alone[2].color[1] + 0.25f * alone[0].color[1]);
 }
 
 TEST_CASE("sequence: pictures that are not there, or differ in size, are refused", "[texture]") {
   const std::vector<Image> pictures{blobImage(8, 8, 4, 6.0, 1), blobImage(8, 4, 4, 6.0, 2)};
-  TexturedSurface surface = threeVertices();
+  TexturedSurface surface = twoVertices();
   const ShownPictures first{0, 0, 0.0f};
-  CHECK_THROWS_AS(lookUpColors(pictures, {first, first, first}, true, surface), std::invalid_argument);
-  CHECK_THROWS_AS(lookUpColors({pictures[0]}, {first, first}, true, surface), std::invalid_argument);
-  CHECK_THROWS_AS(lookUpColors({pictures[0]}, {first, first, {0, 1, 0.5f}}, true, surface),
-                  std::invalid_argument);
+  CHECK_THROWS_AS(lookUpColors(pictures, {first, first}, true, surface), std::invalid_argument);
+  CHECK_THROWS_AS(lookUpColors({pictures[0]}, {first}, true, surface), std::invalid_argument);
+  CHECK_THROWS_AS(lookUpColors({pictures[0]}, {first, {0, 1, 0.5f}}, true, surface), std::invalid_argument);
 }
