@@ -48,7 +48,7 @@ void requireAttributes(const caches::Layout& layout, const scenes::Scene& scene)
   std::vector<std::string> there;
   for (const caches::Field& field : layout.fields)
     for (const std::string& name : caches::scalarNames(field)) there.push_back(name);
-  const auto require = [&](bool used, const char* key, const std::string& name) {
+  const auto require = [&](bool used, const std::string& key, const std::string& name) {
     if (!used || std::find(there.begin(), there.end(), name) != there.end()) return;
     throw caches::LayoutError(fmt::format("{}: the liquid in {} has no {}; there {}", key,
                                           scene.files.path.string(), name,
@@ -58,9 +58,12 @@ void requireAttributes(const caches::Layout& layout, const scenes::Scene& scene)
   const texture::GuidanceOptions& guidance = scene.texture.guidance;
   require(guidance.by == texture::GuidanceBy::attribute, "texture.guidance.attribute", guidance.attribute);
   require(guidance.by == texture::GuidanceBy::temperature, "texture.guidance.by", "temperature");
-  const texture::ScaleOptions& scale = scene.texture.scale;
-  require(scale.by == texture::ScaleBy::attribute, "texture.scale.attribute", scale.attribute);
-  require(scale.by == texture::ScaleBy::temperature, "texture.scale.by", "temperature");
+  const auto requireFactor = [&](const texture::FactorOptions& factor, const std::string& path) {
+    require(factor.by == texture::FactorBy::attribute, path + ".attribute", factor.attribute);
+    require(factor.by == texture::FactorBy::temperature, path + ".by", "temperature");
+  };
+  requireFactor(scene.texture.scale, "texture.scale");
+  requireFactor(scene.texture.renewal, "texture.renewal");
   const texture::OrientationOptions& orientation = scene.texture.orientation;
   require(orientation.align == texture::Align::attribute, "texture.orientation.attribute",
           orientation.attribute + "_x");

@@ -2,6 +2,7 @@
 
 #include "pipeline/foreseen_surface.h"
 #include "pipeline/liquid_values.h"
+#include "pipeline/start_mesh.h"
 #include "pipeline/stopwatch.h"
 #include "texture/frames/renewal.h"
 #include "texture/labels/fresh.h"
@@ -10,6 +11,7 @@
 #include "transport/carry.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace fluidtex::pipeline {
 namespace {
@@ -42,7 +44,7 @@ void addLevelsForFresh(const Texturing& texturing, const sim::Frame& frame, cons
                                        *std::max_element(windows.begin(), windows.end()))))
     return;
   texture::addCoarserLevels(*frame.surfacePhi, scene.texture.surface.levels, scene.texture.surface,
-                            scaleIn(texturing.scale, frame), surface);
+                            factorIn(texturing.scale, frame), surface);
 }
 
 // Guidance by age means the surface's age, which renewed texture does not reset.
@@ -54,7 +56,8 @@ void keepAge(const Carried& carried, double seconds, TexturedSurface& surface) {
 TexturedSurface synthesized(Texturing& texturing, Surface surface, const Carried& carried, int frame,
                             texture::SynthesisStats& stats, const std::function<void(double)>& progress) {
   const scenes::Scene& scene = texturing.scene;
-  const double seconds = 1.0 / scene.sim.frameRate;
+  // Nothing has moved yet where the first frame has a texture that it begins with.
+  const double seconds = frame == 1 ? 0.0 : 1.0 / scene.sim.frameRate;
   const bool alone = scene.texture.laterFrames == LaterFrames::alone && !carried.empty();
   const Carried nothing;
   TexturedSurface result = texture::synthesize(texturing.synthesizer, std::move(surface),
@@ -65,6 +68,26 @@ TexturedSurface synthesized(Texturing& texturing, Surface surface, const Carried
   }
   if (scene.texture.guidance.by == texture::GuidanceBy::age) keepAge(carried, seconds, result);
   return result;
+}
+
+// The wear of transported texture counts by the scene's factors; what is original may never be renewed.
+void scaleWear(const Texturing& texturing, const sim::Frame& frame, const texture::SurfaceMesh& mesh,
+               Carried& carried) {
+  if (carried.empty() || !carried.renewal.empty()) return;
+  if (const texture::PointScale factor = factorIn(texturing.renewal, frame))
+    carried.renewal = factor(mesh.positions);
+  if (texturing.scene.start.renew || carried.original.empty()) return;
+  if (carried.renewal.empty()) carried.renewal.assign(carried.original.size(), 1.0f);
+  for (std::size_t v = 0; v < carried.original.size(); ++v)
+    if (carried.original[v]) carried.renewal[v] = 0.0f;
+}
+
+// Where the exemplar's guidance is what a mesh shows of it, new texture comes from there.
+void takeFromShown(const Texturing& texturing, Surface& surface) {
+  if (texturing.start.empty() || texturing.guidance.options.by != texture::GuidanceBy::none ||
+      !texturing.synthesizer.exemplar.guided)
+    return;
+  for (texture::SurfaceMesh& mesh : surface.levels) mesh.guidance.assign(mesh.positions.size(), 1.0f);
 }
 
 // Textures by the scene's method; velocity and contact are left to the caller.
@@ -86,18 +109,32 @@ TexturedSurface textured(Texturing& texturing, Surface surface, const Carried& c
 }  // namespace
 
 Texturing makeTexturing(const scenes::Scene& scene, const texture::CacheFolder& cache) {
-  return makeTexturing(scene,
-                       texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis,
-                                             scene.texture.surface.levels, cache),
+  scenes::Scene fitted = scene;
+  fitToStart(fitted);
+  const texture::ExemplarOptions& exemplar = fitted.texture.exemplar;
+  texture::Image shown;
+  if (!fitted.start.mesh.file.empty() && exemplar.guidance.empty()) {
+    const texture::Image picture = texture::exemplarPicture(exemplar);
+    shown = shownByStart(startSurface(fitted, picture.width, picture.height), picture.width, picture.height);
+  }
+  return makeTexturing(fitted,
+                       texture::loadExemplar(exemplar, fitted.texture.synthesis,
+                                             fitted.texture.surface.levels, cache, std::move(shown)),
                        cache);
 }
 
 Texturing makeTexturing(const scenes::Scene& scene, texture::Exemplar exemplar,
                         const texture::CacheFolder& cache) {
-  return {scene,
+  const texture::Image& color = exemplar.color;
+  texture::TexturedSurface start = startSurface(scene, color.width, color.height);
+  scenes::Scene fitted = scene;
+  if (!start.empty() && !scene.start.fitted) fitted.texture.spacing = start.spacing;
+  return {fitted,
           texture::makeSynthesizer(std::move(exemplar), scene.texture.synthesis, cache),
           orientationGuide(scene),
           textureScale(scene),
+          textureRenewal(scene),
+          std::move(start),
           textureGuidance(scene),
           texture::moves(scene.texture)
               ? Animation(scene.texture.exemplar.animation, scene.texture.exemplar.toroidal)
@@ -121,7 +158,7 @@ TexturedFrame textureFrame(Texturing& texturing, const TexturedSurface& last, co
     const Stopwatch stage(seconds.prepare, watch.seconds);
     // What is followed is known where there is liquid.
     const bool liquid = frame.surfacePhi->tree().leafCount() > 0;
-    const texture::PointScale scale = liquid ? scaleIn(texturing.scale, frame) : texture::PointScale{};
+    const texture::PointScale scale = liquid ? factorIn(texturing.scale, frame) : texture::PointScale{};
     if (!(spacing > 0.0)) {
       const double here = texture::spacingForPoints(*frame.surfacePhi, scene.texture.points, scale);
       spacing = here > 0.0 ? std::max(here, foreseenSpacing(scene)) : 0.0;
@@ -137,10 +174,15 @@ TexturedFrame textureFrame(Texturing& texturing, const TexturedSurface& last, co
     return result;
   }
   Carried carried;
+  const bool starts = frame.index == 1 && !texturing.start.empty() && texture::looksUp(scene.texture) &&
+                      scene.texture.laterFrames == LaterFrames::synthesize;
   {
     begin(Stage::transport);
     const Stopwatch stage(seconds.transport, watch.seconds);
-    carried = transport::carry(last, frame, surface.levels[0], symmetry, scene.transport);
+    if (starts)
+      carried = startOn(texturing.start, surface.levels[0], frame.surfacePhi->voxelSize().x(), symmetry);
+    else
+      carried = transport::carry(last, frame, surface.levels[0], symmetry, scene.transport);
   }
   {
     const Stopwatch stage(seconds.prepare, watch.seconds);
@@ -154,6 +196,8 @@ TexturedFrame textureFrame(Texturing& texturing, const TexturedSurface& last, co
                           texture::droplets(graph, *std::min_element(windows.begin(), windows.end())),
                           scene.texture.synthesis.ways, carried);
     guide(texturing.guidance, frame, carried, 1.0 / scene.sim.frameRate, surface);
+    takeFromShown(texturing, surface);
+    scaleWear(texturing, frame, surface.levels[0], carried);
   }
   {
     begin(Stage::synthesize);

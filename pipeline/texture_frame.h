@@ -5,8 +5,8 @@
 
 #include "pipeline/animation.h"
 #include "pipeline/orientation_guide.h"
+#include "pipeline/place_factor.h"
 #include "pipeline/texture_guidance.h"
-#include "pipeline/texture_scale.h"
 #include "scenes/scene.h"
 #include "sim/frame/frame.h"
 #include "texture/frames/synthesize.h"
@@ -24,7 +24,8 @@ struct Texturing {
   scenes::Scene scene;
   texture::Synthesizer synthesizer;
   OrientationGuide orientation;
-  TextureScale scale;
+  PlaceFactor scale, renewal;
+  texture::TexturedSurface start;  // of the mesh that the liquid begins with, on the exemplar; or empty
   TextureGuidance guidance;
   Animation animation;
 };
@@ -32,7 +33,8 @@ struct Texturing {
 // Reads what the scene's settings name: exemplar, maps, vector and scalar fields. cache: folder of search
 // tables kept between runs. Throws ExemplarError, or std::runtime_error that names a field's file.
 Texturing makeTexturing(const scenes::Scene& scene, const texture::CacheFolder& cache = {});
-// The same with an exemplar in memory, prepared for scene.texture.surface.levels levels.
+// The same with an exemplar in memory, prepared for scene.texture.surface.levels levels; where the liquid
+// begins with a mesh's texture, it is the mesh's picture.
 Texturing makeTexturing(const scenes::Scene& scene, texture::Exemplar exemplar,
                         const texture::CacheFolder& cache = {});
 

@@ -65,21 +65,22 @@ void checkCurve(const std::vector<texture::CurvePoint>& points, const std::strin
   }
 }
 
-void checkScale(const Scene& scene, Reader& reader) {
-  const texture::ScaleOptions& scale = scene.texture.scale;
-  const std::string path = "texture.scale", by = path + ".by";
-  for (std::size_t i = 0; i < scene.scaleFrom.size(); ++i)
-    checkShape(scene.scaleFrom[i], path + ".from." + std::to_string(i), reader);
-  checkCurve(scale.points, path + ".point", reader);
-  if (!reader.clean(by) || scale.by == texture::ScaleBy::none) return;
-  if (scale.points.empty())
+// path: of the factor's table.
+void checkFactor(const Scene& scene, const texture::FactorOptions& factor,
+                 const std::vector<sim::Shape>& from, const std::string& path, Reader& reader) {
+  const std::string by = path + ".by";
+  for (std::size_t i = 0; i < from.size(); ++i)
+    checkShape(from[i], path + ".from." + std::to_string(i), reader);
+  checkCurve(factor.points, path + ".point", reader);
+  if (!reader.clean(by) || factor.by == texture::FactorBy::none) return;
+  if (factor.points.empty())
     reader.fault(by, "is of no use without a factor",
-                 "give one [[texture.scale.point]] or more, each with a value and a factor");
-  if (scale.by == texture::ScaleBy::distance && scene.scaleFrom.empty())
-    reader.fault(by, "\"distance\" is from nothing", "give a shape or more as [[texture.scale.from]]");
-  if (scale.by == texture::ScaleBy::temperature && !hasTemperature(scene))
+                 "give one [[" + path + ".point]] or more, each with a value and a factor");
+  if (factor.by == texture::FactorBy::distance && from.empty())
+    reader.fault(by, "\"distance\" is from nothing", "give a shape or more as [[" + path + ".from]]");
+  if (factor.by == texture::FactorBy::temperature && !hasTemperature(scene))
     reader.fault(by, "\"temperature\" is not computed", "give simulate = true in [heat] too");
-  if (scale.by == texture::ScaleBy::attribute) checkAttribute(scene, path, scale.attribute, reader);
+  if (factor.by == texture::FactorBy::attribute) checkAttribute(scene, path, factor.attribute, reader);
 }
 
 void checkGuidance(const Scene& scene, Reader& reader) {
@@ -97,6 +98,14 @@ void checkGuidance(const Scene& scene, Reader& reader) {
   if (reader.clean(full) && !(guidance.foam.full > guidance.foam.from))
     reader.fault(full, written(guidance.foam.full) + " is not above from, " + written(guidance.foam.from),
                  "give a larger one");
+}
+
+void checkStart(const Scene& scene, Reader& reader) {
+  const std::string file = "texture.start.file";
+  if (scene.start.mesh.file.empty() || !reader.clean(file)) return;
+  if (!scene.texture.exemplar.animation.pattern.empty())
+    reader.fault(file, "the mesh has one picture, and the exemplar is a sequence",
+                 "give its picture as texture.exemplar");
 }
 
 // Of all properties that the maps before have; a map of vectors has three.
@@ -215,7 +224,9 @@ void checkAnimation(const Scene& scene, Reader& reader) {
 }  // namespace
 
 void checkTexture(const Scene& scene, Reader& reader) {
-  checkScale(scene, reader);
+  checkFactor(scene, scene.texture.scale, scene.scaleFrom, "texture.scale", reader);
+  checkFactor(scene, scene.texture.renewal, scene.renewalFrom, "texture.renewal", reader);
+  checkStart(scene, reader);
   checkGuidance(scene, reader);
   checkAnimation(scene, reader);
   checkMaps(scene, reader);

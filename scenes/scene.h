@@ -20,6 +20,13 @@ enum class Quality { preview, standard, final };
 // Name as on the command line: preview, default, final.
 const char* nameOf(Quality quality);
 
+// A mesh with UVs, whose texture the liquid begins with. The exemplar is its picture.
+struct Start {
+  sim::MeshShape mesh;  // no file: none
+  bool renew = true;    // also what is still as it was at the start
+  bool fitted = false;  // the exemplar's size and the points' spacing are the mesh's: pipeline::fitToStart()
+};
+
 struct Scene {
   std::string name;  // key `name`, or the file's without folder and extension
   std::filesystem::path file;
@@ -31,8 +38,10 @@ struct Scene {
   // The lowest corner of the domain, metres; other than 0 where it was found in files.
   sim::Vec3d domainOrigin{0.0};
   texture::Options texture;
-  std::vector<sim::Shape> scaleFrom;  // what ScaleBy::distance is measured from
+  // What FactorBy::distance is measured from.
+  std::vector<sim::Shape> scaleFrom, renewalFrom;
   std::vector<sim::Shape> keepClear;  // places where the orientation field should have no singularities
+  Start start;
   transport::Options transport;
   sim::MeshSequence onto;      // meshes that get the texture too, one a frame; no name: those of `ontoSource`
   bool ontoSource = true;      // that the liquid comes as, where it comes as meshes

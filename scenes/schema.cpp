@@ -160,20 +160,20 @@ void describeOrientation(Visitor& visitor, Scene& scene) {
   visitor.list("keep_clear", scene.keepClear, [&](sim::Shape& shape) { describeShape(visitor, shape); });
 }
 
-void describeScale(Visitor& visitor, Scene& scene) {
-  texture::ScaleOptions& scale = scene.texture.scale;
-  choice(visitor, "by", scale.by, {"none", "distance", "temperature", "height", "field", "attribute"});
-  visitor.list("point", scale.points, [&](texture::CurvePoint& point) {
+// from: the shapes that distances are measured from.
+void describeFactor(Visitor& visitor, texture::FactorOptions& factor, const Limits& limits,
+                    std::vector<sim::Shape>& from) {
+  choice(visitor, "by", factor.by, {"none", "distance", "temperature", "height", "field", "attribute"});
+  visitor.list("point", factor.points, [&](texture::CurvePoint& point) {
     visitor.number("value", point.value, kAny, Need::required);
-    visitor.number("factor", point.result, {.low = texture::kLeastScale, .high = texture::kLargestScale},
-                   Need::required);
+    visitor.number("factor", point.result, limits, Need::required);
   });
-  if (scale.by == texture::ScaleBy::field)
-    visitor.file("field", scale.field, {".vdb"});
+  if (factor.by == texture::FactorBy::field)
+    visitor.file("field", factor.field, {".vdb"});
   else
     visitor.absent("field");
-  describeAttribute(visitor, scale.by == texture::ScaleBy::attribute, scale.attribute);
-  visitor.list("from", scene.scaleFrom, [&](sim::Shape& shape) { describeShape(visitor, shape); });
+  describeAttribute(visitor, factor.by == texture::FactorBy::attribute, factor.attribute);
+  visitor.list("from", from, [&](sim::Shape& shape) { describeShape(visitor, shape); });
 }
 
 void describeGuidance(Visitor& visitor, texture::Options& texture) {
@@ -254,7 +254,19 @@ void describeTexture(Visitor& visitor, Scene& scene, Need need) {
           visitor.integer("levels", texture.surface.levels, {.low = 1, .high = 8});
           visitor.integer("repulsion_sweeps", texture.surface.repulsionSweeps, {.low = 0, .high = 1000});
         });
-        visitor.table("scale", [&] { describeScale(visitor, scene); });
+        visitor.table("scale", [&] {
+          describeFactor(visitor, texture.scale,
+                         {.low = texture::kLeastScale, .high = texture::kLargestScale}, scene.scaleFrom);
+        });
+        visitor.table("renewal", [&] {
+          describeFactor(visitor, texture.renewal, {.low = 0.0, .high = texture::kMostWear},
+                         scene.renewalFrom);
+        });
+        visitor.table("start", [&] {
+          visitor.file("file", scene.start.mesh.file, {".obj"});
+          describePlace(visitor, scene.start.mesh.place);
+          visitor.flag("renew", scene.start.renew);
+        });
         visitor.table("animation", [&] {
           visitor.number("rate", texture.exemplar.animation.rate, kPositive);
           visitor.flag("loop", texture.exemplar.animation.loop);

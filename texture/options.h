@@ -58,8 +58,8 @@ struct OrientationOptions {
   std::string attribute;        // scalars of sim::Frame::fields, each with _x, _y and _z behind this name
 };
 
-// Quantity that the scale of the texture depends on.
-enum class ScaleBy {
+// Quantity that a factor depends on.
+enum class FactorBy {
   none,
   distance,     // signed distance from shapes, metres, negative inside
   temperature,  // K
@@ -68,17 +68,20 @@ enum class ScaleBy {
   attribute,    // scalar of the liquid's own, by name
 };
 
-// Scale factors are clamped to this range.
+// Factors on the side of an exemplar pixel are clamped to this range.
 inline constexpr double kLeastScale = 0.25, kLargestScale = 4.0;
+// Largest factor on the wear of texture: beyond it, texture as it is laid would count as worn.
+inline constexpr double kMostWear = 10.0;
 
 // Point of a piecewise linear curve, constant beyond its ends. Points are sorted by rising value.
 struct CurvePoint {
   double value = 0.0, result = 1.0;
 };
 
-struct ScaleOptions {
-  ScaleBy by = ScaleBy::none;
-  std::vector<CurvePoint> points;  // to a factor on the side of an exemplar pixel
+// A factor from place to place; 1 everywhere where it follows nothing.
+struct FactorOptions {
+  FactorBy by = FactorBy::none;
+  std::vector<CurvePoint> points;  // to the factor
   std::filesystem::path field;     // OpenVDB file; its first float grid
   std::string attribute;           // of sim::Frame::fields
 };
@@ -179,7 +182,8 @@ struct AnimationOptions {
 
 struct ExemplarOptions {
   std::filesystem::path file;  // of a sequence the first
-  bool toroidal = false;  // periodic: the left edge continues at the right edge, the top at the bottom
+  int halvings = 0;            // of the picture, before anything is made of it
+  bool toroidal = false;       // periodic: the left edge continues at the right edge, the top at the bottom
   std::filesystem::path guidance;  // image of the exemplar's size, read as numbers 0..1; empty: none
   std::vector<MapOptions> maps;
   Between between = Between::points;
@@ -199,7 +203,8 @@ struct Options {
   double coherence = 0.5;
   LaterFrames laterFrames = LaterFrames::synthesize;
   SurfaceOptions surface;
-  ScaleOptions scale;
+  FactorOptions scale;    // on the side of an exemplar pixel
+  FactorOptions renewal;  // on the wear of texture: 0 never renewed, 1 as elsewhere, above 1 renewed sooner
   GuidanceOptions guidance;
   OrientationOptions orientation;
   SynthesisOptions synthesis;

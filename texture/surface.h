@@ -79,6 +79,8 @@ struct VertexTexture {
   std::vector<float> age;               // #V, s since the texture was last renewed
   std::vector<float> trust;             // #V, 0..1: confidence in the transported values
   std::vector<Vec3f> previousPosition;  // #V: position one frame ago, on the old surface
+  // #V, 1 where the texture is still that of the mesh which the liquid began with; empty: it began with none.
+  std::vector<std::uint8_t> original{};
 };
 
 // The previous frame's texture, transported onto a new surface. Colours are barycentric means (used by method
@@ -90,6 +92,9 @@ struct Carried : VertexTexture {
   // #V, 1 where the flow goes through a surface that stays, and with it its texture: what rides with the flow
   // slides past it. May be empty: nowhere.
   std::vector<std::uint8_t> stays;
+  // #V, factor on the wear of transported texture: 0 never renewed, above 1 renewed sooner. May be empty: 1.
+  std::vector<float> renewal;
+  float renewalAt(std::uint32_t v) const { return renewal.empty() ? 1.0f : renewal[v]; }
   bool empty() const { return previousPosition.empty(); }
 };
 

@@ -40,7 +40,7 @@ void forEachMeshArray(Mesh& mesh, const Visit& visit) {
 // The same for the arrays of a VertexTexture.
 template <class Texture, class Visit>
 void forEachTextureArray(Texture& texture, const Visit& visit) {
-  auto& [color, coordinate, gradient, fading, age, trust, previousPosition] =
+  auto& [color, coordinate, gradient, fading, age, trust, previousPosition, original] =
       detail::partOf<VertexTexture>(texture);
   auto& [formerCoordinate, formerGradient, weight, speed] = fading;
   visit(color, Array::needed);
@@ -53,6 +53,7 @@ void forEachTextureArray(Texture& texture, const Visit& visit) {
   visit(age, Array::needed);
   visit(trust, Array::needed);
   visit(previousPosition, Array::needed);
+  visit(original, Array::optional);
 }
 
 // The same for all arrays of a textured surface, further maps by name included.

@@ -1,6 +1,7 @@
 #include "tools/common_options.h"
 
 #include "caches/layouts/numbered_files.h"
+#include "pipeline/start_mesh.h"
 #include "pipeline/take_cache.h"
 #include "scenes/writer.h"
 #include "sim/grid/mac_grid.h"
@@ -243,6 +244,7 @@ scenes::Scene loadScene(const CommonOptions& options) {
   }
   const openvdb::BBoxd domain = sim::domainBox(scene.sim);
   atItsLine(options, scene, [&] {
+    pipeline::fitToStart(scene);
     for (const sim::LiquidBody& body : scene.sim.liquid)
       tryMeshes(body.shape, domain, scene.sim.size, options.quiet);
     for (const sim::Solid& solid : scene.sim.solids)

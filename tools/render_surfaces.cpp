@@ -44,6 +44,7 @@ constexpr const char* kOnward = "--missing";
 // The run's own exemplar; the scene says only in what picture of it colours are looked up.
 texture::Options optionsOf(const FinishedRun& run, texture::Options options) {
   options.exemplar.file = run.exemplar;
+  options.exemplar.halvings = 0;
   options.exemplar.toroidal = run.toroidal;
   return options;
 }

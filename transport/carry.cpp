@@ -163,6 +163,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   carried.fading = texture::noFading(count);
   carried.orientation.resize(count);
   if (!previous.foam.empty()) carried.foam.resize(count);
+  if (previous.original.empty()) carried.original.clear();
   std::vector<float> stretched(count);
   std::vector<Inflow> inflow(count, Inflow::none);
   std::vector<std::uint8_t>& stays = carried.stays;
@@ -193,6 +194,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
     pickUpFading(previous, landing, map, normal, v, carried.fading);
     carried.color[v] = colorAt(previous, landing);
     carried.age[v] = valueAt(previous.age, landing);
+    if (!carried.original.empty()) carried.original[v] = previous.original[landing.nearestVertex()];
     if (!carried.foam.empty()) carried.foam[v] = valueAt(previous.foam, landing);
     const Vec3f direction = source.direction(landing);
     if (onGrid)

@@ -71,6 +71,7 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
   if (!surface.scale.empty()) result.scale.assign(count, 1.0f);
   if (!surface.guidance.empty()) result.guidance.assign(count, 0.0f);
   if (!surface.foam.empty()) result.foam.assign(count, 0.0f);
+  if (!surface.original.empty()) result.original.assign(count, 0);
   for (const auto& [name, values] : surface.maps) result.maps[name].assign(count, 0.0f);
   for (const auto& [name, values] : surface.vectors) result.vectors[name].assign(count, Vec3f(0.0f));
   if (surface.empty() || surface.triangles.empty()) return result;
@@ -100,6 +101,7 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
     if (!surface.scale.empty()) result.scale[v] = valueAt(surface.scale, landing);
     if (!surface.guidance.empty()) result.guidance[v] = valueAt(surface.guidance, landing);
     if (!surface.foam.empty()) result.foam[v] = valueAt(surface.foam, landing);
+    if (!surface.original.empty()) result.original[v] = surface.original[landing.nearestVertex()];
     result.contact[v] = surface.contact[landing.nearestVertex()];
   });
   for (auto& [name, values] : result.maps) {

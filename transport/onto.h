@@ -12,7 +12,7 @@ namespace fluidtex::transport {
 //  - orientation: cubic, with directions equal under rotations by 360 / symmetry degrees as one, projected to
 //    the vertex's tangent plane;
 //  - vector maps: from corners that agree with the nearest one, turned with the normal, of length 1 or 0;
-//  - contact: from the nearest corner.
+//  - contact, and whether the texture is original: from the nearest corner.
 // Normals are area-weighted means of the triangles around. trust falls with the distance from the surface.
 // previousPosition is that of the closest point's place, or the vertex itself without an earlier frame. An
 // empty surface gives grey vertices without trust. Throws std::invalid_argument if a triangle's vertex does

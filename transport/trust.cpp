@@ -1,5 +1,6 @@
 #include "transport/trust.h"
 
+#include "texture/labels/labels.h"
 #include "texture/loops/parallel.h"
 
 #include <algorithm>
@@ -29,13 +30,7 @@ float landingTrust(const Landing& landing, double scale, const Vec3f& carriedNor
 }
 
 float stretchTrust(const TexelGradient& gradient, double spacing) {
-  // Of the 2 x 3 matrix J of rows s and t: the eigenvalues of J J^T.
-  const float ss = gradient.s.lengthSqr(), tt = gradient.t.lengthSqr(), st = gradient.s.dot(gradient.t);
-  const float mean = 0.5f * (ss + tt), spread = std::hypot(0.5f * (ss - tt), st);
-  const auto scale = float(spacing);
-  const float larger = std::sqrt(mean + spread) * scale,
-              smaller = std::sqrt(std::max(mean - spread, 0.0f)) * scale;
-  return std::clamp(kMuchStretch * std::min(1.0f / std::max(larger, 1e-6f), smaller), kLeastForStretch, 1.0f);
+  return std::clamp(kMuchStretch / texture::stretch(gradient, spacing), kLeastForStretch, 1.0f);
 }
 
 std::vector<float> neighborTrust(const texture::SurfaceMesh& mesh, const std::vector<Vec3f>& landed,

@@ -17,7 +17,8 @@ namespace fluidtex::sim {
 // vertex needs three numbers".
 
 // Faces (f) and vertices (v) of Wavefront OBJ; lines, points, normals, groups and materials are passed over.
-MeshSoup soupOfObj(std::string_view text);
+// uv: takes the texture coordinates (vt), where it is given.
+MeshSoup soupOfObj(std::string_view text, SoupUv* uv = nullptr);
 
 // A property of vertices beside their place.
 struct VertexProperty {

@@ -55,6 +55,46 @@ std::string edges(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " edge" : " edges");
 }
 
+// uv: takes what an OBJ has of it, where it is given.
+MeshSoup soupIn(const std::filesystem::path& file, SoupUv* uv) {
+  if (!std::filesystem::exists(file)) fail(file, "no such file");
+  if (!std::filesystem::is_regular_file(file)) fail(file, "not a file");
+  const std::string extension = inLowerCase(file.extension().string());
+  if (extension != ".obj" && extension != ".ply" && extension != ".stl") {
+    fail(file, "unknown kind of mesh file '" + extension + "'; expected .obj, .ply or .stl");
+  }
+  if (uv != nullptr && extension != ".obj")
+    fail(file, "texture coordinates are read of .obj alone; export the mesh as that");
+  const std::string content = contentOf(file);
+  if (content.empty()) fail(file, "the file is empty");
+  try {
+    return extension == ".obj"   ? soupOfObj(content, uv)
+           : extension == ".ply" ? soupOfPly(content)
+                                 : soupOfStl(content);
+  } catch (const std::runtime_error& error) {
+    fail(file, error.what());
+  }
+}
+
+// Throws MeshError where there are no faces, a vertex is not finite, or a face's corner does not exist.
+MeshSoup checked(const std::filesystem::path& file, MeshSoup soup) {
+  if (soup.polygons.empty())
+    fail(file, soup.points.empty() ? "has no vertices and no faces" : "has no faces");
+  for (std::size_t n = 0; n < soup.points.size(); ++n) {
+    const Vec3d& p = soup.points[n];
+    if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z()))
+      fail(file, "vertex " + std::to_string(n + 1) + " is not at finite numbers");
+  }
+  for (std::size_t n = 0; n < soup.polygons.size(); ++n) {
+    for (const std::size_t vertex : soup.polygons[n]) {
+      if (vertex >= soup.points.size())
+        fail(file, "face " + std::to_string(n + 1) + " names vertex " + std::to_string(vertex) +
+                       ", counted from 0, but there are " + std::to_string(soup.points.size()));
+    }
+  }
+  return soup;
+}
+
 }  // namespace
 
 void checkClosed(const std::filesystem::path& file, const std::vector<Polygon>& polygons) {
@@ -103,38 +143,12 @@ std::vector<Vec3f> placedPoints(const std::filesystem::path& file, const MeshSou
 }
 
 MeshSoup readSoup(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) fail(file, "no such file");
-  if (!std::filesystem::is_regular_file(file)) fail(file, "not a file");
-  const std::string extension = inLowerCase(file.extension().string());
-  if (extension != ".obj" && extension != ".ply" && extension != ".stl") {
-    fail(file, "unknown kind of mesh file '" + extension + "'; expected .obj, .ply or .stl");
-  }
-  const std::string content = contentOf(file);
-  if (content.empty()) fail(file, "the file is empty");
+  return checked(file, soupIn(file, nullptr));
+}
 
-  MeshSoup soup;
-  try {
-    soup = extension == ".obj"   ? soupOfObj(content)
-           : extension == ".ply" ? soupOfPly(content)
-                                 : soupOfStl(content);
-  } catch (const std::runtime_error& error) {
-    fail(file, error.what());
-  }
-  if (soup.polygons.empty())
-    fail(file, soup.points.empty() ? "has no vertices and no faces" : "has no faces");
-  for (std::size_t n = 0; n < soup.points.size(); ++n) {
-    const Vec3d& p = soup.points[n];
-    if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z()))
-      fail(file, "vertex " + std::to_string(n + 1) + " is not at finite numbers");
-  }
-  for (std::size_t n = 0; n < soup.polygons.size(); ++n) {
-    for (const std::size_t vertex : soup.polygons[n]) {
-      if (vertex >= soup.points.size())
-        fail(file, "face " + std::to_string(n + 1) + " names vertex " + std::to_string(vertex) +
-                       ", counted from 0, but there are " + std::to_string(soup.points.size()));
-    }
-  }
-  return soup;
+MeshSoup readSoup(const std::filesystem::path& file, SoupUv& uv) {
+  uv = {};
+  return checked(file, soupIn(file, &uv));
 }
 
 TriangleMesh readMesh(const MeshShape& shape) {

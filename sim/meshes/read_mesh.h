@@ -22,6 +22,16 @@ struct MeshSoup {
 };
 MeshSoup readSoup(const std::filesystem::path& file);
 
+// Where the corners of a soup's polygons lie in a picture: u to the right, v up from the lowest row, 0..1
+// over the picture.
+struct SoupUv {
+  static constexpr std::size_t kNone = ~std::size_t(0);
+  std::vector<openvdb::Vec2d> places;
+  std::vector<std::vector<std::size_t>> corners;  // for each polygon's, into `places`; kNone: has none
+};
+// The same of an OBJ, with its texture coordinates (vt).
+MeshSoup readSoup(const std::filesystem::path& file, SoupUv& uv);
+
 // A file's points in the world, metres. Throws MeshError where they exceed single precision.
 std::vector<openvdb::Vec3f> placedPoints(const std::filesystem::path& file, const MeshSoup& soup,
                                          const MeshPlace& place);

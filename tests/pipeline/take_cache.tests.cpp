@@ -118,14 +118,14 @@ TEST_CASE("take cache: what the texture follows has to be in the files") {
     return std::string();
   };
   CHECK(refusal([](texture::Options& t) { t.guidance.by = texture::GuidanceBy::temperature; }).empty());
-  CHECK(refusal([](texture::Options& t) { t.scale.by = texture::ScaleBy::temperature; }).empty());
+  CHECK(refusal([](texture::Options& t) { t.scale.by = texture::FactorBy::temperature; }).empty());
   CHECK_THAT(refusal([](texture::Options& t) {
                t.guidance.by = texture::GuidanceBy::attribute;
                t.guidance.attribute = "salt";
              }),
              Contains("texture.guidance.attribute: ") && Contains("has no salt; there are: temperature"));
   CHECK_THAT(refusal([](texture::Options& t) {
-               t.scale.by = texture::ScaleBy::attribute;
+               t.scale.by = texture::FactorBy::attribute;
                t.scale.attribute = "dye";
              }),
              Contains("texture.scale.attribute: ") && Contains("has no dye"));

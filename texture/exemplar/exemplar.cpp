@@ -85,6 +85,11 @@ Image premultipliedColors(Image color) {
   return color;
 }
 
+Image halved(Image image, const ExemplarOptions& options) {
+  for (int n = 0; n < options.halvings; ++n) image = halve(image, options.toroidal);
+  return image;
+}
+
 // Channels left for maps by colours, guidance and the two feature channels.
 int lanesForMaps(const Exemplar& exemplar, const SynthesisOptions& synthesis) {
   return kMaxChannels - exemplar.colorChannels - exemplar.guided - (synthesis.featureWeight > 0.0) -
@@ -228,11 +233,23 @@ Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthe
                  "the image", cache);
 }
 
+Image exemplarPicture(const ExemplarOptions& options) {
+  Image color = readImage(options.file);
+  if (options.halvings == 0) return color;
+  color = halved(premultipliedColors(std::move(color)), options);
+  for (std::size_t i = 0; i < color.data.size(); i += 4) {
+    const Vec4f pixel = straight(Vec4f(&color.data[i]));
+    std::copy_n(pixel.asPointer(), 4, &color.data[i]);
+  }
+  return color;
+}
+
 Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels,
-                      const CacheFolder& cache) {
-  Image color = readImage(options.file), guidance;
+                      const CacheFolder& cache, Image guidance) {
+  Image color = exemplarPicture(options);
+  guidance = halved(std::move(guidance), options);
   if (!options.guidance.empty()) {
-    guidance = readMap(options.guidance, 1);
+    guidance = halved(readMap(options.guidance, 1), options);
     if (guidance.width != color.width || guidance.height != color.height)
       throw ExemplarError(options.guidance.string() + " has " + sizeOf(guidance) +
                           " pixels, and its exemplar " + options.file.string() + " " + sizeOf(color) +

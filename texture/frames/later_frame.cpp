@@ -139,23 +139,37 @@ Labels layAnew(const Job& job, Renewal renewal, const std::vector<float>& trust,
 
 std::vector<Disc> discsOf(const Synthesizer& synthesizer, const SeamModel& seams, const Labels& labels,
                           const Wear& wear, const std::vector<std::uint8_t>& free,
-                          const std::vector<Strain>& rates, double seconds) {
+                          const std::vector<Strain>& rates, const std::vector<float>& factor,
+                          double seconds) {
   const SynthesisOptions& options = synthesizer.options;
   const double budget = options.renewalRate * seconds;
-  const double worn = kDiscsOfAll * wornShare(rates, seconds, options.keepStretch);
+  const double worn = kDiscsOfAll * wornShare(rates, seconds, options.keepStretch, factor);
   return worstDiscs(seams, labels, wear, free,
                     {options.keepStretch, options.renewalRadius, budget, std::max(budget, worn)},
                     streamOf(options.seed, Stream::renewal));
 }
 
+// Texture that is renewed sooner is laid less compressed, or it would count as worn.
+std::vector<Strain> aheadOf(const std::vector<Strain>& rates, const SynthesisOptions& options,
+                            const std::vector<float>& factor) {
+  const double most = std::min(kMostAhead * std::log(options.keepStretch), kMostStrain);
+  std::vector<Strain> ahead = strainAhead(rates, options.lookAhead, most);
+  forEachIndex(factor.size(), [&](std::uint32_t v) {
+    const float share = 1.0f / std::max(factor[v], 1.0f);
+    ahead[v] = {ahead[v].mean * share, ahead[v].deviator * share};
+  });
+  return ahead;
+}
+
 // #V, 1 where labels may change. Droplets keep theirs, and so do vertices within a cross-fade, whose colour
-// would jump, and surface that the flow goes through.
+// would jump, surface that the flow goes through, and texture that is never renewed.
 std::vector<std::uint8_t> renewable(const Synthesizer& synthesizer, const VertexGraph& graph,
                                     const Carried& carried) {
   std::vector<std::uint8_t> result = searched(synthesizer, graph);
   if (result.empty()) result.assign(carried.trust.size(), 1);
   for (std::size_t v = 0; v < result.size(); ++v)
-    if ((carried.fading.weight[v] > 0.0f || (!carried.stays.empty() && carried.stays[v])) &&
+    if ((carried.fading.weight[v] > 0.0f || (!carried.stays.empty() && carried.stays[v]) ||
+         !(carried.renewalAt(std::uint32_t(v)) > 0.0f)) &&
         believed(carried.trust[v]))
       result[v] = 0;
   return result;
@@ -178,7 +192,7 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   const std::size_t count = labels.size();
   SeamModel worn = seamModel(synthesizer, now, 0);
   worn.stays = &carried.stays;
-  const Wear wear = wearAround(worn, labels, carried.trust);
+  const Wear wear = scaled(wearAround(worn, labels, carried.trust), carried.renewal);
   const std::vector<Strain> rates =
       strainRates(now, carried.previousPosition, carried.trust, secondsSinceLast);
   LaterFrame result{labels, std::vector<std::uint8_t>(count, 0), std::vector<float>(count)};
@@ -187,8 +201,7 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   });
 
   // From here on the surface is the strained one ahead in time, and labels are as it has them.
-  const double most = std::min(kMostAhead * std::log(options.keepStretch), kMostStrain);
-  const std::vector<Strain> ahead = strainAhead(rates, options.lookAhead, most);
+  const std::vector<Strain> ahead = aheadOf(rates, options, carried.renewal);
   const Connection connection = strained(now, ahead);
   const MeshView view{now.mesh, now.graph, connection, now.pixel, now.members};
   SeamModel seams = seamModel(synthesizer, view, 0);
@@ -197,7 +210,7 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
 
   const std::vector<std::uint8_t> free = renewable(synthesizer, view.graph, carried);
   Renewal renewal;
-  renewal.discs = discsOf(synthesizer, seams, labels, wear, free, rates, secondsSinceLast);
+  renewal.discs = discsOf(synthesizer, seams, labels, wear, free, rates, carried.renewal, secondsSinceLast);
   std::vector<std::uint8_t> inDiscs(count, 0);
   for (const Disc& disc : renewal.discs)
     for (const std::uint32_t v : disc.members) inDiscs[v] = 1;

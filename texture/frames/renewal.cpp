@@ -137,10 +137,19 @@ Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<
   return wear;
 }
 
-double wornShare(const std::vector<Strain>& rates, double seconds, double keepStretch) {
+Wear scaled(Wear wear, const std::vector<float>& factor) {
+  if (factor.empty()) return wear;
+  forEachIndex(factor.size(),
+               [&](std::uint32_t v) { wear.bad[v] *= factor[v], wear.stretch[v] *= factor[v]; });
+  return wear;
+}
+
+double wornShare(const std::vector<Strain>& rates, double seconds, double keepStretch,
+                 const std::vector<float>& factor) {
   const double life = (kMostAhead + double(kUrgent)) * std::log(std::max(keepStretch, 1.01));
   const double sum = sumOf(rates.size(), [&](std::uint32_t v) {
-    return std::min(1.0, double(largest(rates[v])) * seconds / life);
+    const double times = factor.empty() ? 1.0 : double(factor[v]);
+    return std::min(1.0, times * double(largest(rates[v])) * seconds / life);
   });
   return sum / double(std::max<std::size_t>(rates.size(), 1));
 }
@@ -175,8 +184,9 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
     if (covered + 1.0 > budget * double(count)) continue;
     if (near[center]) continue;
     Disc disc{center, surroundings.within(center, kDiscShare * options.radius)};
-    const auto staying = std::count_if(disc.members.begin(), disc.members.end(), stays);
-    if (float(staying) > kMostYoung * float(disc.members.size())) {
+    const auto young = std::count_if(disc.members.begin(), disc.members.end(),
+                                     [&](std::uint32_t v) { return stays(v) && bad[v] > 0.0f; });
+    if (float(young) > kMostYoung * float(disc.members.size())) {
       for (const std::uint32_t v : surroundings.within(center, double(kTooYoung) * options.radius))
         near[v] = 1;
       continue;

@@ -48,15 +48,20 @@ struct Wear {
 };
 Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<float>& trust);
 
+// Both multiplied by factor (#V; empty: unchanged).
+Wear scaled(Wear wear, const std::vector<float>& factor);
+
 // Share of the texture that the flow wears out in `seconds`: mean over vertices of strain (rates #V, 1/s,
 // logarithmic) over the texture's life, the range from fully compressed (kMostAhead) to urgent (kUrgent).
-double wornShare(const std::vector<Strain>& rates, double seconds, double keepStretch);
+// factor: #V, on the wear; empty: 1.
+double wornShare(const std::vector<Strain>& rates, double seconds, double keepStretch,
+                 const std::vector<float>& factor = {});
 
 // Discs around vertices whose wear exceeds that of texture stretched by keepStretch, worst first, until the
 // budget is used. The threshold varies smoothly over the exemplar, from half of log keepStretch on, so that
-// neighbours are not renewed at once. Vertices that are not `free` (#V: in a cross-fade, or on droplets) are
-// no members; discs with many of them are skipped. Urgent vertices between discs, within twice their radius,
-// join the nearest disc whatever the budget.
+// neighbours are not renewed at once. Vertices that are not `free` (#V: in a cross-fade, on droplets, or of
+// wear 0) are no members; discs in which many of them are worn are skipped. Urgent vertices between discs,
+// within twice their radius, join the nearest disc whatever the budget.
 std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,
                              const std::vector<std::uint8_t>& free, const DiscOptions& options,
                              std::uint64_t seed);

@@ -60,6 +60,8 @@ void checkSizes(const SurfaceMesh& mesh, const Carried& carried) {
     if (!fits(values, array, count))
       throw std::invalid_argument("synthesize: carried arrays must have one entry per vertex");
   });
+  if (!fits(carried.renewal, Array::optional, count))
+    throw std::invalid_argument("synthesize: renewal must have one factor per vertex");
 }
 
 // Cross-fade after a frame. A vertex that is renewed fades from what it showed before. Where trust was low,
@@ -139,6 +141,9 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
   if (progress) progress(1.0);
   result.trust = carried.empty() ? std::vector<float>(count, 0.0f) : carried.trust;
   result.previousPosition = carried.empty() ? mesh.positions : carried.previousPosition;
+  result.original = carried.original;
+  for (std::size_t v = 0; v < result.original.size(); ++v)
+    result.original[v] = result.original[v] && !renewed[v];
   static_cast<SurfaceMesh&>(result) = std::move(mesh);
   for (const auto& [name, map] : synthesizer.exemplar.maps)
     lookUp(name, map, synthesizer.exemplar.toroidal, result);

@@ -14,10 +14,10 @@ namespace fluidtex::texture {
 // on level 0 (and on coarser levels where wide fresh surface needs them).
 // frame: keys the random numbers, with the seed. secondsSinceLast, s: added to the age of vertices that keep
 // their texture. progress: called with 0..1.
-// Result: all of VertexTexture, the exemplar's size, and the exemplar's further maps; `velocity` and
-// `contact` are left to the caller. trust and previousPosition are the transported ones; on the first frame 0
-// and the positions.
-// Throws std::invalid_argument if an array has the wrong length or the surface has no orientation.
+// Result: all of VertexTexture (what is renewed is not original), the exemplar's size, and the exemplar's
+// further maps; `velocity` and `contact` are left to the caller. trust and previousPosition are the
+// transported ones; on the first frame 0 and the positions. Throws std::invalid_argument if an array has the
+// wrong length or the surface has no orientation.
 TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carried& carried, int frame,
                            double secondsSinceLast, SynthesisStats& stats,
                            const std::function<void(double)>& progress = {});

@@ -35,14 +35,30 @@ Label unstretched(const Vec2f& texel, const Lay& lay) {
   return lay.mirrored ? Label{texel, {-c, -s, -s, c}} : Label{texel, {c, -s, s, c}};
 }
 
+namespace {
+
+// Of singular values.
+float stretch(float largest, float smallest) {
+  constexpr float kTorn = 1e3f;
+  if (!(smallest > 1.0f / kTorn) || !(largest < kTorn)) return kTorn;
+  return std::max(largest, 1.0f / smallest);
+}
+
+}  // namespace
+
 float stretch(const Label& label) {
   const std::array<float, 4>& j = label.jacobian;
   // Singular values from the conformal and the anticonformal part.
   const float keep = std::hypot(j[0] + j[3], j[2] - j[1]), flip = std::hypot(j[0] - j[3], j[1] + j[2]);
-  const float largest = 0.5f * (keep + flip), smallest = 0.5f * std::abs(keep - flip);
-  constexpr float kTorn = 1e3f;
-  if (!(smallest > 1.0f / kTorn) || !(largest < kTorn)) return kTorn;
-  return std::max(largest, 1.0f / smallest);
+  return stretch(0.5f * (keep + flip), 0.5f * std::abs(keep - flip));
+}
+
+float stretch(const TexelGradient& gradient, double spacing) {
+  // Of the 2 x 3 matrix J of rows s and t: the eigenvalues of J J^T.
+  const float ss = gradient.s.lengthSqr(), tt = gradient.t.lengthSqr(), st = gradient.s.dot(gradient.t);
+  const float mean = 0.5f * (ss + tt), spread = std::hypot(0.5f * (ss - tt), st);
+  const auto scale = float(spacing);
+  return stretch(std::sqrt(mean + spread) * scale, std::sqrt(std::max(mean - spread, 0.0f)) * scale);
 }
 
 Label labelOf(const SurfaceMesh& mesh, std::uint32_t v, const Vec2f& coordinate,

@@ -52,6 +52,8 @@ Label unstretched(const Vec2f& texel, const Lay& lay);
 // Largest of s1 and 1 / s2, singular values s1 >= s2 of the Jacobian: 1 where the texture is isometric, 1000
 // at most.
 float stretch(const Label& label);
+// The same of a gradient, for an exemplar pixel of `spacing` metres.
+float stretch(const TexelGradient& gradient, double spacing);
 
 Label labelOf(const SurfaceMesh& mesh, std::uint32_t v, const Vec2f& coordinate,
               const TexelGradient& gradient);

@@ -2,6 +2,7 @@
 
 #include "texture/joints/cut.h"
 #include "texture/joints/joints.h"
+#include "texture/labels/labels.h"
 
 #include <algorithm>
 #include <array>
@@ -97,6 +98,13 @@ void addMaps(const texture::TexturedSurface& surface, std::vector<Column>& colum
     if (!values.empty()) columns.push_back(column(nameOfMap(name, columns), values));
 }
 
+std::vector<float> stretches(const texture::TexturedSurface& surface) {
+  std::vector<float> result(surface.gradient.size());
+  for (std::uint32_t v = 0; v < result.size(); ++v)
+    result[v] = texture::stretch(surface.gradient[v], surface.spacingAt(v));
+  return result;
+}
+
 // All but positions, normals, colours and UV sets.
 std::vector<Column> columnsOf(const texture::TexturedSurface& surface, bool lookedUp) {
   std::vector<Column> columns;
@@ -114,6 +122,7 @@ std::vector<Column> columnsOf(const texture::TexturedSurface& surface, bool look
   add("foam", surface.foam);
   if (lookedUp) {
     add("fade", surface.fading.weight);
+    if (surface.spacing > 0.0) add("stretch", stretches(surface));
     const auto addGradient = [&](const std::string& name,
                                  const std::vector<texture::TexelGradient>& gradient) {
       const Shares share(surface);

@@ -18,7 +18,8 @@ std::optional<texture::Detail> detailOf(const texture::Options& options) {
   const texture::ExemplarOptions& exemplar = options.exemplar;
   if (exemplar.between == texture::Between::points || !looksUp(options)) return std::nullopt;
   texture::Image own = texture::readImage(exemplar.file);
-  const int width = own.width, height = own.height;
+  const int width = texture::exemplarSize(exemplar, own.width),
+            height = texture::exemplarSize(exemplar, own.height);
   if (exemplar.between == texture::Between::exemplar)
     return texture::makeDetail(std::move(own), exemplar.toroidal, width);
   texture::Image finer = texture::readImage(exemplar.betweenFile);

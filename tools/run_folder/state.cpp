@@ -23,7 +23,7 @@ namespace fluidtex::tools {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr char kMagic[8] = {'f', 't', 'x', 's', 'u', 'r', 'f', '5'};
+constexpr char kMagic[8] = {'f', 't', 'x', 's', 'u', 'r', 'f', '6'};
 
 constexpr const char* kSolver = "solver.vdb";
 constexpr const char* kSurface = "surface.bin";
