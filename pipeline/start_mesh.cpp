@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace fluidtex::pipeline {
 namespace {
@@ -108,7 +109,7 @@ void fitToStart(scenes::Scene& scene) {
   const int least = 2 * *std::max_element(windows.begin(), windows.end());
   double pixel = start.spacing;
   int size = std::min(picture.width, picture.height);
-  while (pixel < 0.999 * wanted && size >= 2 * least) {
+  while (std::numbers::sqrt2 * pixel < wanted && size >= 2 * least) {
     pixel *= 2.0;
     size /= 2;
     ++exemplar.halvings;

@@ -15,10 +15,10 @@ namespace fluidtex::pipeline {
 texture::TexturedSurface startSurface(const scenes::Scene& scene, int width, int height);
 
 // Sets texture.exemplar.halvings and texture.spacing, so that a point stands for a pixel on the mesh: the
-// picture is halved until the mesh has no more pixels than texture.points, or until they are no smaller than
-// texture.spacing where that is given; but not to less than twice the largest window. Nothing where there is
-// no start or no exemplar, or where it was done. Throws as startSurface(), and ExemplarError where the
-// picture cannot be read.
+// picture is halved until the mesh has about as many pixels as texture.points (half to twice as many), or
+// until they are about as long as texture.spacing, where that is given; but not to less than twice the largest
+// window. Nothing where there is no start or no exemplar, or where it was done. Throws as startSurface(), and
+// ExemplarError where the picture cannot be read.
 void fitToStart(scenes::Scene& scene);
 
 // 1 where the mesh shows the picture, 0 elsewhere: one channel. Texture that is made anew should not come

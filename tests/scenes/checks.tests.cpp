@@ -96,6 +96,12 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
       {"[texture.scale]\nby = 'temperature'\npoint = [{ value = 0, factor = 1 }]",
        "s.toml:7:1: error: texture.scale.by: \"temperature\" is not computed; give simulate = true in [heat] "
        "too"},
+      {"[texture.renewal]\nby = 'height'",
+       "s.toml:7:1: error: texture.renewal.by: is of no use without a factor; give one "
+       "[[texture.renewal.point]] or more, each with a value and a factor"},
+      {"[texture.renewal]\nby = 'distance'\npoint = [{ value = 0, factor = 1 }]",
+       "s.toml:7:1: error: texture.renewal.by: \"distance\" is from nothing; give a shape or more as "
+       "[[texture.renewal.from]]"},
       {"[texture.scale]\npoint = [{ value = 2, factor = 1 }, { value = 1, factor = 2 }]",
        "s.toml:7:39: error: texture.scale.point.1.value: 1 is not above the one before, 2; give them by "
        "rising "

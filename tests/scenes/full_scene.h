@@ -164,6 +164,23 @@ value = 2
 factor = 3
 [[texture.scale.from]]
 sphere = { center = [1, 1, 1], radius = 0.25 }
+[texture.renewal]
+by = "distance"
+[[texture.renewal.point]]
+value = 0
+factor = 0
+[[texture.renewal.point]]
+value = 0.5
+factor = 4
+[[texture.renewal.from]]
+sphere = { center = [1, 1, 1], radius = 0.5 }
+[texture.start]
+file = "m.obj"
+up = "y"
+rotate = [4, 5, 6]
+scale = 0.5
+translate = [3, 2, 1]
+renew = false
 [texture.guidance]
 by = "field"
 map = "e.png"

@@ -165,6 +165,14 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(texture.laterFrames == texture::LaterFrames::advect);
   CHECK(scene.transport.method == transport::Method::grid);
   CHECK(scene.transport.orientation == transport::Turning::scalars);
+  const texture::FactorOptions& renewal = scene.texture.renewal;
+  CHECK(renewal.by == texture::FactorBy::distance);
+  REQUIRE(renewal.points.size() == 2);
+  CHECK((renewal.points[1].value == 0.5 && renewal.points[1].result == 4.0));
+  CHECK(scene.renewalFrom.size() == 1);
+  CHECK(scene.start.mesh.file == folder.path() / "m.obj");
+  CHECK(scene.start.mesh.place.rotate == Vec3d(4, 5, 6));
+  CHECK_FALSE(scene.start.renew);
   CHECK(scene.onto.files.filename() == "t_%d.obj");
   CHECK(scene.onto.first == 0);
   CHECK(scene.onto.last == 4);

@@ -104,6 +104,41 @@ TEST_CASE("later frame: within a cross-fade nothing is renewed that can be belie
   CHECK(renewedIn(fresh) > 0.95 * double(doubted));
 }
 
+TEST_CASE("later frame: locked texture stays however it is stretched, but new surface gets some") {
+  Rested rested;
+  rested.stretchHalf(2.0f);
+  const std::size_t count = rested.first.positions.size();
+  rested.carried.renewal.assign(count, 1.0f);
+  const auto locked = [&](std::size_t v) { return rested.first.positions[v].y() > 0.0f; };
+  for (std::size_t v = 0; v < count; ++v)
+    if (locked(v)) rested.carried.renewal[v] = 0.0f;
+  SynthesisStats stats;
+  const LaterFrame later = rested.next(stats);
+  CHECK(renewedIn(later) > count / 50);
+  for (std::size_t v = 0; v < count; ++v)
+    if (locked(v)) CHECK_FALSE(later.renewed[v]);
+  for (std::size_t v = 0; v < count; ++v)
+    if (locked(v) && rested.first.positions[v].z() > 0.3f) rested.doubt(v);
+  const LaterFrame fresh = rested.next(stats);
+  std::size_t doubted = 0, renewed = 0;
+  for (std::size_t v = 0; v < count; ++v) {
+    if (!locked(v)) continue;
+    if (fresh.renewed[v]) CHECK(rested.carried.trust[v] < 0.3f);
+    doubted += rested.carried.trust[v] < 0.3f;
+    renewed += fresh.renewed[v];
+  }
+  CHECK(double(renewed) > 0.95 * double(doubted));
+}
+
+TEST_CASE("later frame: where wear counts more, texture is renewed sooner") {
+  Rested rested;
+  rested.stretchHalf(1.08f);  // less than keepStretch
+  SynthesisStats stats;
+  CHECK(renewedIn(rested.next(stats)) == 0);
+  rested.carried.renewal.assign(rested.first.positions.size(), 5.0f);
+  CHECK(renewedIn(rested.next(stats)) > 0);
+}
+
 TEST_CASE("later frame: fades last as the options say, and less where the flow would draw them out") {
   Rested rested;
   rested.options.fade = rested.synthesizer.options.fade = 0.5;

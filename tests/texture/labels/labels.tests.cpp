@@ -28,6 +28,19 @@ TEST_CASE("labels: stretch is the worse of the singular values") {
   CHECK(stretch(unstretched({3, 4}, {Complexf(c, s)})) == Approx(1.0f));
 }
 
+TEST_CASE("labels: a gradient is stretched as its label is") {
+  const OrientedMesh surface = orientedMesh(sphereMesh(3));
+  for (std::uint32_t v = 0; v < surface.mesh.positions.size(); ++v) {
+    const auto r = [&](int i) { return 2.0f * float(randomUnit(6, 4 * v + std::uint64_t(i))) - 1.0f; };
+    const Label label{{0, 0}, {1.0f + r(0), r(1), r(2), 1.0f + r(3)}};
+    const TexelGradient gradient =
+        gradientOf(label, surface.mesh.orientation[v], surface.mesh.normals[v], surface.mesh.spacing);
+    if (stretch(label) < 100.0f)
+      CHECK(stretch(gradient, surface.mesh.spacing) == Approx(stretch(label)).epsilon(0.02));
+  }
+  CHECK(stretch(TexelGradient{}, 0.1) == 1000.0f);
+}
+
 TEST_CASE("labels: gradients in space and back") {
   const OrientedMesh surface = orientedMesh(sphereMesh(6));
   std::vector<Vec2f> coordinate;

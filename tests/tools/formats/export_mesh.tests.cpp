@@ -60,6 +60,17 @@ double areaOf(const ExportMesh& mesh) {
 
 }  // namespace
 
+TEST_CASE("export mesh: how far the texture is stretched is a column, where it is looked up", "[tools]") {
+  const texture::TexturedSurface sheet = twoPieces();  // half a texel a point
+  const ExportMesh mesh = tools::exportMesh(sheet, true, false, JointsAs::blend, 1, 0.0);
+  const tools::Column* stretch = tools::findColumn(mesh.vertex, "stretch");
+  REQUIRE(stretch != nullptr);
+  CHECK(stretch->values.size() == mesh.positions.size());
+  for (const float value : stretch->values) CHECK(value == Approx(2.0f));
+  CHECK(tools::findColumn(tools::exportMesh(sheet, false, false, JointsAs::blend, 1, 0.0).vertex,
+                          "stretch") == nullptr);
+}
+
 TEST_CASE("export mesh: with joints that are cut, s and t are linear in every triangle", "[tools]") {
   const texture::TexturedSurface sheet = twoPieces();
   const ExportMesh mesh = tools::exportMesh(sheet, true, false, JointsAs::cut, 3, 0.5);
