@@ -2,9 +2,11 @@
 #include "pipeline/foreseen_surface.h"
 #include "pipeline/liquid_plan.h"
 #include "pipeline/motion.h"
+#include "pipeline/start_mesh.h"
 #include "sim/grid/mac_grid.h"
 #include "sim/solids/domain.h"
 #include "texture/exemplar/exemplar.h"
+#include "texture/labels/labels.h"
 #include "tools/base/console.h"
 #include "tools/base/errors.h"
 #include "tools/base/two_digits.h"
@@ -77,6 +79,26 @@ void printTime(const scenes::Scene& scene, const CommonOptions& options, const P
     print("          {}\n", note);
 }
 
+// Of the mesh that the liquid begins with.
+void printStart(const scenes::Scene& scene, const texture::Image& picture) {
+  const texture::TexturedSurface start = pipeline::startSurface(scene, picture.width, picture.height);
+  if (start.empty()) return;
+  double area = 0.0, worn = 0.0;
+  for (const texture::Vec3I& t : start.triangles) {
+    const texture::Vec3f& a = start.positions[t[0]];
+    const double size = (start.positions[t[1]] - a).cross(start.positions[t[2]] - a).length();
+    area += size;
+    if (double(texture::stretch(start.gradient[t[0]], scene.texture.spacing)) >
+        scene.texture.synthesis.keepStretch)
+      worn += size;
+  }
+  print(
+      "start     the texture of {}, its picture halved {} times; {:.0f}% of it are stretched beyond "
+      "keep_stretch{}\n",
+      scene.start.mesh.file.string(), scene.texture.exemplar.halvings, 100.0 * worn / area,
+      scene.start.renew ? ", and soon renewed" : ", and stay so");
+}
+
 void printPlan(const scenes::Scene& scene, const CheckOptions& options) {
   int first = 1, last = 0;
   parseFrames(options.frames, scene, first, last);
@@ -115,6 +137,7 @@ void printPlan(const scenes::Scene& scene, const CheckOptions& options) {
   print("exemplar  {}, {} x {} pixels{}\n",
         (animation.files.empty() ? scene.texture.exemplar.file : animation.pattern).string(),
         exemplar.color.width, exemplar.color.height, scene.texture.exemplar.toroidal ? ", toroidal" : "");
+  printStart(scene, exemplar.color);
   if (!animation.files.empty())
     print("animation {} pictures, {}\n", animation.files.size(),
           animation.by == texture::ShowBy::guidance

@@ -35,7 +35,7 @@ rlim_t limitOf(__rlimit_resource what) {
 }
 
 // Whether so many bytes of memory can be had.
-bool canTake(std::size_t bytes) {
+[[maybe_unused]] bool canTake(std::size_t bytes) {
   void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) return false;
   munmap(memory, bytes);

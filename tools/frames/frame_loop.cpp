@@ -22,6 +22,7 @@
 #include "tools/frames/onto_mesh.h"
 #include "tools/frames/picture_notes.h"
 #include "tools/frames/progress.h"
+#include "tools/frames/start_note.h"
 #include "tools/frames/time_plan.h"
 #include "tools/frames/visible_solids.h"
 #include "tools/frames/write_video.h"
@@ -248,11 +249,14 @@ class FrameLoop {
     seconds.prepare = result.textured.seconds.prepare;
     seconds.transport = result.textured.seconds.transport;
     seconds.synthesize = result.textured.seconds.synthesize;
-    const double spacing = result.textured.surface.spacing;
-    if (spacing != m_surface.spacing)
+    if (const double spacing = result.textured.surface.spacing; spacing != m_surface.spacing)
       spdlog::info("texture: one point every {:.4g} m, {}", spacing,
                    result.textured.foreseenSpacing ? "for the surface that the liquid is going to have"
                                                    : "by the first surface");
+    if (frame == 1 && !m_scene.start.mesh.file.empty()) {
+      const StartNote note = startNote(m_scene.start, result.textured.surface);
+      note.isWarning ? warn(note.text) : spdlog::info("{}", note.text);
+    }
     return result;
   }
 

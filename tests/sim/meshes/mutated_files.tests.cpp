@@ -1,5 +1,5 @@
 // Damaged files: whatever a file of a mesh or of heights holds, it is read or refused with a sentence.
-#include "sim/meshes/read_mesh.h"
+#include "sim/meshes/read_uv_mesh.h"
 #include "sim/shapes/moving_mesh.h"
 #include "sim/shapes/read_heights.h"
 #include "sim/shapes/shape_distance.h"
@@ -140,6 +140,15 @@ void readMutatedMeshes(int count) {
       REQUIRE(std::isfinite(distance(Vec3d(0.4))));
     });
   CHECK(good > count / 6);
+  const std::string places =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1.5\nf 1/1 3/2 2/3\nf 1/1 2/2 4/3\n"
+      "f 2/-3/1 3/-2/1 4/3/1\nf 3 1/2 4\nf 1/1 2/2 3/3 4/1\n";
+  CHECK(readable<MeshError>("uv.obj", places, count, longest, [](const std::filesystem::path& file, int) {
+          const UvMesh mesh = readUvMesh({file});
+          REQUIRE(mesh.uv.size() == mesh.positions.size());
+          for (const openvdb::Vec2f& place : mesh.uv)
+            REQUIRE((std::isfinite(place[0]) && std::isfinite(place[1])));
+        }) > count / 12);
   CHECK(longest < 5.0);
 }
 
