@@ -1,9 +1,14 @@
 // fluidtex measure OUT: how good the texture of a finished run is, in figures.
 #include "tools/measure.h"
 
+#include "render/frame_name.h"
+#include "render/motion_image.h"
+#include "render/render.h"
+#include "texture/exemplar/srgb.h"
 #include "texture/measure/change.h"
 #include "texture/measure/contrast.h"
 #include "texture/measure/measure.h"
+#include "texture/measure/new_surface.h"
 #include "texture/measure/pieces.h"
 #include "texture/measure/wear.h"
 #include "texture/shown/maps.h"
@@ -28,6 +33,7 @@ namespace {
 // Keys of a frame, and heads of the columns that show them.
 constexpr std::pair<const char*, const char*> kColumns[] = {{"likeness", "likeness"},
                                                             {"sharpness", "sharp"},
+                                                            {"spectrum", "spectrum"},
                                                             {"coverage", "coverage"},
                                                             {"contrast", "contrast"},
                                                             {"repeats", "repeats"},
@@ -40,13 +46,51 @@ constexpr std::pair<const char*, const char*> kColumns[] = {{"likeness", "likene
                                                             {"renewed", "renewed"},
                                                             {"change_along_flow", "along flow"},
                                                             {"coherence", "coherence"},
+                                                            {"warp", "warp"},
                                                             {"worn", "worn"},
                                                             {"least_change", "least"}};
+
+// Camera and size of the run's pictures; nothing where the report does not tell them.
+std::optional<render::Options> viewOf(const Json& scene) {
+  const auto vector = [](const Json& values, render::Vec3d& to) {
+    if (!values.is_array() || values.size() != 3) return false;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!values[std::size_t(axis)].is_number()) return false;
+      to[axis] = values[std::size_t(axis)].get<double>();
+    }
+    return true;
+  };
+  const Json camera = scene.value("camera", Json::object()), render = scene.value("render", Json::object());
+  const Json size = render.value("size", Json::array());
+  if (!size.is_array() || size.size() != 2 || !size[0].is_number_integer() || !size[1].is_number_integer() ||
+      !camera.contains("fov") || !camera["fov"].is_number())
+    return std::nullopt;
+  render::Options view;
+  view.width = size[0].get<int>();
+  view.height = size[1].get<int>();
+  view.camera.fov = camera["fov"].get<double>();
+  if (camera.contains("turn") && camera["turn"].is_number()) view.camera.turn = camera["turn"].get<double>();
+  if (!vector(camera.value("from", Json()), view.camera.from) ||
+      !vector(camera.value("at", Json()), view.camera.at))
+    return std::nullopt;
+  return view;
+}
+
+// As the colours are, without light.
+render::Picture unlit(const render::MotionImage& image) {
+  render::Picture picture{image.width, image.height, {}};
+  for (const render::Vec3f& color : image.color)
+    for (int c = 0; c < 3; ++c) picture.rgb.push_back(texture::decodeSrgb(color[c]));
+  return picture;
+}
 
 class Measurer {
  public:
   explicit Measurer(const MeasureWishes& wishes)
-      : m_wishes(wishes), m_folder(existing(wishes.out)), m_run(openRun(wishes.out, wishes.exemplar)) {}
+      : m_wishes(wishes),
+        m_folder(existing(wishes.out)),
+        m_run(openRun(wishes.out, wishes.exemplar)),
+        m_view(viewOf(m_run.report["scene"])) {}
 
   void run() {
     const std::vector<int>& frames = m_run.frames;
@@ -56,24 +100,30 @@ class Measurer {
     if (!m_wishes.quiet) printHead();
     Json rows = Json::array();
     texture::TexturedSurface before;
+    render::MotionImage seenBefore;
+    if (!m_wishes.motion.empty()) fs::create_directories(m_wishes.motion);
     for (std::size_t n = 0; n < frames.size(); ++n) {
       const int frame = frames[n];
       texture::TexturedSurface surface = readSurface(frame);
       Json row;
       row["frame"] = frame;
       row["vertices"] = surface.positions.size();
+      const bool follows = n > 0 && frames[n - 1] == frame - 1;
       if (n % std::size_t(m_wishes.every) == 0 || n + 1 == frames.size()) {
         addLikeness(row, judge(surface, n == 0 || n + 1 == frames.size()));
         if (const auto found = texture::measureContrast(surface, contrast)) row["contrast"] = *found;
         addPieces(row, texture::measurePieces(surface, m_run.color, m_run.toroidal));
       }
-      if (n > 0 && frames[n - 1] == frame - 1) {
+      render::MotionImage seen = m_view ? seenIn(frame, surface) : render::MotionImage();
+      if (follows) {
         addChange(row, texture::measureChange(before, surface, m_run.color, m_run.toroidal));
         addFlowWear(row, texture::measureFlowWear(surface, deviation));
+        if (m_view) addWarp(row, render::warpError(seenBefore, seen, 2.0 * surface.spacing));
       }
       if (!m_wishes.quiet && row.size() > 2) printRow(fmt::format("{}", frame), row);
       rows.push_back(std::move(row));
       before = std::move(surface);
+      seenBefore = std::move(seen);
     }
     const Json mean = meanOf(rows);
     if (!m_wishes.quiet) printRow("mean", mean);
@@ -88,6 +138,22 @@ class Measurer {
   }
 
  private:
+  // What the run's camera sees; also written where that is wished.
+  render::MotionImage seenIn(int frame, const texture::TexturedSurface& surface) const {
+    const int last = m_run.report["scene"].value("frames", 1);
+    const auto progress = [&](int at) {
+      return last > 1 ? std::clamp(double(at - 1) / (last - 1), 0.0, 1.0) : 0.0;
+    };
+    render::MotionImage seen =
+        render::motionImage(surface, *m_view, progress(frame), progress(frame - 1), texture::kNewSurface);
+    if (m_wishes.motion.empty()) return seen;
+    const fs::path name = m_wishes.motion / render::frameName(frame);
+    writeAtomically(name.string() + ".png",
+                    [&](const fs::path& file) { render::writePng(unlit(seen), file); });
+    writeAtomically(name.string() + ".flo", [&](const fs::path& file) { render::writeFlo(seen, file); });
+    return seen;
+  }
+
   texture::TexturedSurface readSurface(int frame) {
     texture::TexturedSurface surface = readPly(m_run.surfaceOf(frame), m_run.color.width, m_run.color.height);
     if (surface.empty()) return surface;
@@ -102,6 +168,7 @@ class Measurer {
     if (!found) return;
     row["likeness"] = found->likeness;
     row["sharpness"] = found->sharpness;
+    row["spectrum"] = found->spectrum;
     row["coverage"] = found->coverage;
     if (found->repeats) row["repeats"] = *found->repeats;
     row["tile"] = found->tile;
@@ -110,6 +177,8 @@ class Measurer {
   static void addPieces(Json& row, const std::optional<texture::Pieces>& found) {
     if (!found) return;
     row["shape"] = found->shape;
+    row["shape_median"] = found->shapeMedian;
+    row["shape_worst"] = found->shapeWorst;
     row["seams"] = found->seams;
     row["joints"] = found->joints;
     row["chips"] = found->chips;
@@ -127,6 +196,12 @@ class Measurer {
     if (!found) return;
     row["worn"] = found->worn;
     row["least_change"] = found->change;
+  }
+
+  static void addWarp(Json& row, const std::optional<render::WarpError>& found) {
+    if (!found) return;
+    row["warp"] = found->error;
+    row["warp_share"] = found->share;
   }
 
   // Of every key over the frames that have it.
@@ -171,6 +246,7 @@ class Measurer {
   const MeasureWishes& m_wishes;
   const OutFolder m_folder;
   FinishedRun m_run;
+  std::optional<render::Options> m_view;
   double m_spacing = 0.0;  // of the first surface
 };
 
@@ -194,6 +270,8 @@ Command measureCommand() {
        "and "
        "the last; change on all",
        {.least = 1, .most = 9999}},
+      {"--motion", &wishes->motion, "DIR",
+       "Write there what the camera sees, unlit, and the motion of each pixel to the frame before (FLO)"},
       {"--quiet", &wishes->quiet, "", "No table, only files"},
   };
   command.footer = "Example:\n  fluidtex measure out/dam_break --json measures.json";

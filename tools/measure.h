@@ -9,6 +9,7 @@ struct MeasureWishes {
   std::filesystem::path out;       // the run's folder
   std::filesystem::path exemplar;  // empty: the run's own
   std::filesystem::path json;      // file for all measures; empty: none
+  std::filesystem::path motion;    // folder for unlit pictures and motion vectors; empty: none
   int every = 8;                   // likeness and pieces on every so-many-th frame, and on the last
   bool quiet = false;              // no table on stdout
 };

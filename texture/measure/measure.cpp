@@ -3,6 +3,7 @@
 #include "numerics/random.h"
 #include "texture/measure/patches.h"
 #include "texture/measure/repeats.h"
+#include "texture/measure/spectrum.h"
 #include "texture/measure/tiles.h"
 
 #include <tbb/parallel_for.h>
@@ -52,6 +53,7 @@ struct Laid {
   std::optional<PatchJudge> judge;
   std::vector<PatchDistances> own;
   double energy = 0.0, parts = 0.0;
+  std::vector<double> spectrum;
 };
 using Reference = std::array<Laid, kTimes>;
 
@@ -59,6 +61,13 @@ double meanOf(const Reference& reference, double Laid::*figure) {
   double sum = 0.0;
   for (const Laid& laid : reference) sum += laid.*figure / kTimes;
   return sum;
+}
+
+std::vector<double> meanSpectrum(const Reference& reference) {
+  std::vector<double> mean(reference.front().spectrum.size(), 0.0);
+  for (const Laid& laid : reference)
+    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += laid.spectrum[k] / kTimes;
+  return mean;
 }
 
 // Streams of the options' seed: for the exemplar, for a frame, and for each time the exemplar is laid.
@@ -87,6 +96,7 @@ struct LikenessJudge::Internals {
     const Stack whole = laid(picture);
     Laid made;
     made.energy = gradientEnergy(whole);
+    made.spectrum = radialSpectrum(whole);
     made.parts = coverage.effectiveParts(whole, dice);
     made.judge.emplace(pyramidOf(whole), options.patches, dice);
     for (const auto& [a, b] : halvesOf(picture)) {
@@ -130,6 +140,7 @@ std::optional<Likeness> LikenessJudge::operator()(const TexturedSurface& surface
   for (const Laid& laid : reference)
     result.likeness += patchRatio(laid.judge->distances(pyramid, dice), laid.own) / kTimes;
   result.sharpness = gradientEnergy(shown) / std::max(meanOf(reference, &Laid::energy), 1e-12);
+  result.spectrum = spectrumDistance(radialSpectrum(shown), meanSpectrum(reference));
   result.coverage =
       in.coverage.effectiveParts(shown, dice) / std::max(meanOf(reference, &Laid::parts), 1e-12);
   if (repeats) result.repeats = repeatsOf(ground, in.picture, dice);

@@ -28,6 +28,9 @@ struct Likeness {
   double likeness = 0.0;
   // Mean squared gradient of the lightness over the exemplar's: 1 is right, below is blur, above is noise.
   double sharpness = 0.0;
+  // Distance of the lightness's radial power spectrum from the exemplar's, dB (spectrum.h): 0 is right. Blur
+  // and noise show at high frequencies, features of another size at low ones.
+  double spectrum = 0.0;
   // Share of the exemplar in use: effective number (exponential of the entropy) of its 8 x 8 parts that
   // patches of 9 texels are nearest to, over the same number for the exemplar itself.
   double coverage = 0.0;

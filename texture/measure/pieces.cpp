@@ -76,6 +76,8 @@ std::optional<Pieces> measurePieces(const TexturedSurface& surface, const Image&
   if (joints > 0)
     result.seams = std::sqrt(across / std::max(lengths * neighborContrast(seenPicture(color)), 1e-12));
   result.shape = percentile(distortions, 0.95);
+  result.shapeMedian = percentile(distortions, 0.5);
+  result.shapeWorst = percentile(distortions, 0.99);
   return result;
 }
 

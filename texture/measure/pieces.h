@@ -16,6 +16,7 @@ struct Pieces {
   // 95th percentile of max(s1, 1 / s2), s the singular values of the fitted gradients (texels per texel),
   // over vertices that cohere with at least three neighbours; 1 is isometric.
   double shape = 0.0;
+  double shapeMedian = 1.0, shapeWorst = 1.0;  // the 50th and the 99th percentile of the same
   // rms colour difference per texel across edges between pieces, over that between adjacent texels of the
   // exemplar; 0 without such edges.
   double seams = 0.0;

@@ -1,0 +1,19 @@
+// Radial power spectra of pictures.
+#pragma once
+
+#include "texture/measure/tiles.h"
+
+#include <vector>
+
+namespace fluidtex::texture {
+
+// Mean over the pictures (square) of the power of their first channel, less its mean and under a Hann window,
+// by whole cycles a picture: entry k - 1 is the mean over all frequencies (p, q) whose length rounds to k, k
+// = 1 to half the picture's size.
+std::vector<double> radialSpectrum(const Stack& pictures);
+
+// rms difference of two spectra, dB (10 log10), over frequencies where either holds a millionth of its
+// largest power; below that it counts as that. 0 where there is none.
+double spectrumDistance(const std::vector<double>& a, const std::vector<double>& b);
+
+}  // namespace fluidtex::texture
