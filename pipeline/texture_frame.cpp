@@ -8,6 +8,7 @@
 #include "texture/labels/fresh.h"
 #include "texture/mesh/prepare.h"
 #include "texture/shown/plain.h"
+#include "texture/shown/rest_positions.h"
 #include "transport/carry.h"
 
 #include <algorithm>
@@ -95,6 +96,14 @@ TexturedSurface textured(Texturing& texturing, Surface surface, const Carried& c
                          texture::SynthesisStats& stats, const std::function<void(double)>& progress) {
   const scenes::Scene& scene = texturing.scene;
   const bool none = scene.texture.synthesis.method == Method::none;
+  if (texture::isProjected(scene.texture)) {
+    stats = {};
+    stats.renewed = 0.0;
+    const texture::Exemplar& exemplar = texturing.synthesizer.exemplar;
+    const int every = scene.texture.laterFrames == LaterFrames::dualRest ? scene.texture.restFrames : 0;
+    return texture::restTextured(std::move(surface), carried, exemplar.color, {exemplar.toroidal, every},
+                                 frame, 1.0 / scene.sim.frameRate);
+  }
   if (!none && (scene.texture.laterFrames != LaterFrames::advect || carried.empty()))
     return synthesized(texturing, std::move(surface), carried, frame, stats, progress);
   stats = {};

@@ -22,6 +22,8 @@ enum class LaterFrames {
   synthesize,  // from the transported texture
   advect,      // transport alone, of colours
   alone,       // each frame like a first frame
+  birth,       // projected from the position where the surface came to light
+  dualRest,    // projected from two rest positions that are reset in turn
 };
 
 enum class Points {
@@ -202,6 +204,7 @@ struct Options {
   // renewalRate and fade where a scene does not give them.
   double coherence = 0.5;
   LaterFrames laterFrames = LaterFrames::synthesize;
+  int restFrames = 24;  // of LaterFrames::dualRest: frames between resets
   SurfaceOptions surface;
   FactorOptions scale;    // on the side of an exemplar pixel
   FactorOptions renewal;  // on the wear of texture: 0 never renewed, 1 as elsewhere, above 1 renewed sooner
@@ -212,7 +215,14 @@ struct Options {
 
 // Whether colours are looked up at exemplar coordinates.
 inline bool looksUp(const Options& options) {
-  return options.synthesis.method == Method::coordinates && options.laterFrames != LaterFrames::advect;
+  return options.synthesis.method == Method::coordinates &&
+         (options.laterFrames == LaterFrames::synthesize || options.laterFrames == LaterFrames::alone);
+}
+
+// Whether colours are projected from rest positions.
+inline bool isProjected(const Options& options) {
+  return options.synthesis.method != Method::none &&
+         (options.laterFrames == LaterFrames::birth || options.laterFrames == LaterFrames::dualRest);
 }
 
 // Whether the exemplar moves: where colours are carried, its first picture stays.

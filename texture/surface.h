@@ -81,6 +81,8 @@ struct VertexTexture {
   std::vector<Vec3f> previousPosition;  // #V: position one frame ago, on the old surface
   // #V, 1 where the texture is still that of the mesh which the liquid began with; empty: it began with none.
   std::vector<std::uint8_t> original{};
+  // #V, metres: where the surface was when it came to light or was last reset (LaterFrames); else empty.
+  std::vector<Vec3f> rest{}, secondRest{};
 };
 
 // The previous frame's texture, transported onto a new surface. Colours are barycentric means (used by method

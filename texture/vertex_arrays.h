@@ -40,7 +40,7 @@ void forEachMeshArray(Mesh& mesh, const Visit& visit) {
 // The same for the arrays of a VertexTexture.
 template <class Texture, class Visit>
 void forEachTextureArray(Texture& texture, const Visit& visit) {
-  auto& [color, coordinate, gradient, fading, age, trust, previousPosition, original] =
+  auto& [color, coordinate, gradient, fading, age, trust, previousPosition, original, rest, secondRest] =
       detail::partOf<VertexTexture>(texture);
   auto& [formerCoordinate, formerGradient, weight, speed] = fading;
   visit(color, Array::needed);
@@ -54,6 +54,8 @@ void forEachTextureArray(Texture& texture, const Visit& visit) {
   visit(trust, Array::needed);
   visit(previousPosition, Array::needed);
   visit(original, Array::optional);
+  visit(rest, Array::optional);
+  visit(secondRest, Array::optional);
 }
 
 // The same for all arrays of a textured surface, further maps by name included.

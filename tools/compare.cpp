@@ -1,4 +1,5 @@
-// fluidtex compare SCENE: the paper's variants side by side [Kwatra07 sec. VII, figures 7A and 11A].
+// fluidtex compare SCENE: what other programs do and the paper's variants, side by side [Kwatra07 sec. VII,
+// figures 7A and 11A].
 #include "render/frame_name.h"
 #include "render/render.h"
 #include "tools/base/atomic_file.h"
@@ -27,8 +28,10 @@ struct Variant {
   std::vector<std::string> set;  // on top of the scene and of the user's own
 };
 
-const std::array<Variant, 5> kVariants{
+const std::array<Variant, 7> kVariants{
     {{"untextured", "untextured", false, {"texture.method=none"}},
+     {"birth", "position at birth", true, {"texture.later_frames=birth"}},
+     {"dual_rest", "dual rest", true, {"texture.later_frames=dual_rest"}},
      {"advected", "pure advection", true, {"texture.later_frames=advect"}},
      {"alone", "each frame alone", true, {"texture.later_frames=alone"}},
      {"scalars", "orientation as scalars", true, {"texture.transport.orientation=scalars"}},
@@ -100,8 +103,10 @@ void compare(const CommonOptions& options) {
 
 Command compareCommand() {
   const auto options = std::make_shared<CommonOptions>();
-  Command command{"compare",
-                  "Run a scene in the paper's variants; contact sheet, video and table side by side"};
+  Command command{
+      "compare",
+      "Run a scene with the textures of other programs and the paper's variants; contact sheet, video and "
+      "table side by side"};
   command.options = sceneOptions(*options);
   named(command.options, "--out").text = "Folder for the results (default: out/SCENE_NAME_compare)";
   append(command.options,

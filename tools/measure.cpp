@@ -112,7 +112,7 @@ class Measurer {
       if (n % std::size_t(m_wishes.every) == 0 || n + 1 == frames.size()) {
         addLikeness(row, judge(surface, n == 0 || n + 1 == frames.size()));
         if (const auto found = texture::measureContrast(surface, contrast)) row["contrast"] = *found;
-        addPieces(row, texture::measurePieces(surface, m_run.color, m_run.toroidal));
+        if (!m_run.isProjected) addPieces(row, texture::measurePieces(surface, m_run.color, m_run.toroidal));
       }
       render::MotionImage seen = m_view ? seenIn(frame, surface) : render::MotionImage();
       if (follows) {
@@ -184,11 +184,13 @@ class Measurer {
     row["chips"] = found->chips;
     row["pieces"] = found->pieces;
   }
-  static void addChange(Json& row, const std::optional<texture::Change>& found) {
+  void addChange(Json& row, const std::optional<texture::Change>& found) const {
     if (!found) return;
     row["pop"] = found->pop;
-    row["change"] = found->change;
-    row["renewed"] = found->renewed;
+    if (!m_run.isProjected) {
+      row["change"] = found->change;
+      row["renewed"] = found->renewed;
+    }
     row["change_along_flow"] = found->alongFlow;
     row["coherence"] = found->ratio;
   }

@@ -164,6 +164,8 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
   carried.orientation.resize(count);
   if (!previous.foam.empty()) carried.foam.resize(count);
   if (previous.original.empty()) carried.original.clear();
+  if (previous.rest.empty()) carried.rest.clear();
+  if (previous.secondRest.empty()) carried.secondRest.clear();
   std::vector<float> stretched(count);
   std::vector<Inflow> inflow(count, Inflow::none);
   std::vector<std::uint8_t>& stays = carried.stays;
@@ -194,6 +196,8 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
     pickUpFading(previous, landing, map, normal, v, carried.fading);
     carried.color[v] = colorAt(previous, landing);
     carried.age[v] = valueAt(previous.age, landing);
+    if (!carried.rest.empty()) carried.rest[v] = valueAt(previous.rest, landing);
+    if (!carried.secondRest.empty()) carried.secondRest[v] = valueAt(previous.secondRest, landing);
     if (!carried.original.empty()) carried.original[v] = previous.original[landing.nearestVertex()];
     if (!carried.foam.empty()) carried.foam[v] = valueAt(previous.foam, landing);
     const Vec3f direction = source.direction(landing);

@@ -143,6 +143,7 @@ usage = 2
 core = 0.9
 feature = 0.4
 gradient = 0.6
+rest_frames = 12
 coherence = 0.75
 keep_stretch = 2
 renewal_radius = 20

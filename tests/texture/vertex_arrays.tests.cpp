@@ -19,7 +19,7 @@ TEST_CASE("vertex arrays: every array of a surface is visited, maps by name too"
     ++arrays;
     wrong += !fits(values, array, 4);
   });
-  CHECK(arrays == 6 + 11 + 2 + 2);
+  CHECK(arrays == 6 + 13 + 2 + 2);
   CHECK(wrong == 1);
 }
 

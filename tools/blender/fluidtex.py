@@ -176,7 +176,9 @@ class Run:
         # have the colours of their frame.
         moves = bool((report.get("inputs") or {}).get("texture.exemplar", {}).get("count"))
         self.looked_up = (
-            texture.get("method") == "coordinates" and texture.get("later_frames") != "advect" and not moves
+            texture.get("method") == "coordinates"
+            and texture.get("later_frames") in ("synthesize", "alone")
+            and not moves
         )
 
     def frames(self):

@@ -31,8 +31,8 @@ Appearance appearanceOf(const Json& scene, const texture::Image& color) {
   Appearance appearance;
   appearance.name = valueOf(scene, "/name", usual.name);
   appearance.frameRate = valueOf(scene, "/frame_rate", usual.frameRate);
-  const bool lookedUp = valueOf<std::string>(scene, "/texture/method", "") == "coordinates" &&
-                        valueOf<std::string>(scene, "/texture/later_frames", "") != "advect";
+  const bool lookedUp = looksUp(valueOf<std::string>(scene, "/texture/method", ""),
+                                valueOf<std::string>(scene, "/texture/later_frames", "synthesize"));
   // Vertices of one picture each have their colours.
   if (lookedUp && valueOf<std::string>(scene, "/texture/animation/by", "time") == "time")
     appearance.picture =

@@ -21,6 +21,7 @@ const TableColumn kColumns[] = {{"likeness", "likeness", &Compared::likeness},
                                 {"sharpness", "sharpness", &Compared::sharpness},
                                 {"change_along_flow", "change along the flow", &Compared::alongFlow},
                                 {"pop", "pops", &Compared::pop},
+                                {"warp", "warp error", &Compared::warp},
                                 {"shape", "stretch", &Compared::shape},
                                 {"renewed", "renewed", &Compared::renewed},
                                 {"seconds", "transport and synthesis, s a frame", &Compared::seconds}};
@@ -69,6 +70,7 @@ Compared comparedRun(const std::string& label, const std::filesystem::path& out)
   row.sharpness = figure("sharpness");
   row.alongFlow = figure("change_along_flow");
   row.pop = figure("pop");
+  row.warp = figure("warp");
   row.shape = figure("shape");
   return row;
 }

@@ -106,11 +106,19 @@ const fs::path& existing(const fs::path& out) {
   return out;
 }
 
+bool looksUp(std::string_view method, std::string_view laterFrames) {
+  return method == "coordinates" && (laterFrames == "synthesize" || laterFrames == "alone");
+}
+
 FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
   FinishedRun run{.out = out, .report = readReport(out), .exemplar = exemplar, .color = {}, .frames = {}};
   const Json& texture = run.report["scene"]["texture"];
   if (exemplar.empty()) run.exemplar = fs::path(texture.value("exemplar", ""));
   run.exemplar = scenes::firstOf(run.exemplar);
+  // A mesh's picture was halved until it fitted the points.
+  if (exemplar.empty() && texture.value("/start/file"_json_pointer, Json()).is_string() &&
+      fs::exists(out / kExemplarFile))
+    run.exemplar = out / kExemplarFile;
   // A folder that was moved to another machine has its own.
   if (exemplar.empty() && !fs::exists(run.exemplar) && fs::exists(out / kExemplarFile))
     run.exemplar = out / kExemplarFile;
@@ -118,7 +126,9 @@ FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
     throw UsageError(fmt::format("{}: the exemplar of the run is not there; give --exemplar IMAGE",
                                  run.exemplar.string()));
   run.toroidal = texture.value("toroidal", false);
-  run.looksUp = texture.value("method", "") == "coordinates" && texture.value("later_frames", "") != "advect";
+  const std::string later = texture.value("later_frames", "synthesize");
+  run.looksUp = looksUp(texture.value("method", ""), later);
+  run.isProjected = later == "birth" || later == "dual_rest";
   run.moves = run.looksUp && scenes::isPattern(texture.value("exemplar", ""));
   run.movesWithTime = run.moves && texture.value("/animation/by"_json_pointer, "time") == "time";
   run.color = texture::readImage(run.exemplar);

@@ -16,7 +16,8 @@ struct FinishedRun {
   std::filesystem::path exemplar;  // the image's name
   texture::Image color;            // and its pixels, linear RGBA
   bool toroidal = false;
-  bool looksUp = false;  // colours were looked up at exemplar coordinates
+  bool looksUp = false;      // colours were looked up at exemplar coordinates
+  bool isProjected = false;  // from rest positions: there are no coordinates
   // The exemplar is a sequence, and `color` its first picture; a frame shows one of them, or places differ.
   bool moves = false, movesWithTime = false;
   std::vector<int> frames;  // with a surface on disk, ascending; never empty
@@ -42,6 +43,9 @@ double spacingOf(const std::filesystem::path& out, const texture::TexturedSurfac
 
 // Returns the folder if it exists; commands that work on a run create none. Throws UsageError otherwise.
 const std::filesystem::path& existing(const std::filesystem::path& out);
+
+// Whether colours were looked up at exemplar coordinates, by run.json's settings of the texture.
+bool looksUp(std::string_view method, std::string_view laterFrames);
 
 // exemplar: replaces the run's own; else empty. Where that is no longer at its place, the copy in the folder
 // is taken. Throws UsageError if the folder holds no run, or its exemplar is missing.
