@@ -9,7 +9,7 @@ install(CODE "set(program \"$<TARGET_FILE:fluidtex>\")
   set(share \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}\")")
 install(SCRIPT cmake/install_printed.cmake)
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/fluidtex
-  FILES_MATCHING PATTERN *.toml PATTERN *.png PATTERN *.ply PATTERN README.md)
+  FILES_MATCHING PATTERN *.toml PATTERN *.obj PATTERN *.png PATTERN *.ply PATTERN README.md)
 # What Blender runs: the add-on, and what draws.
 install(FILES tools/blender/fluidtex.py tools/blender/render.py tools/blender/solids.py tools/blender/stage.py
   DESTINATION ${CMAKE_INSTALL_DATADIR}/fluidtex/blender)

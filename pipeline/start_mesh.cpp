@@ -5,6 +5,8 @@
 #include "texture/frames/renewal.h"
 #include "transport/onto.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,7 +59,9 @@ TexturedSurface texturedMesh(const sim::UvMesh& mesh, int width, int height) {
     const double shown = 0.5 * std::abs(crossOf(q[0], q[1], q[2]));
     if (!(normal.lengthSqr() > 0.0f) || !(shown > 0.0)) continue;
     const TexelGradient gradient = gradientOf(x, q, normal);
-    if (!std::isfinite(gradient.s.lengthSqr()) || !std::isfinite(gradient.t.lengthSqr())) continue;
+    if (!std::isfinite(gradient.s.lengthSqr()) || !std::isfinite(gradient.t.lengthSqr()) ||
+        !(gradient.s.lengthSqr() > 0.0f))
+      continue;
     area += 0.5 * double(normal.length());
     pixels += shown;
     const auto first = std::uint32_t(surface.positions.size());
@@ -93,6 +97,32 @@ TexturedSurface startSurface(const scenes::Scene& scene, int width, int height) 
   return surface;
 }
 
+bool beginsWithMesh(const scenes::Scene& scene) {
+  return !scene.start.mesh.file.empty() && texture::looksUp(scene.texture) &&
+         scene.texture.laterFrames == texture::LaterFrames::synthesize;
+}
+
+namespace {
+
+// The limits of texture.spacing, where the domain is known.
+void checkPixel(const scenes::Scene& scene, double pixel) {
+  constexpr double kMostPoints = 50e6;
+  const sim::Vec3d& size = scene.sim.size;
+  const double shortest = std::min({size[0], size[1], size[2]});
+  if (!(shortest > 0.0)) return;
+  const double faces = 2.0 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
+  const char* wrong = pixel >= shortest ? "as long as the domain's shortest side or longer"
+                      : faces / pixel / pixel > kMostPoints
+                          ? "so short that the liquid would have too many points"
+                          : nullptr;
+  if (wrong == nullptr) return;
+  throw sim::MeshError(
+      fmt::format("{}: a pixel of its picture is {:.3g} m long on it, {}; is its scale right?",
+                  scene.start.mesh.file.string(), pixel, wrong));
+}
+
+}  // namespace
+
 void fitToStart(scenes::Scene& scene) {
   texture::ExemplarOptions& exemplar = scene.texture.exemplar;
   if (scene.start.mesh.file.empty() || exemplar.file.empty() || scene.start.fitted) return;
@@ -114,30 +144,60 @@ void fitToStart(scenes::Scene& scene) {
     size /= 2;
     ++exemplar.halvings;
   }
+  checkPixel(scene, pixel);
   scene.texture.spacing = pixel;
   scene.start.fitted = true;
 }
 
-texture::Image shownByStart(const TexturedSurface& start, int width, int height) {
+namespace {
+
+// Grown by kMargin pixels to all sides, since what is read beside an edge is mixed of both.
+texture::Image grown(const texture::Image& shown, bool toroidal) {
+  constexpr int kMargin = 2;
+  texture::Image result = shown;
+  for (int y = 0; y < shown.height; ++y)
+    for (int x = 0; x < shown.width; ++x) {
+      if (*shown.at(x, y) == 0.0f) continue;
+      for (int j = y - kMargin; j <= y + kMargin; ++j)
+        for (int i = x - kMargin; i <= x + kMargin; ++i) {
+          const bool inside = i >= 0 && j >= 0 && i < shown.width && j < shown.height;
+          if (inside || toroidal)
+            *result.at((i + shown.width) % shown.width, (j + shown.height) % shown.height) = 1.0f;
+        }
+    }
+  return result;
+}
+
+// First and last pixel of a triangle along an axis: on the picture, or once around where it is repeated.
+std::array<int, 2> rangeOf(const std::array<Vec2f, 3>& q, int axis, int size, bool toroidal) {
+  const auto [low, high] = std::minmax({q[0][axis], q[1][axis], q[2][axis]});
+  if (!toroidal)
+    return {int(std::clamp(std::ceil(low), 0.0f, float(size))),
+            int(std::clamp(std::floor(high), -1.0f, float(size - 1)))};
+  const float most = float(size);
+  if (!(high - low < most)) return {0, size - 1};
+  return {int(std::ceil(low)), int(std::floor(high))};
+}
+
+}  // namespace
+
+texture::Image shownByStart(const TexturedSurface& start, int width, int height, bool toroidal) {
   if (start.empty()) return {};
   texture::Image shown{width, height, 1, std::vector<float>(std::size_t(width) * std::size_t(height), 0.0f)};
   for (const texture::Vec3I& t : start.triangles) {
     const std::array<Vec2f, 3> q{start.coordinate[t[0]], start.coordinate[t[1]], start.coordinate[t[2]]};
     const double whole = crossOf(q[0], q[1], q[2]);
-    const auto range = [&](int axis, int size) {
-      const auto [low, high] = std::minmax({q[0][axis], q[1][axis], q[2][axis]});
-      return std::array{int(std::clamp(std::ceil(low), 0.0f, float(size))),
-                        int(std::clamp(std::floor(high), -1.0f, float(size - 1)))};
-    };
-    const auto [left, right] = range(0, width);
-    const auto [top, bottom] = range(1, height);
+    const auto [left, right] = rangeOf(q, 0, width, toroidal);
+    const auto [top, bottom] = rangeOf(q, 1, height, toroidal);
     for (int y = top; y <= bottom; ++y)
       for (int x = left; x <= right; ++x) {
         const Vec2f texel{float(x), float(y)};
         const double a = crossOf(q[1], q[2], texel) / whole, b = crossOf(q[2], q[0], texel) / whole;
-        if (a >= 0.0 && b >= 0.0 && a + b <= 1.0) *shown.at(x, y) = 1.0f;
+        if (a < 0.0 || b < 0.0 || a + b > 1.0) continue;
+        *shown.at((x % width + width) % width, (y % height + height) % height) = 1.0f;
       }
   }
+  shown = grown(shown, toroidal);
   double sum = 0.0;
   for (const float value : shown.data) sum += double(value);
   if (sum > kNearlyAll * double(shown.data.size())) return {};

@@ -71,7 +71,8 @@ TexturedSurface synthesized(Texturing& texturing, Surface surface, const Carried
   return result;
 }
 
-// The wear of transported texture counts by the scene's factors; what is original may never be renewed.
+// The wear of transported texture counts by the scene's factors; what is original may never be renewed. In
+// the first frame startOn() has locked all that a mesh gave.
 void scaleWear(const Texturing& texturing, const sim::Frame& frame, const texture::SurfaceMesh& mesh,
                Carried& carried) {
   if (carried.empty() || !carried.renewal.empty()) return;
@@ -85,7 +86,7 @@ void scaleWear(const Texturing& texturing, const sim::Frame& frame, const textur
 
 // Where the exemplar's guidance is what a mesh shows of it, new texture comes from there.
 void takeFromShown(const Texturing& texturing, Surface& surface) {
-  if (texturing.start.empty() || texturing.guidance.options.by != texture::GuidanceBy::none ||
+  if (!beginsWithMesh(texturing.scene) || texturing.guidance.options.by != texture::GuidanceBy::none ||
       !texturing.synthesizer.exemplar.guided)
     return;
   for (texture::SurfaceMesh& mesh : surface.levels) mesh.guidance.assign(mesh.positions.size(), 1.0f);
@@ -122,9 +123,10 @@ Texturing makeTexturing(const scenes::Scene& scene, const texture::CacheFolder& 
   fitToStart(fitted);
   const texture::ExemplarOptions& exemplar = fitted.texture.exemplar;
   texture::Image shown;
-  if (!fitted.start.mesh.file.empty() && exemplar.guidance.empty()) {
+  if (beginsWithMesh(fitted) && exemplar.guidance.empty()) {
     const texture::Image picture = texture::exemplarPicture(exemplar);
-    shown = shownByStart(startSurface(fitted, picture.width, picture.height), picture.width, picture.height);
+    shown = shownByStart(startSurface(fitted, picture.width, picture.height), picture.width, picture.height,
+                         exemplar.toroidal);
   }
   return makeTexturing(fitted,
                        texture::loadExemplar(exemplar, fitted.texture.synthesis,
@@ -137,7 +139,7 @@ Texturing makeTexturing(const scenes::Scene& scene, texture::Exemplar exemplar,
   const texture::Image& color = exemplar.color;
   texture::TexturedSurface start = startSurface(scene, color.width, color.height);
   scenes::Scene fitted = scene;
-  if (!start.empty() && !scene.start.fitted) fitted.texture.spacing = start.spacing;
+  if (!start.empty() && !(scene.texture.spacing > 0.0)) fitted.texture.spacing = start.spacing;
   return {fitted,
           texture::makeSynthesizer(std::move(exemplar), scene.texture.synthesis, cache),
           orientationGuide(scene),
@@ -183,8 +185,7 @@ TexturedFrame textureFrame(Texturing& texturing, const TexturedSurface& last, co
     return result;
   }
   Carried carried;
-  const bool starts = frame.index == 1 && !texturing.start.empty() && texture::looksUp(scene.texture) &&
-                      scene.texture.laterFrames == LaterFrames::synthesize;
+  const bool starts = frame.index == 1 && beginsWithMesh(scene);
   {
     begin(Stage::transport);
     const Stopwatch stage(seconds.transport, watch.seconds);

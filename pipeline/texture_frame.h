@@ -34,7 +34,8 @@ struct Texturing {
 // tables kept between runs. Throws ExemplarError, or std::runtime_error that names a field's file.
 Texturing makeTexturing(const scenes::Scene& scene, const texture::CacheFolder& cache = {});
 // The same with an exemplar in memory, prepared for scene.texture.surface.levels levels; where the liquid
-// begins with a mesh's texture, it is the mesh's picture.
+// begins with a mesh's texture, it is the mesh's whole picture, and one of its pixels on the mesh is the
+// spacing, unless that is given.
 Texturing makeTexturing(const scenes::Scene& scene, texture::Exemplar exemplar,
                         const texture::CacheFolder& cache = {});
 

@@ -67,7 +67,8 @@ velocity: of the liquid in this frame, m/s: nx x ny x nz x 3 with phi, at the sa
     the frame before or after has the say; where neither has, the liquid rests.
 dt: s since the last frame.
 fields: further scalars of the liquid by name, such as {"temperature": T}: nx x ny x nz with phi, n with
-    a mesh. Settings can name them ([texture.guidance], [texture.scale]); they come back in maps.
+    a mesh. Settings can name them ([texture.guidance], [texture.scale], [texture.renewal]);
+    they come back in maps.
 cut: cuts triangles whose corners show different pieces of the exemplar, so that st can be interpolated
     within every one.
 
@@ -82,7 +83,8 @@ orientation (n x 3): unit, tangent, along the exemplar's rows
 previous (n x 3): where the point was a frame ago
 velocity (n x 3), trust (n, 0..1), age (n, s since it was renewed), scale (n, with [texture.scale])
 maps: a dict of the settings' further maps and of the fields, n or n x 3 each
-renewed: share of the points that show another place than what was carried to them; 1 in the first frame
+renewed: share of the points that show another place than what was carried to them; 1 in the first frame,
+    unless it begins with a mesh's texture ([texture.start])
 explained: share of the surface's motion that the velocities explain, or None where little moves
 spacing: metres
 
@@ -264,6 +266,8 @@ void asValueError(std::exception_ptr error) {
   } catch (const scenes::SceneError& fault) {
     PyErr_SetString(PyExc_ValueError, fault.what());
   } catch (const texture::ExemplarError& fault) {
+    PyErr_SetString(PyExc_ValueError, fault.what());
+  } catch (const sim::MeshError& fault) {
     PyErr_SetString(PyExc_ValueError, fault.what());
   }
 }

@@ -81,8 +81,8 @@ void printTime(const scenes::Scene& scene, const CommonOptions& options, const P
 
 // Of the mesh that the liquid begins with.
 void printStart(const scenes::Scene& scene, const texture::Image& picture) {
+  if (!pipeline::beginsWithMesh(scene)) return;
   const texture::TexturedSurface start = pipeline::startSurface(scene, picture.width, picture.height);
-  if (start.empty()) return;
   double area = 0.0, worn = 0.0;
   for (const texture::Vec3I& t : start.triangles) {
     const texture::Vec3f& a = start.positions[t[0]];

@@ -24,6 +24,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace fluidtex::tools {
@@ -101,7 +102,12 @@ class Measurer {
     Json rows = Json::array();
     texture::TexturedSurface before;
     render::MotionImage seenBefore;
-    if (!m_wishes.motion.empty()) fs::create_directories(m_wishes.motion);
+    if (!m_wishes.motion.empty()) {
+      if (!m_view)
+        throw UsageError(fmt::format("--motion: {} tells no camera and no size of the pictures",
+                                     (m_wishes.out / "run.json").string()));
+      fs::create_directories(m_wishes.motion);
+    }
     for (std::size_t n = 0; n < frames.size(); ++n) {
       const int frame = frames[n];
       texture::TexturedSurface surface = readSurface(frame);
@@ -111,8 +117,10 @@ class Measurer {
       const bool follows = n > 0 && frames[n - 1] == frame - 1;
       if (n % std::size_t(m_wishes.every) == 0 || n + 1 == frames.size()) {
         addLikeness(row, judge(surface, n == 0 || n + 1 == frames.size()));
-        if (const auto found = texture::measureContrast(surface, contrast)) row["contrast"] = *found;
-        if (!m_run.isProjected) addPieces(row, texture::measurePieces(surface, m_run.color, m_run.toroidal));
+        if (!m_run.isProjected) {
+          if (const auto found = texture::measureContrast(surface, contrast)) row["contrast"] = *found;
+          addPieces(row, texture::measurePieces(surface, m_run.color, m_run.toroidal));
+        }
       }
       render::MotionImage seen = m_view ? seenIn(frame, surface) : render::MotionImage();
       if (follows) {

@@ -8,13 +8,13 @@
 
 namespace fluidtex::figures {
 
-// A corner's place in the picture: u to the right, v up, 0..1.
 struct Corner {
-  std::size_t vertex = 0, place = 0;  // into `vertices` and `places`
+  std::size_t vertex = 0, place = 0;  // into Vase::vertices and Vase::places
 };
 
 struct Vase {
   std::vector<std::array<double, 3>> vertices;  // metres; it stands on z = 0, about the axis x = y = 0
+  // In the picture: u to the right, v up from its lowest row, 0..1.
   std::vector<std::array<double, 2>> places;
   std::vector<std::vector<Corner>> faces;  // counter-clockwise seen from outside
 };

@@ -3,6 +3,7 @@
 #include "sim/meshes/cut_polygon.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>

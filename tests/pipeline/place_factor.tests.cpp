@@ -36,6 +36,14 @@ TEST_CASE("place factor: by nothing, by height, by the distance from the nearest
   CHECK(factors[1] == Approx(1.5f));
   CHECK(factors[2] == Approx(1.25f));
 
+  // Renewal has a curve and shapes of its own.
+  CHECK_FALSE(factorIn(textureRenewal(scene), frame));
+  scene.texture.renewal.by = FactorBy::distance;
+  scene.texture.renewal.points = {{0.0, 0.0}, {1.0, 4.0}};
+  scene.renewalFrom.push_back({sim::Sphere{sim::Vec3d(10, 0, 0), 0.5}});
+  const PlaceFactor renewal = textureRenewal(scene);
+  CHECK(factorIn(renewal, frame)({Vec3f(10, 0, 0), Vec3f(0, 0, 0)}) == std::vector<float>{0.0f, 4.0f});
+
   sim::Frame hot;
   auto grid = sim::FloatGrid::create(300.0f);
   grid->fill(openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(3)), 500.0f);

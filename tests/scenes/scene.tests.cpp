@@ -171,7 +171,12 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK((renewal.points[1].value == 0.5 && renewal.points[1].result == 4.0));
   CHECK(scene.renewalFrom.size() == 1);
   CHECK(scene.start.mesh.file == folder.path() / "m.obj");
-  CHECK(scene.start.mesh.place.rotate == Vec3d(4, 5, 6));
+  const sim::MeshPlace& start = scene.start.mesh.place;
+  CHECK(start.up == sim::UpAxis::y);
+  CHECK(start.rotate == Vec3d(4, 5, 6));
+  CHECK(start.scale == 0.5);
+  CHECK(start.translate == Vec3d(3, 2, 1));
+  CHECK(scene.texture.restFrames == 12);
   CHECK_FALSE(scene.start.renew);
   CHECK(scene.onto.files.filename() == "t_%d.obj");
   CHECK(scene.onto.first == 0);

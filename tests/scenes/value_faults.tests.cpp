@@ -106,8 +106,8 @@ TEST_CASE("scene faults: wrong type", "[scenes]") {
        "write for example "
        "windows = [33, 17, 9]"},
       {"texture.later_frames = 'never'\n" + kGoodScene,
-       "s.toml:1:9: error: texture.later_frames: \"never\" is unknown; give \"synthesize\", \"advect\" or "
-       "\"alone\""},
+       "s.toml:1:9: error: texture.later_frames: \"never\" is unknown; give \"synthesize\", \"advect\", "
+       "\"alone\", \"birth\" or \"dual_rest\""},
       {"texture.method = 7\n" + kGoodScene,
        "s.toml:1:9: error: texture.method: wrong type, a whole number where a string is wanted; write for "
        "example method = "

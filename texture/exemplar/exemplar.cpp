@@ -247,7 +247,6 @@ Image exemplarPicture(const ExemplarOptions& options) {
 Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels,
                       const CacheFolder& cache, Image guidance) {
   Image color = exemplarPicture(options);
-  guidance = halved(std::move(guidance), options);
   if (!options.guidance.empty()) {
     guidance = halved(readMap(options.guidance, 1), options);
     if (guidance.width != color.width || guidance.height != color.height)
@@ -255,6 +254,8 @@ Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& sy
                           " pixels, and its exemplar " + options.file.string() + " " + sizeOf(color) +
                           "; a guidance map must be of the same size.");
   }
+  if (!guidance.data.empty() && (guidance.width != color.width || guidance.height != color.height))
+    throw std::invalid_argument("loadExemplar: the guidance must be as large as the picture");
   std::map<std::string, ExemplarMap> maps;
   for (const MapOptions& map : options.maps) maps[map.name] = loadMap(map, color.width, options.toroidal);
   const std::map<std::string, ExemplarMap> sequence = sequenceMaps(options.animation, color);

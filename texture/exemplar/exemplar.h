@@ -45,16 +45,9 @@ struct Exemplar {
 // together count twice as much as the first. Throws ExemplarError: missing; not an image; smaller than the
 // largest window, which is shortened at levels that leave no choice of places (fittingWindow); too small for
 // any window; fully transparent; values that are not finite; a guidance map or a picture of a sequence of
-// another size. guidance: one channel, 0..1, of the picture's own size, where the options name no map.
+// another size. guidance: one channel, 0..1, of the size of exemplarPicture(), where the options name no map.
 Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& synthesis, int levels,
                       const CacheFolder& cache = {}, Image guidance = {});
-
-// The picture of an exemplar as it is matched and looked up, and the size that has of a picture's own.
-Image exemplarPicture(const ExemplarOptions& options);
-inline int exemplarSize(const ExemplarOptions& options, int pixels) {
-  for (int n = 0; n < options.halvings; ++n) pixels = (pixels + 1) / 2;
-  return pixels;
-}
 
 // The same from pixels in memory. color: linear RGBA. guidance: one channel, 0..1, of the same size, or
 // empty. maps: by name, of any size. Throws std::invalid_argument if the image is not RGBA, or a map with a
@@ -62,5 +55,13 @@ inline int exemplarSize(const ExemplarOptions& options, int pixels) {
 Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
                       Image guidance = {}, const CacheFolder& cache = {},
                       std::map<std::string, ExemplarMap> maps = {});
+
+// The picture of an exemplar as it is matched and looked up, and how long a side of it is, pixels, for a side
+// of the file's.
+Image exemplarPicture(const ExemplarOptions& options);
+inline int exemplarSide(const ExemplarOptions& options, int pixels) {
+  for (int n = 0; n < options.halvings; ++n) pixels = (pixels + 1) / 2;
+  return pixels;
+}
 
 }  // namespace fluidtex::texture

@@ -192,6 +192,7 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   const std::size_t count = labels.size();
   SeamModel worn = seamModel(synthesizer, now, 0);
   worn.stays = &carried.stays;
+  worn.original = &carried.original;
   const Wear wear = scaled(wearAround(worn, labels, carried.trust), carried.renewal);
   const std::vector<Strain> rates =
       strainRates(now, carried.previousPosition, carried.trust, secondsSinceLast);
@@ -206,6 +207,7 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   const MeshView view{now.mesh, now.graph, connection, now.pixel, now.members};
   SeamModel seams = seamModel(synthesizer, view, 0);
   seams.stays = &carried.stays;
+  seams.original = &carried.original;
   const Labels before = strained(labels, ahead);
 
   const std::vector<std::uint8_t> free = renewable(synthesizer, view.graph, carried);

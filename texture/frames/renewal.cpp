@@ -31,14 +31,15 @@ constexpr float kEarliest = 0.5f;
 // How much texture may stretch during its cross-fade, in units of log keepStretch.
 constexpr float kFadesWithin = 1.8f;
 
-bool lost(const TexelImage& image, const Label& label, float trust) {
-  if (!believed(trust) || !liesOn(image, label.texel)) return true;
-  return isMirrored(label) && !image.ways.mirrored;
+bool lost(const SeamModel& model, const Label& label, float trust, std::uint32_t v) {
+  if (!believed(trust)) return true;
+  if (model.isOriginal(v)) return false;
+  return !liesOn(model.image, label.texel) || (isMirrored(label) && !model.image.ways.mirrored);
 }
 
-float stretchBadness(const TexelImage& image, const Label& label, float trust) {
+float stretchBadness(const SeamModel& model, const Label& label, float trust, std::uint32_t v) {
   const float amount = std::log(stretch(label));
-  return lost(image, label, trust) ? std::max(amount, std::log(kLostStretch)) : amount;
+  return lost(model, label, trust, v) ? std::max(amount, std::log(kLostStretch)) : amount;
 }
 
 // Value noise in 0..1 over the exemplar: bilinear between random values on a grid.
@@ -56,7 +57,7 @@ float noiseAt(const Vec2f& texel, std::uint64_t seed) {
 }
 
 float badnessAt(const SeamModel& model, const Labels& labels, float trust, std::uint32_t v) {
-  return kSeamWeight * seamCostAround(model, labels, v) + stretchBadness(model.image, labels[v], trust) +
+  return kSeamWeight * seamCostAround(model, labels, v) + stretchBadness(model, labels[v], trust, v) +
          guidanceCost(model.image, model.view.mesh, labels[v].texel, v);
 }
 
@@ -127,7 +128,7 @@ Wear wearAround(const SeamModel& model, const Labels& labels, const std::vector<
   const std::vector<float> bad = badness(model, labels, trust);
   std::vector<Vec2f> both(labels.size());
   forEachIndex(labels.size(), [&](std::uint32_t v) {
-    both[v] = {bad[v], lost(model.image, labels[v], trust[v]) ? 0.0f : std::log(stretch(labels[v]))};
+    both[v] = {bad[v], lost(model, labels[v], trust[v], v) ? 0.0f : std::log(stretch(labels[v]))};
   });
   both = averaged(model.view.graph, std::move(both), kBadnessSweeps,
                   [](const Vec2f& value, std::uint32_t) { return value; });
@@ -205,7 +206,7 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
 std::vector<std::uint8_t> lostLabels(const SeamModel& model, const Labels& labels,
                                      const std::vector<float>& trust) {
   std::vector<std::uint8_t> result(labels.size());
-  forEachIndex(labels.size(), [&](std::uint32_t v) { result[v] = lost(model.image, labels[v], trust[v]); });
+  forEachIndex(labels.size(), [&](std::uint32_t v) { result[v] = lost(model, labels[v], trust[v], v); });
   return result;
 }
 

@@ -70,8 +70,8 @@ std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const
 // keepStretch meanwhile. strainRate: 1/s, logarithmic.
 float fadingSpeed(float strainRate, double keepStretch, double fade);
 
-// #V, 1 where labels must be renewed in any case: of low trust, beyond the edge of an exemplar that is not
-// toroidal, or mirrored where the exemplar may not be.
+// #V, 1 where labels must be renewed in any case: of low trust; and, unless they are original, beyond the
+// edge of an exemplar that is not toroidal, or mirrored where the exemplar may not be.
 std::vector<std::uint8_t> lostLabels(const SeamModel& model, const Labels& labels,
                                      const std::vector<float>& trust);
 

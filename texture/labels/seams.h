@@ -16,7 +16,12 @@ struct SeamModel {
   float unit = 1.0f;       // unit of cost: rms difference of random texels
   // #V (null: none), Carried::stays: where it differs texture slides past texture, and seams cost nothing.
   const std::vector<std::uint8_t>* stays = nullptr;
+  // #V (null: none), VertexTexture::original: a mesh may show its picture mirrored, and beyond its edge.
+  const std::vector<std::uint8_t>* original = nullptr;
 
+  bool isOriginal(std::uint32_t v) const {
+    return original != nullptr && !original->empty() && (*original)[v] != 0;
+  }
   bool slides(std::uint32_t v, std::uint32_t u) const {
     return stays != nullptr && !stays->empty() && (*stays)[v] != (*stays)[u];
   }

@@ -177,7 +177,7 @@ class Run:
         moves = bool((report.get("inputs") or {}).get("texture.exemplar", {}).get("count"))
         self.looked_up = (
             texture.get("method") == "coordinates"
-            and texture.get("later_frames") in ("synthesize", "alone")
+            and texture.get("later_frames", "synthesize") in ("synthesize", "alone")
             and not moves
         )
 

@@ -17,17 +17,19 @@ texture::Joints jointsOf(const texture::Options& options, const texture::Texture
 std::optional<texture::Detail> detailOf(const texture::Options& options) {
   const texture::ExemplarOptions& exemplar = options.exemplar;
   if (exemplar.between == texture::Between::points || !looksUp(options)) return std::nullopt;
-  texture::Image own = texture::readImage(exemplar.file);
-  const int width = texture::exemplarSize(exemplar, own.width),
-            height = texture::exemplarSize(exemplar, own.height);
-  if (exemplar.between == texture::Between::exemplar)
+  if (exemplar.between == texture::Between::exemplar) {
+    texture::Image own = texture::exemplarPicture(exemplar);
+    const int width = own.width;
     return texture::makeDetail(std::move(own), exemplar.toroidal, width);
+  }
+  const texture::Image own = texture::readImage(exemplar.file);
+  const int width = own.width, height = own.height;
   texture::Image finer = texture::readImage(exemplar.betweenFile);
   if (std::abs(double(finer.width) / width * height - finer.height) > 1.0)
     throw texture::ExemplarError(fmt::format(
         "{} has {} x {} pixels, and its exemplar {} {} x {}; the same picture has the same shape.",
         exemplar.betweenFile.string(), finer.width, finer.height, exemplar.file.string(), width, height));
-  return texture::makeDetail(std::move(finer), exemplar.toroidal, width);
+  return texture::makeDetail(std::move(finer), exemplar.toroidal, texture::exemplarSide(exemplar, width));
 }
 
 texture::Detail detailOfFrame(const std::filesystem::path& out, int frame, bool toroidal) {

@@ -58,10 +58,8 @@ void writeFrameExports(const fs::path& out, int frame, const Exports& exports, c
                        const fs::path& to) {
   const double time = (frame - 1) / exports.appearance.frameRate;
   texture::TexturedSurface surface = readPly(out / frameFile(Format::ply, frame), color.width, color.height);
-  if (lacksGradients(surface)) {
-    surface.spacing = spacingOf(out, surface, frame);
-    texture::recoverGradients(exports.appearance.toroidal, surface);
-  }
+  if (!surface.empty()) surface.spacing = spacingOf(out, surface, frame);
+  if (lacksGradients(surface)) texture::recoverGradients(exports.appearance.toroidal, surface);
   Exports own = exports;
   if (own.appearance.moves) {
     own.appearance.picture = exemplarFile(frame);

@@ -1,6 +1,7 @@
 #include "tools/frames/frame_loop.h"
 
 #include "pipeline/motion.h"
+#include "pipeline/start_mesh.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/texture_frame.h"
 #include "render/frame_name.h"
@@ -253,7 +254,7 @@ class FrameLoop {
       spdlog::info("texture: one point every {:.4g} m, {}", spacing,
                    result.textured.foreseenSpacing ? "for the surface that the liquid is going to have"
                                                    : "by the first surface");
-    if (frame == 1 && !m_scene.start.mesh.file.empty()) {
+    if (frame == 1 && pipeline::beginsWithMesh(m_scene) && !result.textured.surface.empty()) {
       const StartNote note = startNote(m_scene.start, result.textured.surface);
       note.isWarning ? warn(note.text) : spdlog::info("{}", note.text);
     }

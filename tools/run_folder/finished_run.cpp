@@ -116,9 +116,9 @@ FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
   if (exemplar.empty()) run.exemplar = fs::path(texture.value("exemplar", ""));
   run.exemplar = scenes::firstOf(run.exemplar);
   // A mesh's picture was halved until it fitted the points.
-  if (exemplar.empty() && texture.value("/start/file"_json_pointer, Json()).is_string() &&
-      fs::exists(out / kExemplarFile))
-    run.exemplar = out / kExemplarFile;
+  const bool halved =
+      texture.value("/start/file"_json_pointer, Json()).is_string() && fs::exists(out / kExemplarFile);
+  if (exemplar.empty() && halved) run.exemplar = out / kExemplarFile;
   // A folder that was moved to another machine has its own.
   if (exemplar.empty() && !fs::exists(run.exemplar) && fs::exists(out / kExemplarFile))
     run.exemplar = out / kExemplarFile;
@@ -128,10 +128,16 @@ FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
   run.toroidal = texture.value("toroidal", false);
   const std::string later = texture.value("later_frames", "synthesize");
   run.looksUp = looksUp(texture.value("method", ""), later);
-  run.isProjected = later == "birth" || later == "dual_rest";
+  run.isProjected = texture.value("method", "") != "none" && (later == "birth" || later == "dual_rest");
   run.moves = run.looksUp && scenes::isPattern(texture.value("exemplar", ""));
   run.movesWithTime = run.moves && texture.value("/animation/by"_json_pointer, "time") == "time";
   run.color = texture::readImage(run.exemplar);
+  if (halved && !exemplar.empty()) {
+    const texture::Image used = texture::readImage(out / kExemplarFile);
+    texture::ExemplarOptions as{.file = run.exemplar, .toroidal = run.toroidal};
+    while (texture::exemplarSide(as, run.color.width) > used.width) ++as.halvings;
+    run.color = texture::exemplarPicture(as);
+  }
   nowAt(kOnRun);
   run.frames = framesIn(out / "surface", ".ply");
   if (run.frames.empty())

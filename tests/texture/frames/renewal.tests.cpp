@@ -83,6 +83,21 @@ TEST_CASE("renewal: mirror images are lost where the exemplar must not show them
   }
 }
 
+TEST_CASE("renewal: what a mesh gave is not lost by being mirrored or beyond the picture's edge") {
+  const OrientedMesh surface = flatBox(10);
+  const TexelImage image = makeTexelImage(blobImage(100, 100, 3, 10.0, 1), false, 4);
+  const std::size_t count = surface.mesh.positions.size();
+  std::vector<float> trust(count, 1.0f);
+  trust[7] = 0.1f;
+  std::vector<std::uint8_t> original(count, 1), expected(count, 0);
+  original[3] = 0;
+  expected[3] = expected[7] = 1;
+  SeamModel model = makeSeamModel(surface.view(), image, kAllChannels);
+  model.original = &original;
+  CHECK(lostLabels(model, Labels(count, unstretched({50, 50}, {Complexf(1.0f), true})), trust) == expected);
+  CHECK(lostLabels(model, Labels(count, unstretched({150, 50}, {})), trust) == expected);
+}
+
 TEST_CASE("renewal: discs keep to their size, their distance and the budget, worst first") {
   const OrientedMesh surface = flatBox(60);
   const TexelImage image = makeTexelImage(blobImage(200, 200, 3, 10.0, 1), false, 4);
@@ -163,6 +178,8 @@ TEST_CASE("renewal: what the flow wears out in a frame") {
   CHECK(wornShare({still, still}, 1.0, 1.22) == 0.0);
   CHECK(wornShare({fast, still}, 0.1, 1.22) == Approx(0.05));
   CHECK(wornShare({torn, still}, 1.0, 1.22) == Approx(0.5));  // once is enough
+  // Where its wear counts twice, and where it is locked.
+  CHECK(wornShare({fast, fast}, 0.1, 1.22, {2.0f, 0.0f}) == Approx(0.1));
 }
 
 TEST_CASE("renewal: texture fades as fast as it gets bad, and never slower than it is told to") {

@@ -42,6 +42,8 @@ TEST_CASE("measure: the exemplar itself is like itself, as sharp and all in use"
   const auto soft = judge(sheet(blurred(picture), turned));
   REQUIRE(soft);
   CHECK(soft->sharpness < 0.7 * itself->sharpness);
+  CHECK(itself->spectrum < 1.5);
+  CHECK(soft->spectrum > 2.0 * itself->spectrum);
   CHECK(soft->likeness > 1.1 * itself->likeness);
   const auto other = judge(sheet(stripes(144), turned));
   REQUIRE(other);
