@@ -19,7 +19,7 @@ TEST_CASE("gzip: a file is one by its first two bytes", "[caches]") {
 
 TEST_CASE("gzip: what was packed, in several members, with zeros behind", "[caches]") {
   std::string bytes;
-  for (int n = 0; n < 100000; ++n) put(bytes, std::int32_t(n * n));
+  for (std::uint32_t n = 0; n < 100000; ++n) put(bytes, n * n);
   CHECK(unpackedGzip(gzipped(bytes)) == bytes);
   CHECK(unpackedGzip(gzipped(bytes) + gzipped("more") + std::string(512, '\0')) == bytes + "more");
   CHECK(unpackedGzip(gzipped("")).empty());
