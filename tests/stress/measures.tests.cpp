@@ -151,7 +151,7 @@ TEST_CASE("stress: a state that was written and read again is the same, of liqui
   other.deficit = one.deficit->deepCopy();
   // A leaf that is gone leaves its inner node.
   one.deficit->tree().touchLeaf(sim::Coord(-300, 0, 0));
-  one.deficit->tree().stealNode<sim::FloatLeaf>(sim::Coord(-300, 0, 0), 0.0f, false);
+  delete one.deficit->tree().stealNode<sim::FloatLeaf>(sim::Coord(-300, 0, 0), 0.0f, false);
   CHECK(stress::difference(one, other).empty());
   other.deficit->tree().setValueOn(sim::Coord(4), 0.0f);
   CHECK(stress::difference(one, other) == "deficit, its cells");
