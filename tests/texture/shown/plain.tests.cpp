@@ -1,7 +1,6 @@
 #include "texture/shown/plain.h"
 
-#include "tests/texture/mesh/closed_meshes.h"
-#include "texture/orientation/tangent.h"
+#include "tests/texture/shown/oriented_sphere.h"
 
 #include <catch2/catch.hpp>
 
@@ -12,13 +11,6 @@ using namespace fluidtex::testing;
 using namespace fluidtex::texture;
 
 namespace {
-
-Surface orientedSphere() {
-  Surface surface;
-  surface.levels.push_back(sphereMesh(4));
-  surface.levels[0].orientation = referenceVectors(surface.levels[0].normals);
-  return surface;
-}
 
 Carried carriedBy(std::size_t count) {
   Carried carried;

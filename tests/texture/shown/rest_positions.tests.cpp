@@ -1,7 +1,6 @@
 #include "texture/shown/rest_positions.h"
 
-#include "tests/texture/mesh/closed_meshes.h"
-#include "texture/orientation/tangent.h"
+#include "tests/texture/shown/oriented_sphere.h"
 
 #include <catch2/catch.hpp>
 
@@ -14,13 +13,6 @@ using namespace fluidtex::texture;
 namespace {
 
 constexpr int kSize = 8;
-
-Surface orientedSphere() {
-  Surface surface;
-  surface.levels.push_back(sphereMesh(4));
-  surface.levels[0].orientation = referenceVectors(surface.levels[0].normals);
-  return surface;
-}
 
 // Red grows to the right and green downwards.
 Image ramp() {
