@@ -20,6 +20,7 @@ TEST_CASE("scene: the resolved scene has every key, given or not", "[scenes]") {
       "'m_%d.obj', last = 2 }\n[[source]]\n" +
       ball + "rate = [ { time = 0, factor = 1 } ]\n[[drain]]\n" + ball +
       "[[wall]]\n[texture.scale]\npoint = [ { value = 0, factor = 1 } ]\n"
+      "[texture.renewal]\npoint = [ { value = 0, factor = 1 } ]\n"
       "[texture.guidance]\npoint = [ { value = 0, level = 1 } ]\n"
       "[[texture.map]]\nname = 'height'\nfile = 'e.png'\n";
   std::set<std::string> whole, defaults;

@@ -224,7 +224,10 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   Labels proposed = layAnew({synthesizer, surface, seams, frame, stats, progress}, std::move(renewal),
                             carried.trust, before);
   absorbChips(seams, free, proposed);
-  result.labels = unstrained(settle(seams, before, proposed, carried.trust, result.renewed), ahead);
+  // What is kept longer is judged as all else once it is to be renewed.
+  std::vector<float> sooner = carried.renewal;
+  for (float& factor : sooner) factor = std::max(factor, 1.0f);
+  result.labels = unstrained(settle(seams, before, proposed, carried.trust, result.renewed, sooner), ahead);
   return result;
 }
 

@@ -252,7 +252,8 @@ std::vector<float> changesOf(const SeamModel& model, const Labels& carried, cons
 }  // namespace
 
 Labels settle(const SeamModel& model, const Labels& carried, const Labels& proposed,
-              const std::vector<float>& trust, std::vector<std::uint8_t>& renewed) {
+              const std::vector<float>& trust, std::vector<std::uint8_t>& renewed,
+              const std::vector<float>& factor) {
   const std::size_t count = carried.size();
   Labels result = carried;
   renewed.assign(count, 0);
@@ -270,7 +271,7 @@ Labels settle(const SeamModel& model, const Labels& carried, const Labels& propo
   const std::vector<std::uint8_t> offered = renewed;
   forEachPiece(model.view.graph, offered, [&](const std::vector<std::uint32_t>& piece) {
     double sum = 0.0;
-    for (const std::uint32_t v : piece) sum += double(change[v]);
+    for (const std::uint32_t v : piece) sum += double(change[v]) * (factor.empty() ? 1.0 : double(factor[v]));
     if (sum < -double(kLeastGain) * double(piece.size())) return;
     for (const std::uint32_t v : piece) {
       renewed[v] = 0;

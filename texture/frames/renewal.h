@@ -83,8 +83,9 @@ std::vector<std::uint8_t> grown(const VertexGraph& graph, std::vector<std::uint8
 // Among the others sub-texel misalignments are closed. Each connected piece of them is accepted only if that
 // lowers the summed badness of the surface by a least mean gain: its own, and that of its neighbours, whose
 // seams change with it. renewed (#V) is 1 where a label was accepted. Every renewal lowers a sum that is
-// bounded below, so a surface at rest comes to rest.
+// bounded below, so a surface at rest comes to rest. factor: #V, on the badness; empty: 1.
 Labels settle(const SeamModel& model, const Labels& carried, const Labels& proposed,
-              const std::vector<float>& trust, std::vector<std::uint8_t>& renewed);
+              const std::vector<float>& trust, std::vector<std::uint8_t>& renewed,
+              const std::vector<float>& factor = {});
 
 }  // namespace fluidtex::texture
