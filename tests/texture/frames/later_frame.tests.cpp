@@ -130,14 +130,16 @@ TEST_CASE("later frame: locked texture stays however it is stretched, but new su
   CHECK(double(renewed) > 0.95 * double(doubted));
 }
 
-TEST_CASE("later frame: where wear counts more, texture is renewed sooner") {
+TEST_CASE("later frame: where wear counts more, texture is renewed sooner; where it counts less, later") {
   Rested rested;
-  rested.stretchHalf(1.08f);  // less than keepStretch
+  rested.stretchHalf(1.15f);  // less than keepStretch
+  const std::size_t count = rested.first.positions.size();
   SynthesisStats stats;
-  const std::size_t before = renewedIn(rested.next(stats));
-  CHECK(before < 5);
-  rested.carried.renewal.assign(rested.first.positions.size(), 5.0f);
-  CHECK(renewedIn(rested.next(stats)) > 10 * before + 50);
+  const std::size_t usual = renewedIn(rested.next(stats));
+  rested.carried.renewal.assign(count, 0.5f);
+  CHECK(renewedIn(rested.next(stats)) < usual / 4);
+  rested.carried.renewal.assign(count, 5.0f);
+  CHECK(renewedIn(rested.next(stats)) > 3 * usual + count / 10);
 }
 
 TEST_CASE("later frame: fades last as the options say, and less where the flow would draw them out") {
