@@ -95,18 +95,19 @@ double leastByPushRelabel(const Problem& problem) {
                                       boost::property<boost::edge_reverse_t, Traits::edge_descriptor>>>>;
   const std::size_t count = problem.keep.size(), source = count, sink = count + 1;
   Graph graph(count + 2);
-  const auto add = [&](std::size_t i, std::size_t j, double there, double back) {
+  const auto add = [&](std::size_t i, std::size_t j, double capacity) {
     const auto a = boost::add_edge(i, j, graph).first, b = boost::add_edge(j, i, graph).first;
-    boost::put(boost::edge_capacity, graph, a, there);
-    boost::put(boost::edge_capacity, graph, b, back);
+    boost::put(boost::edge_capacity, graph, a, capacity);
+    boost::put(boost::edge_capacity, graph, b, 0.0);
     boost::put(boost::edge_reverse, graph, a, b);
     boost::put(boost::edge_reverse, graph, b, a);
   };
   for (std::size_t i = 0; i < count; ++i) {
-    add(source, i, problem.take[i], 0.0);
-    add(i, sink, problem.keep[i], 0.0);
+    add(source, i, problem.take[i]);
+    add(i, sink, problem.keep[i]);
   }
-  for (const Pair& p : problem.pairs) add(p.i, p.j, p.keepTake, p.takeKeep);
+  // Boost's own check of the flow knows no reverse edges that have a capacity.
+  for (const Pair& p : problem.pairs) add(p.i, p.j, p.keepTake), add(p.j, p.i, p.takeKeep);
   return boost::push_relabel_max_flow(graph, source, sink);
 }
 
