@@ -4,6 +4,7 @@
 #include "pipeline/texture_frame.h"
 #include "python/arrays.h"
 #include "scenes/source.h"
+#include "sim/meshes/read_mesh.h"
 #include "texture/joints/cut.h"
 
 #include <fmt/core.h>
