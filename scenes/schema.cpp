@@ -231,7 +231,8 @@ void describeTexture(Visitor& visitor, Scene& scene, Need need) {
         }
         texture::SynthesisOptions& synthesis = texture.synthesis;
         choice(visitor, "method", synthesis.method, {"coordinates", "kwatra07", "none"});
-        choice(visitor, "later_frames", texture.laterFrames, {"synthesize", "advect", "alone", "birth", "dual_rest"});
+        choice(visitor, "later_frames", texture.laterFrames,
+               {"synthesize", "advect", "alone", "birth", "dual_rest"});
         visitor.integer("rest_frames", texture.restFrames, {.low = 1, .high = 9999});
         visitor.integers("windows", synthesis.windows, {.low = 3, .high = 255});
         visitor.integers("first_iterations", synthesis.firstIterations, {.low = 1, .high = 1000});

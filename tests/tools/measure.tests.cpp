@@ -17,8 +17,8 @@ TEST_CASE("fluidtex measure: fills the report of a run and writes all figures", 
                       "texture.points=5000"})
               .exitCode == 0);
   const fs::path motion = scratch.path / "motion";
-  const Finished done = runProgram({"measure", out.string(), "--json", json.string(), "--every", "2",
-                                    "--motion", motion.string()});
+  const Finished done = runProgram(
+      {"measure", out.string(), "--json", json.string(), "--every", "2", "--motion", motion.string()});
   INFO(done.err);
   REQUIRE(done.exitCode == 0);
   CHECK_THAT(done.out, Catch::Contains("likeness") && Catch::Contains("mean"));
@@ -41,8 +41,8 @@ TEST_CASE("fluidtex measure: fills the report of a run and writes all figures", 
   CHECK(figures["frames"][0]["shape"].get<double>() >= 1.0);
   CHECK(figures["mean"]["pop"] ==
         (figures["frames"][1]["pop"].get<double>() + figures["frames"][2]["pop"].get<double>()) / 2);
-  CHECK(filesIn(motion) == std::vector<std::string>{"0001.flo", "0001.png", "0002.flo", "0002.png",
-                                                    "0003.flo", "0003.png"});
+  CHECK(filesIn(motion) ==
+        std::vector<std::string>{"0001.flo", "0001.png", "0002.flo", "0002.png", "0003.flo", "0003.png"});
   // The same once more: nothing in it depends on chance.
   REQUIRE(runProgram({"measure", out.string(), "--json", (scratch.path / "n.json").string(), "--every", "2"})
               .exitCode == 0);

@@ -247,16 +247,15 @@ class FrameLoop {
       reporter(nameOf(stage))(part);
     };
     result.textured = pipeline::textureFrame(m_texturing, m_surface, result.motion, {progress});
-    seconds.prepare = result.textured.seconds.prepare;
-    seconds.transport = result.textured.seconds.transport;
-    seconds.synthesize = result.textured.seconds.synthesize;
+    const auto [prepare, transport, synthesize] = result.textured.seconds;
+    seconds.prepare = prepare, seconds.transport = transport, seconds.synthesize = synthesize;
     if (const double spacing = result.textured.surface.spacing; spacing != m_surface.spacing)
       spdlog::info("texture: one point every {:.4g} m, {}", spacing,
                    result.textured.foreseenSpacing ? "for the surface that the liquid is going to have"
                                                    : "by the first surface");
     if (frame == 1 && pipeline::beginsWithMesh(m_scene) && !result.textured.surface.empty()) {
-      const StartNote note = startNote(m_scene.start, result.textured.surface);
-      note.isWarning ? warn(note.text) : spdlog::info("{}", note.text);
+      const auto [text, isWarning] = startNote(m_scene.start, result.textured.surface);
+      isWarning ? warn(text) : spdlog::info("{}", text);
     }
     return result;
   }

@@ -11,7 +11,8 @@ namespace fluidtex::tools {
 // Means over the frames of a finished run; nothing where a measure is unknown.
 struct Compared {
   std::string label;
-  std::optional<double> likeness, sharpness, alongFlow, pop, warp, shape;  // as `fluidtex measure` defines them
+  std::optional<double> likeness, sharpness, alongFlow, pop, warp,
+      shape;                      // as `fluidtex measure` defines them
   std::optional<double> renewed;  // share of the vertices, on the frames after the first with a surface
   std::optional<double> seconds;  // of transport and synthesis, on these frames
 };
