@@ -27,8 +27,8 @@ std::vector<std::uint8_t> contactAt(const std::vector<texture::Vec3f>& positions
 // options.method; projects it onto the closest point of `previous`; and picks up the values there:
 //  - exemplar coordinate: the nearest corner's plus its gradient times the offset, never averaged across a
 //    seam; its gradient deformed by the flow; likewise the former coordinate of a cross-fade;
-//  - colour, age, foam and rest positions: barycentric; whether the texture is original: the nearest
-//  corner's;
+//  - colour, age, foam and rest positions: barycentric;
+//  - whether the texture is original: the nearest corner's;
 //  - orientation: cubic between the corners, turned with the flow by equation (4) or, as options.orientation
 //    says, not; tangent to the new surface. Directions equal under rotations by 360 / symmetry degrees are
 //    interpolated as one. With Method::grid it is advected on the grid as a vector, symmetry 1.
