@@ -10,6 +10,7 @@
 #include "sim/shapes/pose.h"
 #include "sim/shapes/shape_distance.h"
 #include "sim/solids/domain.h"
+#include "texture/exemplar/image.h"
 #include "tools/base/console.h"
 #include "tools/base/errors.h"
 
@@ -216,6 +217,23 @@ scenes::Source sourceOf(const CommonOptions& options) {
   return {"stdin", standardInput()};
 }
 
+namespace {
+
+// The mesh is often the liquid's own: its name stands at two keys.
+void fitToMesh(const CommonOptions& options, scenes::Scene& scene) {
+  try {
+    pipeline::fitToStart(scene);
+  } catch (const sim::MeshError& error) {
+    if (isCache(options.scene)) throw;
+    throw scenes::SceneError(
+        {scenes::faultLine(sourceOf(options), overridesOf(options), "texture.start.file", error.what())});
+  } catch (const texture::ExemplarError&) {
+    atItsLine(options, scene, [] { throw; });
+  }
+}
+
+}  // namespace
+
 scenes::Scene loadScene(const CommonOptions& options) {
   const scenes::Overrides overrides = overridesOf(options);
   const bool ofCache = isCache(options.scene);
@@ -243,8 +261,8 @@ scenes::Scene loadScene(const CommonOptions& options) {
       for (const std::string& line : found) print("{}\n", line);
   }
   const openvdb::BBoxd domain = sim::domainBox(scene.sim);
+  fitToMesh(options, scene);
   atItsLine(options, scene, [&] {
-    pipeline::fitToStart(scene);
     for (const sim::LiquidBody& body : scene.sim.liquid)
       tryMeshes(body.shape, domain, scene.sim.size, options.quiet);
     for (const sim::Solid& solid : scene.sim.solids)

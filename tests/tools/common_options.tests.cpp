@@ -56,6 +56,9 @@ TEST_CASE("command line: what does not fit is told at the scene's own line", "[t
                          "file = 'no picture.png'\n"),
              StartsWith("s.toml:9:1: error: texture.map.0.file: no picture.png"));
   CHECK_THAT(
+      told(good + "box = { min = [0.5, 0, 0], max = [0.6, 1, 1] }\n[texture.start]\nfile = 'open.obj'\n"),
+      StartsWith("s.toml:8:1: error: texture.start.file: open.obj: no face has texture coordinates"));
+  CHECK_THAT(
       told(good + "box = { min = [0.5, 0, 0], max = [0.6, 1, 1] }\n", {"--exemplar", "no picture.png"}),
       StartsWith("--exemplar no picture.png: error: texture.exemplar: no picture.png"));
 }
