@@ -51,6 +51,9 @@ constexpr std::pair<const char*, const char*> kColumns[] = {{"likeness", "likene
                                                             {"worn", "worn"},
                                                             {"least_change", "least"}};
 
+// A side of a scene's pictures, pixels.
+constexpr std::int64_t kLargestPicture = 16384;
+
 // Camera and size of the run's pictures; nothing where the report does not tell them.
 std::optional<render::Options> viewOf(const Json& scene) {
   const auto vector = [](const Json& values, render::Vec3d& to) {
@@ -62,13 +65,16 @@ std::optional<render::Options> viewOf(const Json& scene) {
     return true;
   };
   const Json camera = scene.value("camera", Json::object()), render = scene.value("render", Json::object());
+  if (!camera.is_object() || !render.is_object()) return std::nullopt;
   const Json size = render.value("size", Json::array());
   if (!size.is_array() || size.size() != 2 || !size[0].is_number_integer() || !size[1].is_number_integer() ||
       !camera.contains("fov") || !camera["fov"].is_number())
     return std::nullopt;
   render::Options view;
-  view.width = size[0].get<int>();
-  view.height = size[1].get<int>();
+  const auto width = size[0].get<std::int64_t>(), height = size[1].get<std::int64_t>();
+  if (std::min(width, height) < 2 || std::max(width, height) > kLargestPicture) return std::nullopt;
+  view.width = int(width);
+  view.height = int(height);
   view.camera.fov = camera["fov"].get<double>();
   if (camera.contains("turn") && camera["turn"].is_number()) view.camera.turn = camera["turn"].get<double>();
   if (!vector(camera.value("from", Json()), view.camera.from) ||
@@ -148,7 +154,9 @@ class Measurer {
  private:
   // What the run's camera sees; also written where that is wished.
   render::MotionImage seenIn(int frame, const texture::TexturedSurface& surface) const {
-    const int last = m_run.report["scene"].value("frames", 1);
+    const Json& scene = m_run.report["scene"];
+    const auto frames = scene.find("frames");
+    const int last = frames != scene.end() && frames->is_number_integer() ? frames->get<int>() : 1;
     const auto progress = [&](int at) {
       return last > 1 ? std::clamp(double(at - 1) / (last - 1), 0.0, 1.0) : 0.0;
     };
