@@ -134,9 +134,11 @@ FinishedRun openRun(const fs::path& out, const fs::path& exemplar) {
   run.color = texture::readImage(run.exemplar);
   if (halved && !exemplar.empty()) {
     const texture::Image used = texture::readImage(out / kExemplarFile);
-    texture::ExemplarOptions as{.file = run.exemplar, .toroidal = run.toroidal};
-    while (texture::exemplarSide(as, run.color.width) > used.width) ++as.halvings;
-    run.color = texture::exemplarPicture(as);
+    if (used.width != run.color.width || used.height != run.color.height)
+      throw UsageError(
+          fmt::format("{}: has {} x {} pixels, and the run took its picture halved to {} x {}; give {}",
+                      exemplar.string(), run.color.width, run.color.height, used.width, used.height,
+                      (out / kExemplarFile).string()));
   }
   nowAt(kOnRun);
   run.frames = framesIn(out / "surface", ".ply");
