@@ -83,7 +83,7 @@ void writeBytes(const std::filesystem::path& file, const std::vector<unsigned ch
 std::string refusal(const std::filesystem::path& file, const SynthesisOptions& options = {}) {
   std::string message;
   try {
-    loadExemplar({file, false, {}, {}, Between::points, {}}, options, 3);
+    loadExemplar({.file = file}, options, 3);
   } catch (const ExemplarError& error) {
     message = error.what();
   }
@@ -246,7 +246,7 @@ TEST_CASE("image: what can be read but not used is refused likewise", "[texture]
 TEST_CASE("exemplar: a file gives what its pixels give", "[texture]") {
   const Folder folder;
   const auto file = write(folder, "rgba.png", 4, TypeDesc::UINT8);
-  const Exemplar loaded = loadExemplar({file, true, {}, {}, Between::points, {}}, {}, 3),
+  const Exemplar loaded = loadExemplar({.file = file, .toroidal = true}, {}, 3),
                  made = makeExemplar(readImage(file), true, {}, 3);
   CHECK(loaded.toroidal);
   CHECK(loaded.colorChannels == 4);
