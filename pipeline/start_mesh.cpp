@@ -1,5 +1,6 @@
 #include "pipeline/start_mesh.h"
 
+#include "scenes/schema.h"
 #include "sim/meshes/read_uv_mesh.h"
 #include "texture/exemplar/exemplar.h"
 #include "texture/frames/renewal.h"
@@ -11,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace fluidtex::pipeline {
 namespace {
@@ -46,6 +48,8 @@ TexturedSurface texturedMesh(const sim::UvMesh& mesh, int width, int height) {
   TexturedSurface surface;
   surface.exemplarWidth = width;
   surface.exemplarHeight = height;
+  std::vector<Vec2f> coordinate;
+  std::vector<TexelGradient> gradients;
   double area = 0.0, pixels = 0.0;
   for (std::size_t i = 0; i + 2 < mesh.positions.size(); i += 3) {
     std::array<Vec3f, 3> x;
@@ -70,19 +74,15 @@ TexturedSurface texturedMesh(const sim::UvMesh& mesh, int width, int height) {
       surface.positions.push_back(x[c]);
       surface.normals.push_back(normal.unit());
       surface.orientation.push_back(gradient.s.unit());
-      surface.coordinate.push_back(q[c]);
-      surface.gradient.push_back(gradient);
+      coordinate.push_back(q[c]);
+      gradients.push_back(gradient);
     }
   }
-  const std::size_t count = surface.positions.size();
-  surface.color.assign(count, texture::Vec4f(0.5f, 0.5f, 0.5f, 1.0f));
-  surface.fading = texture::noFading(count);
-  surface.age.assign(count, 0.0f);
-  surface.trust.assign(count, 1.0f);
-  surface.previousPosition = surface.positions;
-  surface.velocity.assign(count, Vec3f(0.0f));
-  surface.contact.assign(count, 0);
-  surface.spacing = count > 0 ? std::sqrt(area / pixels) : 0.0;
+  texture::clearTexture(surface);
+  surface.coordinate = std::move(coordinate);
+  surface.gradient = std::move(gradients);
+  surface.trust.assign(surface.positions.size(), 1.0f);
+  surface.spacing = pixels > 0.0 ? std::sqrt(area / pixels) : 0.0;
   return surface;
 }
 
@@ -106,13 +106,12 @@ namespace {
 
 // The limits of texture.spacing, where the domain is known.
 void checkPixel(const scenes::Scene& scene, double pixel) {
-  constexpr double kMostPoints = 50e6;
   const sim::Vec3d& size = scene.sim.size;
   const double shortest = std::min({size[0], size[1], size[2]});
   if (!(shortest > 0.0)) return;
   const double faces = 2.0 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
   const char* wrong = pixel >= shortest ? "as long as the domain's shortest side or longer"
-                      : faces / pixel / pixel > kMostPoints
+                      : faces / pixel / pixel > scenes::kMostPoints
                           ? "so short that the liquid would have too many points"
                           : nullptr;
   if (wrong == nullptr) return;

@@ -116,31 +116,10 @@ TexturedSurface textured(Texturing& texturing, Surface surface, const Carried& c
   return result;
 }
 
-}  // namespace
-
-Texturing makeTexturing(const scenes::Scene& scene, const texture::CacheFolder& cache) {
-  scenes::Scene fitted = scene;
-  fitToStart(fitted);
-  const texture::ExemplarOptions& exemplar = fitted.texture.exemplar;
-  texture::Image shown;
-  if (beginsWithMesh(fitted) && exemplar.guidance.empty()) {
-    const texture::Image picture = texture::exemplarPicture(exemplar);
-    shown = shownByStart(startSurface(fitted, picture.width, picture.height), picture.width, picture.height,
-                         exemplar.toroidal);
-  }
-  return makeTexturing(fitted,
-                       texture::loadExemplar(exemplar, fitted.texture.synthesis,
-                                             fitted.texture.surface.levels, cache, std::move(shown)),
-                       cache);
-}
-
-Texturing makeTexturing(const scenes::Scene& scene, texture::Exemplar exemplar,
-                        const texture::CacheFolder& cache) {
-  const texture::Image& color = exemplar.color;
-  texture::TexturedSurface start = startSurface(scene, color.width, color.height);
-  scenes::Scene fitted = scene;
-  if (!start.empty() && !(scene.texture.spacing > 0.0)) fitted.texture.spacing = start.spacing;
-  return {fitted,
+// start: startSurface() on the exemplar.
+Texturing assembled(const scenes::Scene& scene, texture::Exemplar exemplar, TexturedSurface start,
+                    const texture::CacheFolder& cache) {
+  return {scene,
           texture::makeSynthesizer(std::move(exemplar), scene.texture.synthesis, cache),
           orientationGuide(scene),
           textureScale(scene),
@@ -150,6 +129,33 @@ Texturing makeTexturing(const scenes::Scene& scene, texture::Exemplar exemplar,
           texture::moves(scene.texture)
               ? Animation(scene.texture.exemplar.animation, scene.texture.exemplar.toroidal)
               : Animation()};
+}
+
+}  // namespace
+
+Texturing makeTexturing(const scenes::Scene& scene, const texture::CacheFolder& cache) {
+  scenes::Scene fitted = scene;
+  fitToStart(fitted);
+  const texture::ExemplarOptions& options = fitted.texture.exemplar;
+  TexturedSurface start;
+  texture::Image shown;
+  if (!fitted.start.mesh.file.empty()) {
+    const texture::Image picture = texture::exemplarPicture(options);
+    start = startSurface(fitted, picture.width, picture.height);
+    if (beginsWithMesh(fitted) && options.guidance.empty())
+      shown = shownByStart(start, picture.width, picture.height, options.toroidal);
+  }
+  texture::Exemplar exemplar = texture::loadExemplar(options, fitted.texture.synthesis,
+                                                     fitted.texture.surface.levels, cache, std::move(shown));
+  return assembled(fitted, std::move(exemplar), std::move(start), cache);
+}
+
+Texturing makeTexturing(const scenes::Scene& scene, texture::Exemplar exemplar,
+                        const texture::CacheFolder& cache) {
+  TexturedSurface start = startSurface(scene, exemplar.color.width, exemplar.color.height);
+  scenes::Scene fitted = scene;
+  if (!start.empty() && !(scene.texture.spacing > 0.0)) fitted.texture.spacing = start.spacing;
+  return assembled(fitted, std::move(exemplar), std::move(start), cache);
 }
 
 TexturedFrame textureFrame(Texturing& texturing, const TexturedSurface& last, const sim::Frame& frame,

@@ -2,7 +2,6 @@
 
 #include "render/camera.h"
 #include "render/embree_scene.h"
-#include "texture/exemplar/srgb.h"
 
 #include <tbb/parallel_for.h>
 
@@ -34,13 +33,6 @@ Value between(const std::vector<Value>& values, const texture::Vec3I& corners, c
   return values[corners[0]] * weights[0] + values[corners[1]] * weights[1] + values[corners[2]] * weights[2];
 }
 
-Vec3f seenColor(const texture::Vec4f& color) {
-  const float alpha = std::clamp(color[3], 0.0f, 1.0f);
-  Vec3f seen;
-  for (int c = 0; c < 3; ++c) seen[c] = kGrey + (texture::encodeSrgb(color[c]) - kGrey) * alpha;
-  return seen;
-}
-
 // The four pixels around pixel coordinates, and their weights; nothing beyond the picture.
 struct Around {
   std::array<std::size_t, 4> pixel;
@@ -59,8 +51,8 @@ std::optional<Around> around(const MotionImage& image, const Vec2f& at) {
 
 }  // namespace
 
-MotionImage motionImage(const texture::TexturedSurface& surface, const Options& options, double now,
-                        double before, float leastTrust) {
+MotionImage motionImage(const texture::TexturedSurface& surface, const std::vector<Vec3f>& color,
+                        const Options& options, double now, double before, float leastTrust) {
   const auto pixels = std::size_t(options.width) * std::size_t(options.height);
   MotionImage image{options.width,
                     options.height,
@@ -85,7 +77,7 @@ MotionImage motionImage(const texture::TexturedSurface& surface, const Options& 
       const std::size_t pixel = std::size_t(y) * std::size_t(image.width) + x;
       const texture::Vec3I& corners = surface.triangles[ray.triangle];
       const Vec3f weights(1.0f - ray.u - ray.v, ray.u, ray.v);
-      image.color[pixel] = seenColor(between(surface.color, corners, weights));
+      image.color[pixel] = between(color, corners, weights);
       image.distance[pixel] = (between(surface.positions, corners, weights) - camera.origin).length();
       if (!(between(surface.trust, corners, weights) >= leastTrust)) continue;
       const Vec3f place = between(surface.previousPosition, corners, weights);

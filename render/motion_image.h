@@ -15,7 +15,7 @@ namespace fluidtex::render {
 // height x width each, rows from the top.
 struct MotionImage {
   int width = 0, height = 0;
-  std::vector<Vec3f> color;     // sRGB-encoded, composited over mid grey; the vertices' colours, interpolated
+  std::vector<Vec3f> color;     // of the vertices, interpolated; mid grey where no liquid is seen
   std::vector<float> distance;  // metres from the camera; infinite where no liquid is seen
   // Pixel coordinates of the place a frame ago, as the camera stood then: (0.5, 0.5) is the middle of the top
   // left pixel. NaN where no liquid is seen, where the place was behind the camera, and on new surface.
@@ -23,10 +23,11 @@ struct MotionImage {
   std::vector<float> distanceBefore;  // metres from the camera then
 };
 
-// A ray through the middle of each pixel. Solids hide nothing. now, before: positions of a turning camera, 0
-// at the first and 1 at the last frame. leastTrust: below it surface is new.
-MotionImage motionImage(const texture::TexturedSurface& surface, const Options& options, double now,
-                        double before, float leastTrust);
+// A ray through the middle of each pixel. Solids hide nothing. color: #V, as seen without light, 0..1,
+// sRGB-encoded. now, before: positions of a turning camera, 0 at the first and 1 at the last frame.
+// leastTrust: below it surface is new.
+MotionImage motionImage(const texture::TexturedSurface& surface, const std::vector<Vec3f>& color,
+                        const Options& options, double now, double before, float leastTrust);
 
 // Warp error [Lai et al., "Learning blind video temporal consistency", 2018, eq. (13)]: mean over pixels of
 // the squared difference from the last picture, R, G and B summed, read (bilinear) where the pixel was.

@@ -1,5 +1,6 @@
 #include "scenes/checks.h"
 #include "scenes/format.h"
+#include "scenes/schema.h"
 #include "texture/map_names.h"
 
 #include <algorithm>
@@ -28,9 +29,6 @@ void checkAttribute(const Scene& scene, const std::string& path, const std::stri
     reader.fault(key, "the liquid has no \"" + attribute + "\"",
                  "give \"temperature\" with simulate = true in [heat], or a liquid out of files");
 }
-
-// As many as texture.points may be.
-constexpr double kMostPoints = 50e6;
 
 // To two digits, as a length that can be recommended.
 double roundedUp(double length) {

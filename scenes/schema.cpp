@@ -226,7 +226,7 @@ void describeTexture(Visitor& visitor, Scene& scene, Need need) {
           visitor.absent("points");
           visitor.number("spacing", texture.spacing, kPositive);
         } else {
-          visitor.integer("points", texture.points, {.low = 100, .high = 50e6});
+          visitor.integer("points", texture.points, {.low = 100, .high = kMostPoints});
           visitor.absent("spacing");
         }
         texture::SynthesisOptions& synthesis = texture.synthesis;

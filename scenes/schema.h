@@ -13,6 +13,9 @@ inline const std::vector<std::string> kShapeKeys = {"box",          "sphere", "c
                                                     "height_field", "union",  "difference"};
 inline const std::vector<std::string> kDensityKeys = {"points", "spacing"};
 
+// Most points there can be: of texture.points, and by texture.spacing on the domain's six faces.
+inline constexpr double kMostPoints = 50e6;
+
 // In the order of sim::DomainFace.
 inline const std::vector<std::string> kDomainFaces = {"all",    "x_low", "x_high", "y_low",
                                                       "y_high", "z_low", "z_high"};

@@ -118,4 +118,19 @@ struct TexturedSurface : SurfaceMesh, VertexTexture {
   bool empty() const { return positions.empty(); }
 };
 
+// Gives the surface's vertices no texture: mid grey, coordinates 0, nothing that fades, age and trust 0, at
+// rest where they are.
+inline void clearTexture(TexturedSurface& surface) {
+  const std::size_t count = surface.positions.size();
+  static_cast<VertexTexture&>(surface) = {.color = std::vector<Vec4f>(count, Vec4f(0.5f, 0.5f, 0.5f, 1.0f)),
+                                          .coordinate = std::vector<Vec2f>(count, Vec2f(0.0f)),
+                                          .gradient = std::vector<TexelGradient>(count),
+                                          .fading = noFading(count),
+                                          .age = std::vector<float>(count, 0.0f),
+                                          .trust = std::vector<float>(count, 0.0f),
+                                          .previousPosition = surface.positions};
+  surface.velocity.assign(count, Vec3f(0.0f));
+  surface.contact.assign(count, 0);
+}
+
 }  // namespace fluidtex::texture

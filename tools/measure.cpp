@@ -10,6 +10,7 @@
 #include "texture/measure/measure.h"
 #include "texture/measure/new_surface.h"
 #include "texture/measure/pieces.h"
+#include "texture/measure/tiles.h"
 #include "texture/measure/wear.h"
 #include "texture/shown/maps.h"
 #include "tools/base/atomic_file.h"
@@ -161,7 +162,8 @@ class Measurer {
       return last > 1 ? std::clamp(double(at - 1) / (last - 1), 0.0, 1.0) : 0.0;
     };
     render::MotionImage seen =
-        render::motionImage(surface, *m_view, progress(frame), progress(frame - 1), texture::kNewSurface);
+        render::motionImage(surface, texture::seenColors(surface), *m_view, progress(frame),
+                            progress(frame - 1), texture::kNewSurface);
     if (m_wishes.motion.empty()) return seen;
     const fs::path name = m_wishes.motion / render::frameName(frame);
     writeAtomically(name.string() + ".png",

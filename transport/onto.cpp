@@ -59,15 +59,7 @@ TexturedSurface onto(const TexturedSurface& surface, std::vector<Vec3f> position
   result.exemplarHeight = surface.exemplarHeight;
   const std::size_t count = result.positions.size();
   result.orientation = texture::referenceVectors(result.normals);
-  result.color.assign(count, Vec4f(0.5f, 0.5f, 0.5f, 1.0f));
-  result.coordinate.assign(count, Vec2f(0.0f));
-  result.gradient.resize(count);
-  result.fading = texture::noFading(count);
-  result.age.assign(count, 0.0f);
-  result.trust.assign(count, 0.0f);
-  result.previousPosition = result.positions;
-  result.velocity.assign(count, Vec3f(0.0f));
-  result.contact.assign(count, 0);
+  texture::clearTexture(result);
   if (!surface.scale.empty()) result.scale.assign(count, 1.0f);
   if (!surface.guidance.empty()) result.guidance.assign(count, 0.0f);
   if (!surface.foam.empty()) result.foam.assign(count, 0.0f);

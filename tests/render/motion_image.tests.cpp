@@ -47,11 +47,17 @@ texture::TexturedSurface sheet(const Vec3f& step, float half = 2.0f) {
   return surface;
 }
 
+MotionImage seen(const texture::TexturedSurface& surface, const Options& options, double now = 0.0) {
+  std::vector<Vec3f> colors;
+  for (const texture::Vec4f& color : surface.color) colors.emplace_back(color[0], color[1], color[2]);
+  return motionImage(surface, colors, options, now, 0.0, 0.5f);
+}
+
 }  // namespace
 
 TEST_CASE("motion image: a sheet that has moved by pixels was so many pixels away", "[render]") {
   // Three pixels to the right and one up.
-  const MotionImage image = motionImage(sheet({0.15f, 0.0f, 0.05f}), lookingAt(), 0.0, 0.0, 0.5f);
+  const MotionImage image = seen(sheet({0.15f, 0.0f, 0.05f}), lookingAt());
   REQUIRE(image.color.size() == 1600);
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 40; ++x) {
@@ -70,31 +76,31 @@ TEST_CASE("motion image: a camera that turns, new surface, and where nothing is"
   turning.camera.turn = 1.0;
   // The sheet's middle is what the camera looks at: it stays, and a place nearer to the camera moves.
   texture::TexturedSurface still = sheet(Vec3f(0.0f));
-  const MotionImage image = motionImage(still, turning, 1.0, 0.0, 0.5f);
+  const MotionImage image = seen(still, turning, 1.0);
   CHECK(image.before[820][0] == Approx(20.5).margin(0.05));
   for (Vec3f& x : still.positions) x[1] = -1.0f;
   still.previousPosition = still.positions;
-  CHECK(std::abs(motionImage(still, turning, 1.0, 0.0, 0.5f).before[820][0] - 20.5f) > 0.2f);
+  CHECK(std::abs(seen(still, turning, 1.0).before[820][0] - 20.5f) > 0.2f);
 
   for (std::size_t v = 0; v < still.trust.size(); ++v)
     if (still.positions[v][0] < 0.0f) still.trust[v] = 0.0f;
-  const MotionImage partly = motionImage(still, lookingAt(), 0.0, 0.0, 0.5f);
+  const MotionImage partly = seen(still, lookingAt());
   CHECK(std::isnan(partly.before[805][0]));
   CHECK(std::isfinite(partly.before[835][0]));
-  const MotionImage small = motionImage(sheet(Vec3f(0.0f), 0.5f), lookingAt(), 0.0, 0.0, 0.5f);
+  const MotionImage small = seen(sheet(Vec3f(0.0f), 0.5f), lookingAt());
   CHECK(std::isinf(small.distance[0]));
   CHECK(std::isnan(small.before[0][0]));
   CHECK(small.color[0] == Vec3f(0.5f));
-  CHECK(std::isinf(motionImage({}, lookingAt(), 0.0, 0.0, 0.5f).distance[820]));
+  CHECK(std::isinf(seen({}, lookingAt()).distance[820]));
 }
 
 TEST_CASE(
     "warp error: none of what moves with the surface, that of a change of colour, none of what is hidden",
     "[render]") {
   const Options options = lookingAt();
-  const MotionImage first = motionImage(sheet(Vec3f(0.0f)), options, 0.0, 0.0, 0.5f);
+  const MotionImage first = seen(sheet(Vec3f(0.0f)), options);
   const texture::TexturedSurface moved = sheet({0.14f, 0.0f, 0.06f});  // 2.8 pixels and 1.2
-  const MotionImage second = motionImage(moved, options, 0.0, 0.0, 0.5f);
+  const MotionImage second = seen(moved, options);
   const auto carried = warpError(first, second, 0.1);
   REQUIRE(carried);
   CHECK(carried->error < 1e-6);
@@ -113,7 +119,7 @@ TEST_CASE(
 
 TEST_CASE("motion image: FLO files hold the motion to the frame before", "[render]") {
   const Scratch folder;
-  MotionImage image = motionImage(sheet({0.15f, 0.0f, 0.05f}), lookingAt(), 0.0, 0.0, 0.5f);
+  MotionImage image = seen(sheet({0.15f, 0.0f, 0.05f}), lookingAt());
   image.before[1] = Vec2f(std::nanf(""));
   writeFlo(image, folder.path / "a.flo");
   const std::string bytes = readBytes(folder.path / "a.flo");

@@ -167,14 +167,8 @@ factor = 3
 sphere = { center = [1, 1, 1], radius = 0.25 }
 [texture.renewal]
 by = "distance"
-[[texture.renewal.point]]
-value = 0
-factor = 0
-[[texture.renewal.point]]
-value = 0.5
-factor = 4
-[[texture.renewal.from]]
-sphere = { center = [1, 1, 1], radius = 0.5 }
+point = [ { value = 0, factor = 0 }, { value = 0.5, factor = 4 } ]
+from = [ { sphere = { center = [1, 1, 1], radius = 0.5 } } ]
 [texture.start]
 file = "m.obj"
 up = "y"

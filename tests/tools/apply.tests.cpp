@@ -66,10 +66,7 @@ TEST_CASE("fluidtex apply: later gives what the run itself would have written, i
   writeImage(scratch.path / "shade.png", 256, 1);
   writeImage(scratch.path / "fine.png", 1024, 3);
   const auto run = [&](const fs::path& out, const std::vector<std::string>& more) {
-    std::vector<std::string> args{"run",      kSmallScene, "--out",      out.string(),
-                                  "--frames", "1:3",       "--no-render"};
-    args.insert(args.end(), more.begin(), more.end());
-    well(args);
+    well(plus({"run", kSmallScene, "--out", out.string(), "--frames", "1:3", "--no-render"}, more));
   };
   run(with, {"--set", "texture.map=[{ name = 'shade', file = '" + (scratch.path / "shade.png").string() +
                           "' }, { name = 'fine', file = '" + (scratch.path / "fine.png").string() +

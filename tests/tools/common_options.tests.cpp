@@ -38,9 +38,8 @@ TEST_CASE("command line: what does not fit is told at the scene's own line", "[t
   const auto told = [&](const std::string& scene, const std::vector<std::string>& more = {}) {
     const fs::path file = scratch.path / "s.toml";
     std::ofstream(file) << scene;
-    std::vector<std::string> args{"run", "s.toml", "--out", "out", "--frames", "1:1"};
-    args.insert(args.end(), more.begin(), more.end());
-    const Finished run = runProgram(args, scratch.path);
+    const Finished run =
+        runProgram(plus({"run", "s.toml", "--out", "out", "--frames", "1:1"}, more), scratch.path);
     INFO(run.all());
     CHECK(run.exitCode == 1);
     CHECK(linesOf(run.err) == 1);

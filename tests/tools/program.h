@@ -15,6 +15,13 @@
 #include <thread>
 #include <vector>
 
+using Words = std::vector<std::string>;
+
+inline Words plus(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 struct Finished {
   int exitCode = -1;     // -1: ended by a signal
   std::string out, err;  // what it printed

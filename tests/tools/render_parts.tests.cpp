@@ -25,8 +25,7 @@ TEST_CASE("fluidtex render --part: the run's own bytes, from several processes i
   const std::vector<std::string> scene{kSmallScene, "--set", "frames=3", "--set", between};
   const auto with = [&](std::vector<std::string> args, const std::vector<std::string>& more) {
     args.insert(args.begin() + 1, scene.begin(), scene.end());
-    args.insert(args.end(), more.begin(), more.end());
-    return args;
+    return plus(std::move(args), more);
   };
   well(runProgram(with({"run"}, {"--out", whole})));
   well(runProgram(with({"run"}, {"--no-render", "--out", out})));

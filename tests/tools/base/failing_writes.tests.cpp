@@ -10,7 +10,6 @@
 #include <fstream>
 
 namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
 
 namespace {
 

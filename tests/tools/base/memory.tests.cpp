@@ -7,7 +7,6 @@
 #include <algorithm>
 
 namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
 
 namespace {
 

@@ -58,7 +58,8 @@ TEST_CASE("color between: looked up where coordinates are transported, and colou
   };
   CHECK(with(Method::coordinates, LaterFrames::synthesize));
   CHECK(with(Method::coordinates, LaterFrames::alone));
-  CHECK_FALSE(with(Method::coordinates, LaterFrames::advect));
+  for (const LaterFrames later : {LaterFrames::advect, LaterFrames::birth, LaterFrames::dualRest})
+    CHECK_FALSE(with(Method::coordinates, later));
   CHECK_FALSE(with(Method::kwatra07, LaterFrames::synthesize));
   CHECK_FALSE(with(Method::none, LaterFrames::synthesize));
 }

@@ -28,10 +28,8 @@ TEST_CASE(
   const Scratch scratch;
   const fs::path whole = scratch.path / "whole", resumed = scratch.path / "resumed";
   const auto run = [&](const fs::path& out, const std::vector<std::string>& more) {
-    std::vector<std::string> words{"run",     kSmallScene, "--no-render", "--no-report",
-                                   "--quiet", "--out",     out.string()};
-    words.insert(words.end(), more.begin(), more.end());
-    const Finished done = runProgram(words);
+    const Finished done = runProgram(
+        plus({"run", kSmallScene, "--no-render", "--no-report", "--quiet", "--out", out.string()}, more));
     INFO(done.all());
     REQUIRE(done.exitCode == 0);
   };

@@ -10,7 +10,6 @@
 #include <fstream>
 
 namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
 
 TEST_CASE("fluidtex run: writes every file of a run, and run.json with every frame", "[tools]") {
   const Scratch scratch;
@@ -129,14 +128,9 @@ namespace {
 const std::string kRipples = FLUIDTEX_SOURCE "/scenes/exemplars/ripples/%04d.png";
 
 std::vector<std::string> movingRun(const fs::path& out, const Words& more = {}) {
-  Words words{"run",        kSmallScene,
-              "--exemplar", kRipples,
-              "--set",      "texture.toroidal=true",
-              "--set",      "texture.animation.rate=18",
-              "--frames",   "1:3",
-              "--out",      out.string()};
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
+  return plus({"run", kSmallScene, "--exemplar", kRipples, "--set", "texture.toroidal=true", "--set",
+               "texture.animation.rate=18", "--frames", "1:3", "--out", out.string()},
+              more);
 }
 
 }  // namespace

@@ -125,15 +125,14 @@ TEST_CASE("fluidtex run --resume: foam goes on as it was", "[tools]") {
   const fs::path whole = scratch.path / "whole", out = scratch.path / "out";
   const std::string exemplars = FLUIDTEX_SOURCE "/scenes/exemplars/";
   const auto run = [&](const char* frames, const fs::path& to, const Words& more) {
-    Words words{"run", kSmallScene, "--no-render", "--out", to.string(), "--set",
-                std::string("frames=") + frames, "--exemplar", exemplars + "foam.png", "--set",
-                "texture.guidance.by=foam", "--set",
-                "texture.guidance.map=" + exemplars + "foam_guidance.png", "--set",
-                // So that what is carried counts, not what comes up.
-                "texture.guidance.foam={ from = 0.5, full = 1.0, lifetime = 30.0 }", "--set",
-                "texture.guidance.point=[{ value = 0.0, level = 0.0 }, { value = 1.0, level = 1.0 }]"};
-    words.insert(words.end(), more.begin(), more.end());
-    const Finished finished = runProgram(words);
+    const Words words{"run", kSmallScene, "--no-render", "--out", to.string(), "--set",
+                      std::string("frames=") + frames, "--exemplar", exemplars + "foam.png", "--set",
+                      "texture.guidance.by=foam", "--set",
+                      "texture.guidance.map=" + exemplars + "foam_guidance.png", "--set",
+                      // So that what is carried counts, not what comes up.
+                      "texture.guidance.foam={ from = 0.5, full = 1.0, lifetime = 30.0 }", "--set",
+                      "texture.guidance.point=[{ value = 0.0, level = 0.0 }, { value = 1.0, level = 1.0 }]"};
+    const Finished finished = runProgram(plus(words, more));
     INFO(finished.all());
     REQUIRE(finished.exitCode == 0);
   };
@@ -153,9 +152,7 @@ TEST_CASE("fluidtex run --resume: what cannot be finished is refused at once, an
   REQUIRE(runProgram({"run", kSmallScene, "--no-render", "--frames", "2:2", "--out", out}).exitCode == 0);
   const auto files = filesIn(out);
   const auto refused = [&](const Words& more, const std::string& words) {
-    Words args = {"run", kSmallScene, "--resume", "--out", out};
-    args.insert(args.end(), more.begin(), more.end());
-    const Finished run = runProgram(args);
+    const Finished run = runProgram(plus({"run", kSmallScene, "--resume", "--out", out}, more));
     CHECK(run.exitCode == 1);
     CHECK_THAT(run.err, Catch::Contains(words) && Catch::Contains("without --resume"));
     CHECK(filesIn(out) == files);
@@ -202,12 +199,12 @@ TEST_CASE("fluidtex run --resume: maps of vectors go on as they were", "[tools]"
                       (scratch.path / "bump.png").string() + "' }]",
                   "--set",
                   "render.bump={ map = 'bump' }"};
-  REQUIRE(runProgram(with(run, {"--set", "frames=3", "--out", whole.string()})).exitCode == 0);
-  REQUIRE(runProgram(with(run, {"--set", "frames=2", "--out", out.string()})).exitCode == 0);
+  REQUIRE(runProgram(plus(run, {"--set", "frames=3", "--out", whole.string()})).exitCode == 0);
+  REQUIRE(runProgram(plus(run, {"--set", "frames=2", "--out", out.string()})).exitCode == 0);
   // The last frame's files are made from the state, vectors and all.
   fs::remove(out / "frames" / "0002.png");
   std::ofstream(out / "surface" / "0002.ply", std::ios::app) << "x";
-  const Finished resumed = runProgram(with(run, {"--set", "frames=3", "--out", out.string(), "--resume"}));
+  const Finished resumed = runProgram(plus(run, {"--set", "frames=3", "--out", out.string(), "--resume"}));
   INFO(resumed.all());
   REQUIRE(resumed.exitCode == 0);
   CHECK(namesOf(resultsIn(out)) == namesOf(resultsIn(whole)));
@@ -219,8 +216,8 @@ TEST_CASE("fluidtex run --resume: results that were damaged since are seen", "[t
   const Scratch scratch;
   const fs::path out = scratch.path / "out";
   const Words run{"run", kSmallScene, "--out", out.string(), "--set"},
-      more = with(run, {"frames=3", "--resume"});
-  REQUIRE(runProgram(with(run, {"frames=2"})).exitCode == 0);
+      more = plus(run, {"frames=3", "--resume"});
+  REQUIRE(runProgram(plus(run, {"frames=2"})).exitCode == 0);
   const auto refused = [&](const char* name, const std::string& bytes, const std::string& words) {
     const std::string whole = readBytes(out / name);
     if (bytes.empty())

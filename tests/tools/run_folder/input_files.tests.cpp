@@ -89,13 +89,13 @@ TEST_CASE(
   };
   const fs::path out = scratch.path / "out";
   const Words run{"run", kSmallScene, "--no-render", "--out", out.string(), "--set", "texture.points=1000"};
-  const Words own = with(run, settings(scratch.path.string()));
-  const Finished first = runProgram(with(own, {"--set", "frames=1"}));
+  const Words own = plus(run, settings(scratch.path.string()));
+  const Finished first = runProgram(plus(own, {"--set", "frames=1"}));
   INFO(first.all());
   REQUIRE(first.exitCode == 0);
   const auto inputs = fluidtex::tools::Json::parse(readBytes(out / "run.json")).at("inputs");
   CHECK(inputs.size() == 8);
-  const Words more = with(own, {"--resume", "--set", "frames=2"});
+  const Words more = plus(own, {"--resume", "--set", "frames=2"});
   const auto before = filesIn(out);
   const auto refused = [&](const char* name, const std::string& key, const auto& change) {
     const std::string bytes = readBytes(at(name));
@@ -128,7 +128,7 @@ TEST_CASE(
     if (entry.is_regular_file()) fs::copy(entry.path(), moved / entry.path().filename());
   writeBlock(moved / "onto2.obj", 0.4);
   const Finished resumed =
-      runProgram(with(with(run, settings(moved.string())), {"--resume", "--set", "frames=2"}));
+      runProgram(plus(plus(run, settings(moved.string())), {"--resume", "--set", "frames=2"}));
   INFO(resumed.all());
   CHECK(resumed.exitCode == 0);
   CHECK_THAT(resumed.err, !Catch::Contains("frame 1/"));

@@ -11,8 +11,6 @@
 #include <string>
 #include <vector>
 
-using Words = std::vector<std::string>;
-
 // Grey waves of 8 bits; another `phase`, another picture of the same size.
 inline void writeImage(const std::filesystem::path& file, int size, int channels, double phase = 0.0) {
   std::vector<std::uint8_t> pixels;
@@ -26,9 +24,4 @@ inline void writeImage(const std::filesystem::path& file, int size, int channels
   REQUIRE(out->open(file.string(), OIIO::ImageSpec(size, size, channels, OIIO::TypeDesc::UINT8)));
   REQUIRE(out->write_image(OIIO::TypeDesc::UINT8, pixels.data()));
   REQUIRE(out->close());
-}
-
-inline Words with(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
 }

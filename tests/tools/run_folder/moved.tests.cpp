@@ -24,8 +24,7 @@ TEST_CASE("moved run: no file but run.json, its copy in state/ and the log tells
                                        "texture.toroidal=true"};
   const auto run = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
     words.insert(words.begin() + 1, scene.begin(), scene.end());
-    words.insert(words.end(), more.begin(), more.end());
-    const Finished done = runProgram(words);
+    const Finished done = runProgram(plus(words, more));
     INFO(done.all());
     REQUIRE(done.exitCode == 0);
   };
