@@ -55,10 +55,10 @@ void writePictures(const fs::path& out, const texture::Image& color, const fs::p
 }
 
 void writeFrameExports(const fs::path& out, int frame, const Exports& exports, const texture::Image& color,
-                       const fs::path& to) {
+                       const fs::path& to, std::optional<double> spacing) {
   const double time = (frame - 1) / exports.appearance.frameRate;
   texture::TexturedSurface surface = readPly(out / frameFile(Format::ply, frame), color.width, color.height);
-  if (!surface.empty()) surface.spacing = spacingOf(out, surface, frame);
+  if (!surface.empty()) surface.spacing = spacing ? *spacing : spacingOf(out, surface, frame);
   if (lacksGradients(surface)) texture::recoverGradients(exports.appearance.toroidal, surface);
   Exports own = exports;
   if (own.appearance.moves) {
@@ -68,8 +68,9 @@ void writeFrameExports(const fs::path& out, int frame, const Exports& exports, c
   writeExports(surface, frame, time, own, to);
 }
 
-void exportFrame(const fs::path& out, int frame, const Exports& exports, const texture::Image& color) {
-  writeFrameExports(out, frame, exports, color, out);
+void exportFrame(const fs::path& out, int frame, const Exports& exports, const texture::Image& color,
+                 std::optional<double> spacing) {
+  writeFrameExports(out, frame, exports, color, out, spacing);
   updateSequences(exports, out);
   if (!hasJournal(out)) return;
   std::vector<JournalLine> lines;

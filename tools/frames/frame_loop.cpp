@@ -165,8 +165,7 @@ class FrameLoop {
   void tellFit(double points) {
     if (m_fitTold || points <= 0.0) return;
     m_fitTold = true;
-    const texture::Image& color = m_texturing.synthesizer.exemplar.color;
-    tellNote(fitNote(m_scene.texture, color.width, color.height, points));
+    tellNote(fitNote(m_scene.texture, exemplarColor().width, exemplarColor().height, points));
   }
 
   void tellNote(const std::string& note) const {
@@ -288,7 +287,8 @@ class FrameLoop {
     for (const std::string& file : resultsOf(frame, frameFilesOf(m_scene, m_options.render)))
       lines.push_back(lineOfFile(file, fingerprintOf(m_options.out / file)));
     addToJournal(m_options.out, lines);
-    if (m_exports.formats.size() > 1) exportFrame(m_options.out, frame, m_exports, exemplarColor());
+    if (m_exports.formats.size() > 1)
+      exportFrame(m_options.out, frame, m_exports, exemplarColor(), m_surface.spacing);
   }
 
   // Draws the surface as its file has it, with colours of 8 bits, so that fluidtex render gives the same

@@ -31,7 +31,8 @@ void make(const fs::path& folder) {
 }
 
 void refuseLinks(const fs::path& folder) {
-  for (const char* name : {"frames", "surface", "glb", "obj", "usd", "vtp", "onto", "exemplar", "state", "log.txt"}) {
+  for (const char* name :
+       {"frames", "surface", "glb", "obj", "usd", "vtp", "onto", "exemplar", "state", "log.txt"}) {
     const fs::path inside = folder / name;
     std::error_code error;
     if (fs::is_symlink(fs::symlink_status(inside, error)))

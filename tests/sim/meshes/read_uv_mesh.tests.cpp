@@ -54,7 +54,7 @@ TEST_CASE("uv mesh: places may stand behind the faces, be counted backwards, and
   CHECK((uvAt(back, {1.5f, 0.5f, 0.0f}) - Vec2f(0.75f, 0.125f)).length() < 1e-6f);
 }
 
-TEST_CASE("uv mesh: faces without places are left out; a triangle is moved onto the picture whole") {
+TEST_CASE("uv mesh: faces without places are left out, a triangle is moved onto the picture whole") {
   const UvMesh some = meshOf(kSquare + "f 1/1 2/2 3/3\nf 1 3 4\nf 1//1 3//1 4/4\n");
   CHECK(some.positions.size() == 3);
   const UvMesh far = meshOf("v 0 0 0\nv 2 0 0\nv 2 2 0\nvt 3.9 -2\nvt 4.1 -2\nvt 4.1 -1.5\nf 1/1 2/2 3/3\n");

@@ -130,7 +130,7 @@ TEST_CASE("later frame: locked texture stays however it is stretched, but new su
   CHECK(double(renewed) > 0.95 * double(doubted));
 }
 
-TEST_CASE("later frame: where wear counts more, texture is renewed sooner; where it counts less, later") {
+TEST_CASE("later frame: where wear counts more, texture is renewed sooner, where it counts less, later") {
   Rested rested;
   rested.stretchHalf(1.15f);  // less than keepStretch
   const std::size_t count = rested.first.positions.size();

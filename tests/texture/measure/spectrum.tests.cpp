@@ -52,7 +52,7 @@ TEST_CASE("spectrum: that of noise is even, and distances are in decibels") {
   CHECK(spectrumDistance(louder, white) == Approx(10.0));
 }
 
-TEST_CASE("spectrum: without any contrast nothing differs; what is a millionth does not count") {
+TEST_CASE("spectrum: without any contrast nothing differs, what is a millionth does not count") {
   const std::vector<double> flat = radialSpectrum(waves(3.0, 0.0));
   CHECK(spectrumDistance(flat, flat) == 0.0);
   CHECK(spectrumDistance({1.0, 1e-9}, {1.0, 1e-12}) == 0.0);

@@ -94,6 +94,21 @@ TEST_CASE("export frame: a frame's files, the list of them and their journal", "
              Catch::Contains("timestep=\"0.2\"") && Catch::Contains("vtp/0003.vtp"));
 }
 
+TEST_CASE("export frame: stretch is told in the spacing given, or in that of run.json", "[tools]") {
+  const Scratch scratch;
+  makeRunOfSamples(scratch.path, 2);
+  std::ofstream(scratch.path / "run.json")
+      << R"({"scene": {"texture": {}}, "frames": [{"frame": 1, "spacing": 0.25}]})";
+  const auto bytes = [&](int frame, std::optional<double> spacing) {
+    exportFrame(scratch.path, frame, sampleExports({"usda"}), sampleColor(), spacing);
+    return readBytes(scratch.path / frameFile(Format::usda, frame));
+  };
+  const std::string told = bytes(1, {});
+  CHECK_THAT(told, Catch::Contains("stretch"));
+  CHECK(bytes(1, 0.25) == told);
+  CHECK(bytes(1, 0.5) != told);
+}
+
 TEST_CASE("export frame: elsewhere the files are the same, and nothing else is touched", "[tools]") {
   const Scratch scratch;
   makeRunOfSamples(scratch.path / "run", 2);
