@@ -1,6 +1,6 @@
 #include "transport/velocity_sampler.h"
 
-#include "texture/loops/lanes.h"
+#include "numerics/lanes.h"
 #include "transport/within_reach.h"
 
 #include <algorithm>
@@ -132,7 +132,6 @@ void VelocitySampler::focus(const Vec3d& lower, const Vec3d& upper) {
 }
 
 void VelocitySampler::fill(Component& component) {
-  using texture::Float8;
   Window& window = component.window;
   const Coord first = window.origin, size = window.size, end = first + size;
   window.values.resize(std::size_t(size.x()) * std::size_t(size.y()) * std::size_t(size.z()));
@@ -155,10 +154,10 @@ void VelocitySampler::fill(Component& component) {
               leaf ? leaf->valueMask().getWord<std::uint64_t>(std::uint32_t(x - x0)) : 0;
           for (int y = yFirst; y < yEnd; ++y, row += alongY) {
             const int local = y - y0;
-            texture::store8(
+            store8(
                 row,
-                leaf ? texture::select8(unsigned(active >> (kSide * local)) & 0xffu,
-                                        texture::load8(from + kSide * (kSide * (x - x0) + local)), unknown)
+                leaf ? select8(unsigned(active >> (kSide * local)) & 0xffu,
+                                        load8(from + kSide * (kSide * (x - x0) + local)), unknown)
                      : Float8{} + tile);
           }
         }

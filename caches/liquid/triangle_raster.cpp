@@ -1,6 +1,7 @@
 #include "caches/liquid/triangle_raster.h"
 
 #include "caches/liquid/cell_triangles.h"
+#include "numerics/lanes.h"
 
 #include <immintrin.h>
 
@@ -33,22 +34,18 @@ double highest(const BlockTriangle& x, int axis) {
   return std::max({x[0][axis], x[1][axis], x[2][axis]});
 }
 
-__m256 lanes(double x) {
-  return _mm256_set1_ps(float(x));
-}
-
 struct Lanes3 {
-  __m256 x, y, z;
+  Float8 x, y, z;
 
   Lanes3() = default;
-  Lanes3(__m256 first, __m256 second, __m256 third) : x(first), y(second), z(third) {}
-  Lanes3(const Vec3d& v) : x(lanes(v[0])), y(lanes(v[1])), z(lanes(v[2])) {}
+  Lanes3(Float8 first, Float8 second, Float8 third) : x(first), y(second), z(third) {}
+  Lanes3(const Vec3d& v) : x(float8(float(v[0]))), y(float8(float(v[1]))), z(float8(float(v[2]))) {}
   Lanes3 operator-(const Lanes3& b) const { return {x - b.x, y - b.y, z - b.z}; }
   // This less t times b.
-  Lanes3 less(__m256 t, const Lanes3& b) const {
+  Lanes3 less(Float8 t, const Lanes3& b) const {
     return {_mm256_fnmadd_ps(t, b.x, x), _mm256_fnmadd_ps(t, b.y, y), _mm256_fnmadd_ps(t, b.z, z)};
   }
-  __m256 dot(const Lanes3& b) const { return _mm256_fmadd_ps(x, b.x, _mm256_fmadd_ps(y, b.y, z * b.z)); }
+  Float8 dot(const Lanes3& b) const { return _mm256_fmadd_ps(x, b.x, _mm256_fmadd_ps(y, b.y, z * b.z)); }
 };
 
 // Distances of eight places at a time.
@@ -62,7 +59,7 @@ class LaneTriangle {
       const double square = along.lengthSqr();
       m_corner[n] = corner[n];
       m_along[n] = along;
-      m_inverse[n] = lanes(square > 0.0 ? 1.0 / square : 0.0);
+      m_inverse[n] = float8(square > 0.0 ? float(1.0 / square) : 0.0f);
       m_inward[n] = cross.cross(along);
       longest = std::max(longest, square);
     }
@@ -71,34 +68,34 @@ class LaneTriangle {
     if (m_hasFace) m_normal = cross / doubleArea;
   }
 
-  __m256 squares(const Lanes3& place) const {
-    const __m256 zero = _mm256_setzero_ps(), one = lanes(1.0);
-    __m256 best = lanes(1e30), above = _mm256_castsi256_ps(_mm256_set1_epi32(-1));
+  Float8 squares(const Lanes3& place) const {
+    const Float8 zero{}, one = float8(1.0f);
+    Float8 best = float8(1e30f), above = _mm256_castsi256_ps(_mm256_set1_epi32(-1));
     Lanes3 from;
     for (int n = 0; n < 3; ++n) {
       from = place - m_corner[n];
-      const __m256 t = _mm256_max_ps(zero, _mm256_min_ps(one, from.dot(m_along[n]) * m_inverse[n]));
+      const Float8 t = _mm256_max_ps(zero, _mm256_min_ps(one, from.dot(m_along[n]) * m_inverse[n]));
       const Lanes3 away = from.less(t, m_along[n]);
       best = _mm256_min_ps(best, away.dot(away));
       above = _mm256_and_ps(above, _mm256_cmp_ps(from.dot(m_inward[n]), zero, _CMP_GE_OQ));
     }
     if (!m_hasFace) return best;
-    const __m256 height = from.dot(m_normal);
+    const Float8 height = from.dot(m_normal);
     return _mm256_blendv_ps(best, height * height, above);
   }
 
  private:
   Lanes3 m_corner[3], m_along[3], m_inward[3];
-  __m256 m_inverse[3];
+  Float8 m_inverse[3];
   Lanes3 m_normal;
   bool m_hasFace = false;
 };
 
 // Four cells of a row along z.
-void keepNearer(__m128 squares, std::uint32_t number, float* square, std::uint32_t* triangle) {
-  const __m128 old = _mm_loadu_ps(square), nearer = _mm_cmplt_ps(squares, old);
+void keepNearer(const Float4& squares, std::uint32_t number, float* square, std::uint32_t* triangle) {
+  const Float4 old = load4(square), nearer = _mm_cmplt_ps(squares, old);
   if (_mm_movemask_ps(nearer) == 0) return;
-  _mm_storeu_ps(square, _mm_blendv_ps(old, squares, nearer));
+  store4(square, _mm_blendv_ps(old, squares, nearer));
   auto* const at = reinterpret_cast<__m128i*>(triangle);
   _mm_storeu_si128(
       at, _mm_blendv_epi8(_mm_loadu_si128(at), _mm_set1_epi32(int(number)), _mm_castps_si128(nearer)));
@@ -113,12 +110,12 @@ void rasterDistances(const BlockTriangle& corners, std::uint32_t number, BlockNe
     if (range[axis].low > range[axis].high) return;
   }
   const LaneTriangle triangle(corners);
-  const __m128 steps = _mm_setr_ps(0.0f, 1.0f, 2.0f, 3.0f);
+  const Float4 steps = float4(0.0f, 1.0f, 2.0f, 3.0f);
   const int width = range[1].high - range[1].low + 1, rows = (range[0].high - range[0].low + 1) * width;
   // Rows two at a time, in pieces of four cells, which must not reach beyond the row.
   for (int piece = std::min(range[2].low, sim::kLeafDim - 4); piece <= range[2].high; piece += 4) {
     const int k = std::min(piece, sim::kLeafDim - 4);
-    const __m128 z = _mm_set1_ps(float(k)) + steps;
+    const Float4 z = float(k) + steps;
     for (int row = 0; row < rows; row += 2) {
       int i[2], j[2];
       for (int n = 0; n < 2; ++n) {
@@ -126,14 +123,13 @@ void rasterDistances(const BlockTriangle& corners, std::uint32_t number, BlockNe
         i[n] = range[0].low + at / width;
         j[n] = range[1].low + at % width;
       }
-      const Lanes3 place(_mm256_set_m128(_mm_set1_ps(float(i[1])), _mm_set1_ps(float(i[0]))),
-                         _mm256_set_m128(_mm_set1_ps(float(j[1])), _mm_set1_ps(float(j[0]))),
-                         _mm256_set_m128(z, z));
-      const __m256 squares = triangle.squares(place);
+      const Lanes3 place(joined8(float4(float(i[0])), float4(float(i[1]))),
+                         joined8(float4(float(j[0])), float4(float(j[1]))), joined8(z, z));
+      const Float8 squares = triangle.squares(place);
       for (int n = 0; n < 2; ++n) {
         const int offset = 64 * i[n] + 8 * j[n] + k;
-        keepNearer(n == 0 ? _mm256_castps256_ps128(squares) : _mm256_extractf128_ps(squares, 1), number,
-                   nearest.square.data() + offset, nearest.triangle.data() + offset);
+        keepNearer(n == 0 ? low4(squares) : high4(squares), number, nearest.square.data() + offset,
+                   nearest.triangle.data() + offset);
       }
     }
   }

@@ -39,15 +39,15 @@ struct Window {
 
   float at(const Vec3f& x) const {
     const Place place = locate(x);
-    const Lanes& t = place.t;
-    return trilinear(place.low, side * side, side, lane0(t), lane1(t), lane2(t));
+    const Float4& t = place.t;
+    return trilinear(place.low, side * side, side, t[0], t[1], t[2]);
   }
 
   // The same by cubic interpolation; halo >= 1.
   float cubic(const Vec3f& x) const {
     const Place place = locate(x, 1);
-    const Lanes& t = place.t;
-    return tricubic(place.low, side * side, side, lane0(t), lane1(t), lane2(t));
+    const Float4& t = place.t;
+    return tricubic(place.low, side * side, side, t[0], t[1], t[2]);
   }
 
   // The samples of a cell and those around it, and x from that cell's centre, in cells; for samples at cell
@@ -73,11 +73,11 @@ struct Window {
   // Smallest and largest of the eight samples around x.
   std::pair<float, float> range(const Vec3f& x) const {
     const float* p = locate(x).low;
-    const Lanes near = facePoints(p, side), far = facePoints(p + side * side, side);
-    Lanes low = _mm_min_ps(near, far), high = _mm_max_ps(near, far);
+    const Float4 near = facePoints(p, side), far = facePoints(p + side * side, side);
+    Float4 low = _mm_min_ps(near, far), high = _mm_max_ps(near, far);
     low = _mm_min_ps(low, _mm_movehl_ps(low, low));
     high = _mm_max_ps(high, _mm_movehl_ps(high, high));
-    return {std::min(lane0(low), lane1(low)), std::max(lane0(high), lane1(high))};
+    return {std::min(low[0], low[1]), std::max(high[0], high[1])};
   }
 
  private:
@@ -85,13 +85,13 @@ struct Window {
   // edge than `around` samples, or beyond it, are clamped to that.
   struct Place {
     const float* low;
-    Lanes t;
+    Float4 t;
   };
   Place locate(const Vec3f& x, int around = 0) const {
-    const Lanes from =
-        lanes(x[0], x[1], x[2]) + (lanes(static_cast<float>(halo)) - lanes(shift[0], shift[1], shift[2]));
+    const Float4 from =
+        float4(x[0], x[1], x[2]) + (static_cast<float>(halo) - float4(shift[0], shift[1], shift[2]));
     const auto least = static_cast<float>(around), most = static_cast<float>(side - around) - 1.001f;
-    const Lanes p = _mm_min_ps(_mm_max_ps(from, lanes(least)), lanes(most));
+    const Float4 p = _mm_min_ps(_mm_max_ps(from, float4(least)), float4(most));
     const __m128i cell = _mm_cvttps_epi32(p);
     const std::ptrdiff_t i = _mm_cvtsi128_si32(cell), j = _mm_extract_epi32(cell, 1),
                          k = _mm_extract_epi32(cell, 2);
@@ -142,13 +142,13 @@ struct VelocityWindow {
 
   // All three components; as Window::at.
   Vec3f at(const Vec3f& x) const {
-    const Lanes velocity = velocityAt(x);
-    return Vec3f(lane0(velocity), lane1(velocity), lane2(velocity));
+    const Float4 velocity = velocityAt(x);
+    return Vec3f(velocity[0], velocity[1], velocity[2]);
   }
 
   // The place to which the velocity moves x; step: dt / h, negative to trace back.
   Vec3f trace(const Vec3f& x, float step) const {
-    const Start start{lanes(x[0], x[1], x[2]), velocityAt(x)};
+    const Start start{float4(x[0], x[1], x[2]), velocityAt(x)};
     return traceOn(start, start, step)[0];
   }
 
@@ -165,12 +165,12 @@ struct VelocityWindow {
  private:
   // A place and the velocity there.
   struct Start {
-    Lanes place, velocity;
+    Float4 place, velocity;
   };
 
-  Lanes velocityAt(const Vec3f& x) const {
-    const Lanes place = lanes(x[0], x[1], x[2]);
-    return firstOf(sample(pairs(place, place)));
+  Float4 velocityAt(const Vec3f& x) const {
+    const Float4 place = float4(x[0], x[1], x[2]);
+    return low4(sample(joined8(place, place)));
   }
 
   Start startAtCentre(int offset) const {
@@ -178,8 +178,8 @@ struct VelocityWindow {
     const std::ptrdiff_t i = offset >> 6, j = (offset >> 3) & 7, k = offset & 7;
     const std::ptrdiff_t at = ((i + u.halo) * side + j + u.halo) * side + k + u.halo;
     const float *a = u.values.get() + at, *b = v.values.get() + at, *c = w.values.get() + at;
-    const Lanes from = lanes(static_cast<float>(i), static_cast<float>(j), static_cast<float>(k));
-    return {from + lanes(0.5f), lanes(0.5f) * lanes(a[0] + a[side * side], b[0] + b[side], c[0] + c[1])};
+    const Float4 from = float4(static_cast<float>(i), static_cast<float>(j), static_cast<float>(k));
+    return {from + 0.5f, 0.5f * float4(a[0] + a[side * side], b[0] + b[side], c[0] + c[1])};
   }
 
   Start startAtFace(int offset, int axis) const {
@@ -197,23 +197,22 @@ struct VelocityWindow {
       const float* below = p - stride[axis];
       first[a] = a == axis ? p[0] : 0.25f * (p[0] + p[stride[a]] + below[0] + below[stride[a]]);
     }
-    return {lanes(from[0], from[1], from[2]), lanes(first[0], first[1], first[2])};
+    return {float4(from[0], from[1], from[2]), float4(first[0], first[1], first[2])};
   }
 
   std::array<Vec3f, 2> traceOn(const Start& first, const Start& second, float step) const {
-    const LanePairs from = pairs(first.place, second.place), k1 = pairs(first.velocity, second.velocity);
-    const LanePairs k2 = sample(from + pairs(0.5f * step) * k1);
-    const LanePairs k3 = sample(from + pairs(0.75f * step) * k2);
-    const LanePairs to =
-        from + pairs(step * (1.0f / 9.0f)) * (pairs(2.0f) * k1 + pairs(3.0f) * k2 + pairs(4.0f) * k3);
-    const Lanes a = firstOf(to), b = secondOf(to);
-    return {Vec3f(lane0(a), lane1(a), lane2(a)), Vec3f(lane0(b), lane1(b), lane2(b))};
+    const Float8 from = joined8(first.place, second.place), k1 = joined8(first.velocity, second.velocity);
+    const Float8 k2 = sample(from + 0.5f * step * k1);
+    const Float8 k3 = sample(from + 0.75f * step * k2);
+    const Float8 to = from + step * (1.0f / 9.0f) * (2.0f * k1 + 3.0f * k2 + 4.0f * k3);
+    const Float4 a = low4(to), b = high4(to);
+    return {Vec3f(a[0], a[1], a[2]), Vec3f(b[0], b[1], b[2])};
   }
 
-  LanePairs sample(LanePairs x) const {
+  Float8 sample(Float8 x) const {
     const auto halo = static_cast<float>(u.halo);
-    const LanePairs inside = _mm256_min_ps(_mm256_max_ps(x + pairs(halo - 0.5f), pairs(0.0f)),
-                                           pairs(static_cast<float>(u.side) - 1.501f));
+    const Float8 inside = _mm256_min_ps(_mm256_max_ps(x + (halo - 0.5f), float8(0.0f)),
+                                        float8(static_cast<float>(u.side) - 1.501f));
     const StaggeredBlocks blocks{{u.values.get(), v.values.get(), w.values.get()}, u.side};
     return blocks.at(inside);
   }

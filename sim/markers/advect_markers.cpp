@@ -83,14 +83,14 @@ struct Motion {
   void trace(Marker& m, Marker& other) const {
     const StaggeredBlocks blocks{{speed[0].value.data(), speed[1].value.data(), speed[2].value.data()},
                                  speed[0].side};
-    const LanePairs x = pairs(_mm_loadu_ps(&m.x), _mm_loadu_ps(&other.x)) + pairs(float(speed[0].halo));
-    const LanePairs k1 = blocks.at(x);
-    const LanePairs k2 = blocks.at(x + pairs(0.5f) * k1);
-    const LanePairs k3 = blocks.at(x + pairs(0.75f) * k2);
-    const LanePairs move = (pairs(2.0f) * k1 + pairs(3.0f) * k2 + pairs(4.0f) * k3) * pairs(1.0f / 9.0f);
-    const Lanes a = firstOf(move), b = secondOf(move);
-    m.x += lane0(a), m.y += lane1(a), m.z += lane2(a);
-    other.x += lane0(b), other.y += lane1(b), other.z += lane2(b);
+    const Float8 x = joined8(load4(&m.x), load4(&other.x)) + float(speed[0].halo);
+    const Float8 k1 = blocks.at(x);
+    const Float8 k2 = blocks.at(x + 0.5f * k1);
+    const Float8 k3 = blocks.at(x + 0.75f * k2);
+    const Float8 move = (2.0f * k1 + 3.0f * k2 + 4.0f * k3) * (1.0f / 9.0f);
+    const Float4 a = low4(move), b = high4(move);
+    m.x += a[0], m.y += a[1], m.z += a[2];
+    other.x += b[0], other.y += b[1], other.z += b[2];
   }
 };
 

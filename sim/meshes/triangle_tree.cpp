@@ -1,9 +1,10 @@
 // Triangles are halved twice for each node, by the middle one along the box's longest axis.
 #include "sim/meshes/triangle_tree.h"
 
-#include "sim/grid/trilinear.h"
+#include "numerics/lanes.h"
 #include "sim/options.h"
 
+#include <immintrin.h>
 #include <openvdb/math/Proximity.h>
 #include <tbb/parallel_for.h>
 
@@ -42,36 +43,36 @@ std::pair<int, int> nodesOf(int triangles) {
 class TriangleTree::Sought {
  public:
   explicit Sought(const Vec3d& x)
-      : m_rounding(lanes(2.5e-7f * float(std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])})))),
-        m_place(lanes(float(x[0]), float(x[1]), float(x[2]))) {
-    for (int a = 0; a < 3; ++a) m_along[a] = lanes(float(x[a]));
+      : m_rounding(float4(2.5e-7f * float(std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])})))),
+        m_place(float4(float(x[0]), float(x[1]), float(x[2]))) {
+    for (int a = 0; a < 3; ++a) m_along[a] = float4(float(x[a]));
   }
   // To each of a node's boxes.
   std::array<float, kWays> squaresTo(const Node& node) const {
-    Lanes sum = lanes(0.0f);
+    Float4 sum{};
     for (int a = 0; a < 3; ++a) {
-      const Lanes away = beyond(_mm_load_ps(node.low[a]), _mm_load_ps(node.high[a]), m_along[a]);
+      const Float4 away = beyond(load4(node.low[a]), load4(node.high[a]), m_along[a]);
       sum += away * away;
     }
     std::array<float, kWays> squares;
-    _mm_storeu_ps(squares.data(), sum * lanes(kLess));
+    store4(squares.data(), kLess * sum);
     return squares;
   }
   // To the box around a triangle.
   float squareTo(const Vec3f& a, const Vec3f& b, const Vec3f& c) const {
-    const Lanes p = lanes(a[0], a[1], a[2]), q = lanes(b[0], b[1], b[2]), r = lanes(c[0], c[1], c[2]);
-    const Lanes away = beyond(_mm_min_ps(p, _mm_min_ps(q, r)), _mm_max_ps(p, _mm_max_ps(q, r)), m_place);
-    return kLess * lane0(_mm_dp_ps(away, away, 0xf1));
+    const Float4 p = float4(a[0], a[1], a[2]), q = float4(b[0], b[1], b[2]), r = float4(c[0], c[1], c[2]);
+    const Float4 away = beyond(_mm_min_ps(p, _mm_min_ps(q, r)), _mm_max_ps(p, _mm_max_ps(q, r)), m_place);
+    return kLess * _mm_cvtss_f32(_mm_dp_ps(away, away, 0xf1));
   }
 
  private:
   // More than what is lost in squares.
   static constexpr float kLess = 1.0f - 1e-6f;
-  Lanes beyond(Lanes low, Lanes high, Lanes place) const {
-    return _mm_max_ps(_mm_max_ps(low - place, place - high) - m_rounding, lanes(0.0f));
+  Float4 beyond(Float4 low, Float4 high, Float4 place) const {
+    return _mm_max_ps(_mm_max_ps(low - place, place - high) - m_rounding, Float4{});
   }
-  Lanes m_rounding, m_place;
-  Lanes m_along[3];
+  Float4 m_rounding, m_place;
+  Float4 m_along[3];
 };
 
 TriangleTree::TriangleTree(TriangleMesh mesh) : m_mesh(std::move(mesh)) {

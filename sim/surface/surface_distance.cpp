@@ -1,5 +1,6 @@
 #include "sim/surface/surface_distance.h"
 
+#include "numerics/lanes.h"
 #include "sim/grid/leaf_block.h"
 
 #include <immintrin.h>
@@ -95,18 +96,17 @@ struct SearchBlock : LeafBlock<kSearchHalo> {
     const float* at = corner(x, t);
     if (at == nullptr) return false;
     // The largest second difference of the stencil's lines along each axis, four lines side by side.
-    const __m128 two = _mm_set1_ps(2.0f), sign = _mm_set1_ps(-0.0f);
-    __m128 largest = _mm_setzero_ps();
-    const auto bend = [&](__m128 a, __m128 b, __m128 c) {
-      largest = _mm_max_ps(largest, _mm_andnot_ps(sign, a - two * b + c));
+    const Float4 sign = float4(-0.0f);
+    Float4 largest{};
+    const auto bend = [&](Float4 a, Float4 b, Float4 c) {
+      largest = _mm_max_ps(largest, _mm_andnot_ps(sign, a - 2.0f * b + c));
     };
     const float* first = at - SearchBlock::kStride[0] - SearchBlock::kStride[1] - 1;
     for (int j = 0; j < 4; ++j) {
-      __m128 alongX[4], alongY[4], alongZ[4];
+      Float4 alongX[4], alongY[4], alongZ[4];
       for (int k = 0; k < 4; ++k) {
-        alongX[k] = _mm_loadu_ps(first + k * SearchBlock::kStride[0] + j * SearchBlock::kStride[1]);
-        alongY[k] = alongZ[k] =
-            _mm_loadu_ps(first + j * SearchBlock::kStride[0] + k * SearchBlock::kStride[1]);
+        alongX[k] = load4(first + k * SearchBlock::kStride[0] + j * SearchBlock::kStride[1]);
+        alongY[k] = alongZ[k] = load4(first + j * SearchBlock::kStride[0] + k * SearchBlock::kStride[1]);
       }
       _MM_TRANSPOSE4_PS(alongZ[0], alongZ[1], alongZ[2], alongZ[3]);
       for (const auto* line : {alongX, alongY, alongZ}) {
@@ -114,7 +114,7 @@ struct SearchBlock : LeafBlock<kSearchHalo> {
         bend(line[1], line[2], line[3]);
       }
     }
-    return _mm_movemask_ps(_mm_cmpgt_ps(largest, _mm_set1_ps(static_cast<float>(kSharpSlope * slope)))) == 0;
+    return _mm_movemask_ps(_mm_cmpgt_ps(largest, float4(static_cast<float>(kSharpSlope * slope)))) == 0;
   }
 
   // By row along z, bit k: whether the sign changes at most kSearched cells from cell k. False where it never

@@ -3,8 +3,8 @@
 // since wide windows read all over the image and would not fit into a cache.
 #pragma once
 
+#include "numerics/lanes.h"
 #include "texture/exemplar/exemplar.h"
-#include "texture/loops/lanes.h"
 
 #include <vector>
 

@@ -1,5 +1,6 @@
 #include "texture/frames/look_ahead.h"
 
+#include "numerics/lanes.h"
 #include "texture/labels/fresh.h"
 #include "texture/loops/complex.h"
 #include "texture/loops/parallel.h"
@@ -17,7 +18,7 @@ constexpr int kStrainSweeps = 24;
 constexpr float kMostPerFrame = 1.0f;
 
 // A strain times its confidence, and the confidence.
-using Weighted = float __attribute__((vector_size(16)));
+using Weighted = Float4;
 enum : int { kMean, kWeight, kDeviatorReal, kDeviatorImag };
 
 // Squared former edge lengths over the present ones are n.C n for edges of direction n, that is m + d.q with

@@ -1,8 +1,8 @@
 // Cells of a block that the zero set crosses.
 #pragma once
 
+#include "numerics/lanes.h"
 #include "texture/levelset/level_set.h"
-#include "texture/loops/lanes.h"
 
 #include <array>
 #include <bit>

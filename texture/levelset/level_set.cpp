@@ -1,6 +1,7 @@
 #include "texture/levelset/level_set.h"
 
 #include "numerics/catmull_rom.h"
+#include "numerics/lanes.h"
 #include "texture/levelset/crossed_cells.h"
 #include "texture/loops/morton.h"
 #include "texture/loops/parallel.h"
@@ -22,7 +23,6 @@ namespace {
 using openvdb::Coord;
 using openvdb::FloatGrid;
 using Leaf = openvdb::FloatTree::LeafNodeType;
-using Float4 = float __attribute__((vector_size(16)));
 
 constexpr std::size_t kBlockValues = std::size_t(kBlockPadded) * kBlockPadded * kBlockPadded;
 static_assert(Leaf::DIM == kBlockSide);
@@ -251,8 +251,7 @@ LevelSet::Sample LevelSet::sample(const Vec3f& x) const {
   for (int a = 0; a < 4; ++a) {
     Float4 sum{}, slope{};
     for (int b = 0; b < 4; ++b) {
-      Float4 row;
-      std::memcpy(&row, corner + (a * kBlockPadded + b) * kBlockPadded, sizeof row);
+      const Float4 row = load4(corner + (a * kBlockPadded + b) * kBlockPadded);
       sum += wy[b] * row;
       slope += dy[b] * row;
     }

@@ -2,7 +2,7 @@
 // the cache each takes half the time.
 #include "texture/mesh/relax.h"
 
-#include "texture/loops/lanes.h"
+#include "numerics/lanes.h"
 #include "texture/mesh/remesh.h"
 #include "texture/mesh/repulsion.h"
 

@@ -7,9 +7,9 @@
 
 #include "texture/search/pca.h"
 
+#include "numerics/lanes.h"
 #include "numerics/random.h"
 #include "texture/exemplar/principal_axes.h"
-#include "texture/loops/lanes.h"
 
 #include <tbb/parallel_for.h>
 #include <Eigen/Core>

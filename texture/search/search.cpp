@@ -4,7 +4,7 @@
 #include "texture/search/search.h"
 #include "numerics/random.h"
 
-#include "texture/loops/lanes.h"
+#include "numerics/lanes.h"
 
 #include <tbb/parallel_for.h>
 

@@ -2,7 +2,7 @@
 // sixteen windows at once, then from all fifteen bits for the few that are near.
 #pragma once
 
-#include "texture/loops/lanes.h"
+#include "numerics/lanes.h"
 #include "texture/search/pca.h"
 
 #include <array>

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+using namespace fluidtex;
 using namespace fluidtex::sim;
 using Catch::Matchers::WithinAbs;
 
@@ -39,16 +40,16 @@ TEST_CASE("trilinear: reproduces trilinear fields, each component of a staggered
   std::uniform_real_distribution<float> place(0.0f, 4.4f);
   for (int n = 0; n < 100; ++n) {
     const Vec3d x(place(random), place(random), place(random));
-    const Lanes here = lanes(float(x[0]), float(x[1]), float(x[2])), other = lanes(float(x[2]), 0.3f, 1.7f);
-    const Lanes all = firstOf(blocks.at(pairs(here, here)));
-    CHECK_THAT(lane0(all), WithinAbs(field(0, x), 1e-4));
-    CHECK_THAT(lane1(all), WithinAbs(field(1, x), 1e-4));
-    CHECK_THAT(lane2(all), WithinAbs(field(2, x), 1e-4));
+    const Float4 here = float4(float(x[0]), float(x[1]), float(x[2])),
+                 other = float4(float(x[2]), 0.3f, 1.7f);
+    const Float4 all = low4(blocks.at(joined8(here, here)));
+    CHECK_THAT(all[0], WithinAbs(field(0, x), 1e-4));
+    CHECK_THAT(all[1], WithinAbs(field(1, x), 1e-4));
+    CHECK_THAT(all[2], WithinAbs(field(2, x), 1e-4));
     // The same beside another place, to the last bit.
-    const Lanes first = firstOf(blocks.at(pairs(here, other))),
-                second = secondOf(blocks.at(pairs(other, here)));
-    CHECK((_mm_movemask_ps(_mm_cmpeq_ps(first, all)) & 7) == 7);
-    CHECK((_mm_movemask_ps(_mm_cmpeq_ps(second, all)) & 7) == 7);
+    const Float4 first = low4(blocks.at(joined8(here, other))),
+                 second = high4(blocks.at(joined8(other, here)));
+    for (int a = 0; a < 3; ++a) CHECK((first[a] == all[a] && second[a] == all[a]));
     // One component alone, at the same place.
     const Vec3d shifted = x + Vec3d(0.5, 0.0, 0.0);
     const int i = int(shifted[0]), j = int(shifted[1]), k = int(shifted[2]);

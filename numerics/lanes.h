@@ -1,5 +1,6 @@
-// SIMD types for inner loops: eight floats, eight halves, or sixteen shorts. Without such registers they
-// compile to slower code.
+// SIMD types for inner loops, those of the compiler: they add, multiply and compare lane by lane, and v[k] is
+// lane k. What has no operator (shuffles, minima) is taken from the processor's intrinsics, whose __m128 and
+// __m256 are the same types. What stands here compiles to slower code without such registers.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +10,31 @@
 #include <immintrin.h>
 #endif
 
-namespace fluidtex::texture {
+namespace fluidtex {
 
+using Float4 = float __attribute__((vector_size(16)));
 using Float8 = float __attribute__((vector_size(32)));
+
+inline Float4 float4(float x, float y, float z, float w = 0.0f) {
+  return Float4{x, y, z, w};
+}
+inline Float4 float4(float all) {
+  return Float4{all, all, all, all};
+}
+inline Float8 float8(float all) {
+  return Float8{all, all, all, all, all, all, all, all};
+}
+
+// Two fours side by side, and each of them.
+inline Float8 joined8(const Float4& low, const Float4& high) {
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+inline Float4 low4(const Float8& lanes) {
+  return __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3);
+}
+inline Float4 high4(const Float8& lanes) {
+  return __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7);
+}
 
 // Eight halves, 11 significant bits: in 0..1 at least eight times as fine as 8-bit colours.
 using Half8 = _Float16 __attribute__((vector_size(16)));
@@ -30,6 +53,16 @@ inline Half8 narrowed(const Float8& lanes) {
 #else
   return __builtin_convertvector(lanes, Half8);
 #endif
+}
+
+inline Float4 load4(const float* from) {
+  Float4 lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+inline void store4(float* to, const Float4& lanes) {
+  std::memcpy(to, &lanes, sizeof lanes);
 }
 
 inline Float8 load8(const float* from) {
@@ -89,4 +122,4 @@ inline unsigned atMost16(const Short16& v, std::int16_t bound) {
 #endif
 }
 
-}  // namespace fluidtex::texture
+}  // namespace fluidtex

@@ -1,10 +1,10 @@
-#include "texture/loops/lanes.h"
+#include "numerics/lanes.h"
 
 #include <catch2/catch.hpp>
 
 #include <cmath>
 
-using namespace fluidtex::texture;
+using namespace fluidtex;
 
 TEST_CASE("lanes: stored as loaded, summed, and halves keep eleven bits") {
   const float from[8] = {1.0f, -2.0f, 3.5f, 0.0f, 0.25f, 7.0f, -0.125f, 100.0f};
@@ -21,6 +21,23 @@ TEST_CASE("lanes: stored as loaded, summed, and halves keep eleven bits") {
     const Float8 back = widened(narrowed(Float8{x, -x}));
     CHECK(std::abs(back[0] - x) <= x * 0x1p-11f);
     CHECK(back[1] == -back[0]);
+  }
+}
+
+TEST_CASE("lanes: fours are loaded, filled, joined and taken apart again") {
+  const float from[4] = {1.0f, -2.0f, 3.5f, 0.25f};
+  float to[4] = {};
+  store4(to, load4(from));
+  const Float4 same = float4(7.0f), place = float4(4.0f, 5.0f, 6.0f);
+  CHECK(place[3] == 0.0f);
+  const Float8 both = joined8(load4(from), same), filled = float8(-3.0f);
+  for (int k = 0; k < 4; ++k) {
+    CHECK(to[k] == from[k]);
+    CHECK(same[k] == 7.0f);
+    CHECK(low4(both)[k] == from[k]);
+    CHECK(high4(both)[k] == 7.0f);
+    CHECK((both[k] == from[k] && both[k + 4] == 7.0f));
+    CHECK((filled[k] == -3.0f && filled[k + 4] == -3.0f));
   }
 }
 
