@@ -5,8 +5,9 @@
 
 namespace fluidtex::pipeline {
 
-// m3 that sources bring until the scene's last frame: area of their front faces times velocity. A source
-// without velocity counts with the speed of a fall over its own height.
+// Volume, m3, that sources add until the scene's last frame: area of their front faces times velocity and
+// rate, summed over the time in which they run. A source without velocity counts with the speed of free fall
+// over its own height. Throws sim::MeshError and sim::HeightError, as the two functions below do.
 double inflow(const scenes::Scene& scene);
 
 // m2: the surface of all bodies once poured, plus, for what sources bring, the smaller of a sheet one cell

@@ -11,11 +11,12 @@
 
 namespace fluidtex::pipeline {
 
-// A frame of a liquid out of grids. The surface is phi = 0, negative inside, with grids of any place and
-// voxels, which are cubes; of its values only those beside the surface count, so it need be no distance.
-// velocity: m/s, at the voxels' centres, active where known; needed where the surface is in this frame and
-// where it goes until the next. Null: unknown, and the frame before or after has the say; the liquid rests
-// where neither has. Throws std::invalid_argument where voxels are not cubes or a value is not finite.
+// A frame of a liquid from grids. The surface is phi = 0, negative inside; phi has cubic voxels and any
+// position. Only values beside the surface are used, so phi need not be a distance. velocity: m/s, at the
+// voxels' centres, active where known; required around the surface of this frame and where it moves until the
+// next. Null: unknown; then the velocity of the frame before or after is used, and the liquid is at rest
+// where neither has one. Throws std::invalid_argument if phi's voxels are not cubes, an active value is not
+// finite, or the surface crosses more than 3e7 cells or reaches farther than 4e6 cells from the origin.
 caches::LiquidFrame liquidOf(const openvdb::FloatGrid& phi, const openvdb::Vec3SGrid::Ptr& velocity);
 
 // The same out of a mesh, closed and in metres, and the velocity of its points (#P, m/s; empty: as null
@@ -29,10 +30,10 @@ caches::LiquidFrame liquidOf(caches::SurfaceTriangles mesh, const std::vector<op
 // Frames for textureFrame(), from one liquid to the next.
 class GivenFlow {
  public:
-  // seconds: since the last frame; before the first it says nothing. A frame's motion is that of its begin's
-  // and end's velocities, mixed so that they carry the last surface as near to this one as they can
-  // (caches/liquid/explained.h); FrameStats::explained says how near. Throws std::invalid_argument if
-  // seconds is not above 0.
+  // seconds: since the previous frame; not used in the first call. A frame's motion is made of the velocities
+  // at its begin and end, mixed so that they carry the last surface as near to this one as they can
+  // (caches/liquid/explained.h); FrameStats::explained says how near. Throws std::invalid_argument if seconds
+  // is not above 0 or not finite, in the first call too.
   sim::Frame next(caches::LiquidFrame now, double seconds);
 
  private:

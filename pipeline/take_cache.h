@@ -1,4 +1,4 @@
-// What a scene leaves to the files of another program: how many frames, how large, seen from where.
+// Completes a scene from the cache of another program.
 #pragma once
 
 #include "scenes/scene.h"
@@ -8,10 +8,12 @@
 
 namespace fluidtex::pipeline {
 
-// Reads the cache of scene.files and fills in what the scene does not say: voxel and first number of the
-// files, frames, the domain (the bounds of the surface, without sides; of recorded frames their own) and the
-// camera. Returns what was found, a line each, for people. Throws
-// caches::LayoutError (also where the scene has more frames than the files) or caches::FormatError.
+// Reads the cache of scene.files and sets files.voxel, files.first and, of particles, files.radius. Where the
+// scene does not give them, also sets the number of frames, the domain (bounds of the surface, without sides;
+// of recorded frames their own) and the camera. Returns a description for the user, one string a line. Throws
+// caches::FormatError, and caches::LayoutError: also where the scene has more frames than the files, where
+// the texture follows an attribute that the files lack, and with files.follow where the number of frames is
+// not given or the frames are recorded ones.
 std::vector<std::string> takeCache(scenes::Scene& scene);
 
 }  // namespace fluidtex::pipeline

@@ -30,8 +30,9 @@ struct Texturing {
   Animation animation;
 };
 
-// Reads what the scene's settings name: exemplar, maps, vector and scalar fields. cache: folder of search
-// tables kept between runs. Throws ExemplarError, or std::runtime_error that names a field's file.
+// Reads what the scene's settings name: exemplar, maps, vector and scalar fields, meshes. cache: folder of
+// search tables kept between runs. Throws texture::ExemplarError, sim::MeshError and sim::HeightError;
+// std::runtime_error that names a field's file; std::invalid_argument if no window fits the exemplar.
 Texturing makeTexturing(const scenes::Scene& scene, const texture::CacheFolder& cache = {});
 // The same with an exemplar in memory, prepared for scene.texture.surface.levels levels; where the liquid
 // begins with a mesh's texture, it is the mesh's whole picture, and one of its pixels on the mesh is the
@@ -61,9 +62,11 @@ struct TexturedFrame {
 };
 
 // Textures one frame. last: the previous frame's textured surface, empty on the first frame; its spacing is
-// kept, else it is scene.texture.spacing, or follows from scene.texture.points. frame.substeps lead from
-// there to this frame. The result does not depend on the number of threads. Throws as prepareSurface(),
-// carry(), orient() and synthesize().
+// kept, else it is scene.texture.spacing, or follows from scene.texture.points. frame.substeps: the motion
+// from there to this frame. The result does not depend on the number of threads. Throws std::invalid_argument
+// as prepareSurface(), carry(), orient() and synthesize(); std::runtime_error if the frame lacks a scalar
+// that scale, renewal, guidance or orientation follow; texture::ExemplarError if a picture of an exemplar
+// that moves cannot be read.
 TexturedFrame textureFrame(Texturing& texturing, const texture::TexturedSurface& last,
                            const sim::Frame& frame, const Watch& watch = {});
 

@@ -32,7 +32,8 @@ class EmbreeScene {
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-  // Copies a mesh and returns its geometry number. Throws std::runtime_error if memory runs out.
+  // Copies a mesh and returns its geometry number. Throws std::bad_alloc if memory runs out, and
+  // std::runtime_error for other errors of Embree; so do the constructor and commit().
   std::uint32_t add(const std::vector<Vec3f>& positions, const std::vector<texture::Vec3I>& triangles);
 
   // Builds the structure, on all threads; to be called once after the last add(). The result does not depend

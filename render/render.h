@@ -39,12 +39,15 @@ struct View {
 };
 
 // Renders a picture; the result does not depend on the number of threads. An empty surface gives the
-// surroundings alone.
+// surroundings alone. progress: called with 0..1, from one thread at a time. Throws std::invalid_argument if
+// width or height is below 1, samples are not within 1..65536, bounces or roughness are negative, an array
+// does not have one entry per vertex, or a triangle's corner does not exist; also as makeCamera(), makeSky()
+// and bumpedNormals(). Throws std::bad_alloc or std::runtime_error if Embree fails.
 Picture render(const texture::TexturedSurface& surface, const std::vector<Solid>& solids,
                const Options& options, const View& view, const std::function<void(double)>& progress = {});
 
-// Makes radiance, linear and without exposure, the values of a picture, 0..1: what is brighter than 0.8 is
-// bent to stay below 1. render() does so itself.
+// Tone mapping in place, which render() includes: multiplies linear radiance by `exposure` and compresses
+// values above 0.8 exponentially to at most 1. NaN becomes 0.
 void develop(Picture& picture, double exposure);
 
 // Text that is kept in a picture's file, UTF-8: a PNG keyword ("Title", of 79 Latin letters at most) and what
@@ -57,8 +60,10 @@ struct PictureNote {
 // names the file. Not atomic: the caller gives a temporary name and renames.
 void writePng(const Picture& picture, const std::filesystem::path& file, std::vector<PictureNote> notes = {});
 
-// Encodes frames first..last, FOLDER/frameName(FRAME).png, as H.264, yuv420p, bt709. Throws
-// std::runtime_error with ffmpeg's last line of output.
+// Encodes frames first..last, FOLDER/frameName(FRAME).png, with ffmpeg: MP4, H.264, yuv420p, bt709. An odd
+// last row or column is cropped. Throws std::runtime_error that names the file and the reason: no frames, a
+// missing picture, a frame rate not above 0, ffmpeg not found or failed (its last line), or an incomplete
+// file.
 void writeVideo(const std::filesystem::path& folder, int first, int last, double frameRate,
                 const std::filesystem::path& file);
 

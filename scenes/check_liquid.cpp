@@ -1,6 +1,6 @@
 #include "scenes/checks.h"
-#include "scenes/format.h"
 #include "scenes/schema.h"
+#include "scenes/value_text.h"
 
 #include <algorithm>
 #include <cmath>

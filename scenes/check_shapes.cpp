@@ -1,5 +1,5 @@
 #include "scenes/checks.h"
-#include "scenes/format.h"
+#include "scenes/value_text.h"
 
 namespace fluidtex::scenes {
 void checkSequence(const sim::MeshSequence& sequence, const std::string& path, Reader& reader) {

@@ -1,7 +1,7 @@
 // How each kind of value is read: its type, then its limits.
-#include "scenes/format.h"
 #include "scenes/numbered_files.h"
 #include "scenes/reader.h"
+#include "scenes/value_text.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,6 +1,6 @@
 // Lists of all per-vertex arrays of a surface, for code that checks, resizes, transports or saves them. A new
 // array needs a member in texture/surface.h and a line here. Its transport (transport/carry.cpp,
-// transport/onto.cpp) and its PLY properties (tools/output/ply.cpp) have to be written by hand.
+// transport/onto.cpp) and its PLY properties (tools/formats/ply.cpp) have to be written by hand.
 #pragma once
 
 #include "texture/surface.h"

@@ -7,10 +7,10 @@
 #include "tools/base/errors.h"
 #include "tools/common_options.h"
 #include "tools/measure.h"
-#include "tools/output/compare_table.h"
-#include "tools/output/contact_sheet.h"
 #include "tools/run.h"
 #include "tools/run_folder/out_folder.h"
+#include "tools/summaries/compare_table.h"
+#include "tools/summaries/contact_sheet.h"
 
 #include <fmt/core.h>
 

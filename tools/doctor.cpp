@@ -6,8 +6,8 @@
 #include "tools/base/errors.h"
 #include "tools/commands.h"
 #include "tools/draw_by_cycles.h"
-#include "tools/output/contact_sheet.h"
 #include "tools/run_folder/cache_folder.h"
+#include "tools/summaries/contact_sheet.h"
 
 #include <fmt/core.h>
 #include <openvdb/openvdb.h>

@@ -1,12 +1,12 @@
 // fluidtex validate [NAME...]: the reference tests, each figure beside its bar and what others measured.
-#include "tests/validation/case.h"
 #include "tools/base/atomic_file.h"
 #include "tools/base/console.h"
 #include "tools/base/errors.h"
 #include "tools/base/work.h"
 #include "tools/commands.h"
 #include "tools/frames/progress.h"
-#include "tools/output/plot.h"
+#include "tools/summaries/plot.h"
+#include "tools/validation/case.h"
 #include "tools/validation_page.h"
 
 #include <fmt/core.h>

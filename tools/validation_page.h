@@ -1,7 +1,7 @@
 // Updates docs/results/validation.md, and figures.md beside it, with measured results.
 #pragma once
 
-#include "tests/validation/case.h"
+#include "tools/validation/case.h"
 
 #include <stdexcept>
 #include <string>

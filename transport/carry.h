@@ -32,10 +32,13 @@ std::vector<std::uint8_t> contactAt(const std::vector<texture::Vec3f>& positions
 //  - orientation: cubic between the corners, turned with the flow by equation (4) or, as options.orientation
 //    says, not; tangent to the new surface. Directions equal under rotations by 360 / symmetry degrees are
 //    interpolated as one. With Method::grid it is advected on the grid as a vector, symmetry 1.
-// trust: product of transport/trust.h and the share of the path along which the velocity is known; at most
-// the trust of the stretch.
-// `previous` empty (the first frame with a surface): empty result. Throws std::invalid_argument if an array
-// of the old surface does not have one entry per vertex, or the new mesh has no normals.
+// Where the flow goes through a surface that stays (Carried::stays), the values are those at the vertex
+// itself. At inflow along the surface, orientation and exemplar coordinates are extrapolated
+// (transport/inflow.h). trust: the smaller of stretchTrust() and the product of landingTrust(),
+// neighborTrust() and the share of the path along which the velocity is known. `previous` empty (the first
+// frame with a surface): empty result. Throws std::invalid_argument if an array of the old surface does not
+// have one entry per vertex, the new mesh has no normals, symmetry is below 1, or VelocitySampler or, with
+// Method::grid, bandOf() refuses the velocity grids.
 texture::Carried carry(const texture::TexturedSurface& previous, const sim::Frame& frame,
                        const texture::SurfaceMesh& next, int symmetry = 1, const Options& options = {});
 

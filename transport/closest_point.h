@@ -15,7 +15,8 @@ using openvdb::Vec3d;
 using openvdb::Vec3f;
 using openvdb::Vec3I;
 
-// The penalty below that mapping to another surface uses, in units of its length scale.
+// Penalty on opposite sides (see ClosestPoint::nearest) where values are transferred to another surface, in
+// units of the length scale of that transfer.
 inline constexpr double kOtherSide = 4.0;
 
 struct SurfacePoint {
@@ -34,9 +35,9 @@ class ClosestPoint {
   // vertex that does not exist.
   ClosestPoint(const std::vector<Vec3f>& positions, const std::vector<Vec3I>& triangles);
 
-  // The point that minimises distance^2 + (penalty * disagreement)^2 over all triangles. Disagreement is 0 up
-  // to 60 degrees between the triangle's normal and `normal` (unit), and rises with the cosine to 1 for the
-  // opposite side. penalty: metres. Ties: smaller triangle index.
+  // The point that minimises distance^2 + (penalty * disagreement)^2 over all triangles. disagreement: (1/2 -
+  // c) / (3/2), clamped to 0..1, c being the cosine between the triangle's normal and `normal` (unit): 0 up
+  // to 60 degrees, 1 for the opposite side. penalty: metres. Ties: smaller triangle index.
   SurfacePoint nearest(const Vec3d& x, const Vec3f& normal, double penalty) const;
 
  private:

@@ -1,6 +1,6 @@
-// Surface through which liquid passes: where a source, a slit or an open side of the domain gives out liquid,
-// the path of a vertex leads back to where there was no surface. Its texture is drawn out from beside it, as
-// from a roll; where the flow goes through a surface that stays, the texture stays too.
+// Texture on surface that liquid flows out of or through. At a source, a slit or an open side of the domain,
+// the back-trace of a vertex leaves the old surface: there the texture is extrapolated from that beside it.
+// Where the flow crosses a surface that does not move, the surface keeps its texture.
 #pragma once
 
 #include "texture/joints/places.h"
@@ -20,23 +20,25 @@ struct TracedVertex {
   double spacing = 0.0;    // metres, there
 };
 
-// What has come in since the last frame, along the surface.
+// Whether new surface has come in along the surface since the last frame, at a vertex.
 enum class Inflow : std::uint8_t {
   none,
-  // The flow enters the old liquid at the landing, through the rim of it; no inflow unless there is some
-  // beside it.
+  // At the landing the displacement points more into the old liquid than at the vertex: its component along
+  // the outward normal is lower by more than 0.15 of its length. Counts only near vertices that are `out`.
   rim,
-  // The origin lies upstream of the end of the old surface, outside of the liquid, by more than a quarter of
-  // the spacing in the plane of the carried normal, and no farther than the vertex has moved.
+  // The origin lies off the old surface, upstream of the landing (within 45 degrees): by more than a quarter
+  // of the spacing in the plane of the carried normal, by at most 1.25 times the way moved, and not deeper in
+  // the liquid than a quarter of its distance or of the spacing, whichever is larger.
   out
 };
 
 // landing: of the origin.
 Inflow inflowAt(const TracedVertex& vertex, const Landing& landing);
 
-// Whether the vertex moves across the surface (30 degrees or more), and the surface has not moved with it, so
-// that the origin is off it by more than a quarter of the spacing.
-// landing: of the origin.
+// Whether the vertex moves across the surface, at 30 degrees or more to it, and the surface has not moved
+// with it: the origin is off the old surface by at least a quarter of the spacing, and either by more than
+// half of the motion across the surface, or the normals there differ by more than 60 degrees. landing: of the
+// origin.
 bool goesThrough(const TracedVertex& vertex, const Landing& landing);
 
 // Whether the surface was where the vertex is: nearer than a quarter of what the flow has moved across it.
@@ -44,14 +46,15 @@ bool goesThrough(const TracedVertex& vertex, const Landing& landing);
 // here: the landing of the vertex's own place.
 bool hasStayed(const TracedVertex& vertex, const Landing& here);
 
-// Continues the orientation and the exemplar coordinates (and those that fade) of vertices that ride with the
-// flow, which are neither `out` nor `stays` (#V) nor of low trust, over those that are `out`, ring by ring,
-// by their gradient: each vertex those of its neighbour in the largest piece of texture, counted by what of
-// it lies upright (carried.orientation, symmetry as carry() has it), so that joints do not go on for ever.
-// Across the direction of `way` (#V, metres: how the vertex has moved) the gradient is kept; along it the
-// texture is laid anew at one texel per spacing, since what comes out has not been strained yet. What is
-// reached has age 0 and the trust of where it comes from. Preconditions: unit normals; a closed, manifold
-// mesh.
+// Extrapolates orientation, exemplar coordinates and cross-fade (`carried`) to vertices that are `out`, and
+// to `rim` vertices within four rings of these. Sources are all other vertices, except those that stay
+// (carried.stays) and those of trust below kLowTrust. Ring by ring, each vertex continues the values of one
+// neighbour by their gradient: the neighbour whose patch has the most vertices at which the texture is
+// aligned with carried.orientation, within 20 degrees and up to rotations by 360 / symmetry degrees; of
+// several the nearest. So misaligned patches do not spread. Across `way` (#V, metres: displacement in the
+// frame) the gradient is kept; along it the texture gets one texel per spacing, since new surface has not
+// been strained yet. Extrapolated vertices get age 0 and the trust of that neighbour. Precondition: unit
+// normals. Throws std::invalid_argument if the mesh is not closed and manifold.
 void drawOut(const texture::SurfaceMesh& mesh, const texture::Torus& torus, const std::vector<Inflow>& inflow,
              const std::vector<Vec3f>& way, int symmetry, texture::Carried& carried);
 

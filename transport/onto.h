@@ -13,10 +13,10 @@ namespace fluidtex::transport {
 //    the vertex's tangent plane;
 //  - vector maps: from corners that agree with the nearest one, turned with the normal, of length 1 or 0;
 //  - contact, and whether the texture is original: from the nearest corner.
-// Normals are area-weighted means of the triangles around. trust falls with the distance from the surface.
-// previousPosition is that of the closest point's place, or the vertex itself without an earlier frame. An
-// empty surface gives grey vertices without trust. Throws std::invalid_argument if a triangle's vertex does
-// not exist.
+// Normals are area-weighted means of the triangles around. trust: the surface's, times a factor that falls
+// with the distance from it (landingTrust()). previousPosition: the vertex minus the closest point's
+// displacement since the previous frame. An empty surface gives mid grey, coordinates 0 and trust 0, and
+// previousPosition is the vertex itself. Throws std::invalid_argument if a triangle's vertex does not exist.
 texture::TexturedSurface onto(const texture::TexturedSurface& surface, std::vector<texture::Vec3f> positions,
                               std::vector<texture::Vec3I> triangles, int symmetry = 1);
 

@@ -17,11 +17,13 @@ float landingTrust(const Landing& landing, double scale, const Vec3f& carriedNor
 // values of the transported gradient times `spacing` (metres).
 float stretchTrust(const TexelGradient& gradient, double spacing);
 
-// #V, consistency with neighbours: deviation of the landing points `landed` (#V) of an edge's ends from the
-// flow's map (#V) of that edge, the largest over each vertex's edges. 1 up to half the larger of edge length
-// and spacing, 0 from one and a half. Low along seams where surfaces from far apart have merged, and where
-// surface was newly exposed, so that many vertices land in one place. Edges are left out that lead from what
-// stays (#V, 1 where the flow goes through the surface) to what rides with the flow.
+// #V, consistency with neighbours. For each edge: deviation of the difference of its ends' landing points
+// `landed`
+// (#V, metres) from the edge as the flow's map (#V) transforms it, in units of the largest of spacing, edge
+// length and transformed length. The largest deviation over a vertex's edges counts: trust is 1 up to 0.5,
+// falls linearly and is 0 from 1.5 on. Low along seams where surfaces from far apart have merged, and where
+// surface was newly exposed, so that many vertices land in one place. Edges between a vertex that stays (#V,
+// 1 where the flow goes through the surface) and one that does not are left out.
 std::vector<float> neighborTrust(const texture::SurfaceMesh& mesh, const std::vector<Vec3f>& landed,
                                  const std::vector<Mat3d>& map, const std::vector<std::uint8_t>& stays);
 

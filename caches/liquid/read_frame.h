@@ -1,4 +1,5 @@
-// Reading of a frame.
+// Reading a frame of a liquid that another program has simulated: Blender's (mantaflow), FLIP Fluids',
+// meshes, grids and particles of others. Which files are what is known by caches/layouts.
 #pragma once
 
 #include "caches/liquid/cache.h"

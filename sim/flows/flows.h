@@ -27,11 +27,13 @@ struct RunningFlows {
 // The sources and drains of a scene over time. Their shapes are sampled on the grid once, in the constructor.
 class Flows {
  public:
+  // Samples the shapes on the grid. Throws MeshError and HeightError.
   explicit Flows(const Options& options);
 
   RunningFlows at(double t) const;
 
-  // The first time after t at which a source or a drain begins or ends; kForever where there is none.
+  // The first time after t at which a source or a drain begins or ends, or at which a source's rate has a
+  // point; kForever where there is none.
   double nextChange(double t) const;
 
   // The phi of each source: where liquid can enter.
@@ -58,9 +60,11 @@ std::vector<std::string> flowWarnings(const Options& options, const Solids& soli
 // air markers in sources and liquid markers in drains. solidPhi: the solids' signed distance, metres.
 void applyFlows(FloatGrid& phi, Markers& markers, const FloatGrid& solidPhi, const RunningFlows& flows);
 
-// The solids with given velocities added: at open faces in sources, and at open faces on stream sides of the
-// domain. On stream sides the velocity `before` is advected outward by itself and by the waves of shallow
-// water, for dt seconds.
+// The solids with given face velocities added; unchanged where there are none. Running sources give theirs at
+// their open faces. On stream sides of the domain a radiation condition holds at the open faces of liquid
+// cells: the outward velocity u of `before` is advected outward over dt seconds with the speed u + sqrt(|g|
+// d), d being the liquid's depth in the column, or with u alone where the side is the floor or the ceiling.
+// phi: the liquid's. gravity: m/s2.
 // Source: Orlanski, "A simple boundary condition for unbounded hyperbolic flows", 1976.
 SolidField withFlows(const SolidField& solid, const RunningFlows& flows, const FloatGrid& phi,
                      const Velocity& before, const Vec3d& gravity, double dt);

@@ -9,9 +9,10 @@
 
 namespace fluidtex::sim {
 
-// Extrapolates values linearly along the axes from visible cells to hidden ones, so that a level set
-// continues behind the wall as before it. The sign does not change there, except from liquid to air where the
-// value rises by more than `gap` in a cell: liquid that leaves a wall along which its surface lies.
+// Extrapolates a stencil of a level set linearly along the axes, from visible cells to hidden ones, so that
+// the surface continues behind the wall. An extrapolated value keeps the sign of the value beside it, except
+// where it rises from liquid to air by more than `gap` (in the unit of the values) per cell: there liquid
+// separates from a wall along which its surface lies.
 void extrapolateBehind(Stencil& values, const VisibleCells& visible,
                        float gap = std::numeric_limits<float>::infinity());
 

@@ -21,9 +21,10 @@ double slipLength(const Wall& wall);
 void setWalls(SolidField& field, const std::function<const Wall&(const Vec3d&)>& wallAt,
               const std::function<double(const Vec3d&)>& distance);
 
-// After constrainToSolids: extrapolates the liquid's velocity, through the wall's at the surface, to closed
-// faces in solids (those not in `valid`), so that what is traced along a no-slip wall comes to rest there. No
-// effect where SolidField::slipLength is null.
+// After constrainToSolids: at faces in solids whose open area fraction is below kLeastOpen and which are not
+// in `valid`, extrapolates the velocity linearly from the liquid's nearest face through the wall's velocity
+// at the slip length behind the surface, at most to the mirror image. So what is traced along a no-slip wall
+// comes to rest there. No effect where the wall slips freely or SolidField::slipLength is null.
 void stickToWalls(Velocity& velocity, const SolidField& solid, const FaceMasks& valid);
 
 }  // namespace fluidtex::sim

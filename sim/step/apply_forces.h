@@ -23,9 +23,11 @@ bool applyViscosityFor(Liquid& liquid, const SolidField& solid, double kick, con
 
 // Projects the velocity over dt seconds, extrapolates it, constrains it at solids and opens gaps where liquid
 // separates from them.
-// kick: how long forces act in this, s. viscous: whether viscosity acts, so that liquid can stick to walls.
-// driven: whether the acceleration is wanted. arrived: the velocity before viscosity, no grids where there
-// was none. report: may be null. False where the solve does not converge or a velocity is not finite.
+// kick: time for which gravity, viscosity and surface tension act in this step, s. viscous: whether viscosity
+// acts, so that walls without free slip hold liquid. driven: in a regular step; fills liquid.acceleration,
+// and requires liquid.deficit. arrived: the velocity before viscosity; without grids, that before the
+// projection takes its place. report: may be null. False where the solve does not converge or a velocity is
+// not finite.
 bool applyPressure(Liquid& liquid, const SolidField& solid, double dt, double kick, const Options& options,
                    bool viscous, bool driven, Velocity arrived, StepReport* report);
 

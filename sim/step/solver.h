@@ -17,8 +17,10 @@ class Flows;
 class Solids;
 struct SolidField;
 
-// Thrown when a step fails: the pressure solve does not converge even after halving the step, or a velocity
-// is not finite. The message says what happened, at which time, and what may help.
+// Thrown when a simulation cannot go on: a pressure, viscosity or temperature solve does not converge or a
+// velocity is not finite, even after the step was halved several times; the liquid, a solid or surface
+// tension requires too short steps (sim/step/step_failures.h); or a restored state does not fit the options.
+// The message says what happened, at which time, and what may help.
 struct SolverError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -26,7 +28,7 @@ struct SolverError : std::runtime_error {
 class Solver {
  public:
   // Starts without liquid. Throws std::invalid_argument where the options are invalid (see
-  // sim/step/check_options.h).
+  // sim/step/check_options.h), and MeshError and HeightError for files of solids, liquid, sources and drains.
   explicit Solver(const Options& options);
   // Continues from a restored state. Throws std::invalid_argument as above, and where the state's grids are
   // invalid. Throws SolverError when the state was made at another resolution, or lacks the heat that the
@@ -34,12 +36,13 @@ class Solver {
   Solver(const Options& options, State state);
 
   // The first call returns the initial state (frame 1, no substeps); each further call advances by one frame
-  // time. `progress`, where given, is called with the finished fraction of the frame, 0..1.
+  // time. `progress`, where given, is called with the finished fraction of the frame, 0..1. Throws
+  // SolverError.
   Frame next(const std::function<void(double)>& progress = {});
 
   const State& state() const { return m_state; }
 
-  // Where the scene is or was not simulated as it may mean, one sentence each; next() may add to them.
+  // Problems of the scene or of the simulation so far, one sentence each; next() may add to them.
   const std::vector<std::string>& warnings() const { return m_warnings; }
 
  private:

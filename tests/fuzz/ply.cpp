@@ -1,8 +1,8 @@
 // The surface of a finished run.
-#include "tools/output/ply.h"
+#include "tools/formats/ply.h"
 #include "tests/fuzz/reader.h"
 #include "tools/base/errors.h"
-#include "tools/output/read_ply.h"
+#include "tools/formats/read_ply.h"
 
 using namespace fluidtex;
 

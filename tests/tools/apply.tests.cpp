@@ -1,8 +1,8 @@
 // fluidtex apply: further maps on a finished run.
 #include "tests/tools/program.h"
 #include "tools/base/errors.h"
-#include "tools/output/ply.h"
-#include "tools/output/read_ply.h"
+#include "tools/formats/ply.h"
+#include "tools/formats/read_ply.h"
 
 #include <OpenImageIO/imageio.h>
 #include <catch2/catch.hpp>

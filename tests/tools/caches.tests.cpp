@@ -1,6 +1,6 @@
 // fluidtex simulate, texture and check: a liquid out of files.
 #include "tests/tools/balls.h"
-#include "tools/output/read_ply.h"
+#include "tools/formats/read_ply.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

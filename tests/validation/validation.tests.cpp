@@ -1,5 +1,5 @@
 // The quick set of `fluidtex validate`: every bar in it holds.
-#include "tests/validation/case.h"
+#include "tools/validation/case.h"
 
 #include <catch2/catch.hpp>
 

@@ -11,8 +11,8 @@
 
 namespace fluidtex::texture {
 
-// #V, cost of each label: log stretch() + kSeamWeight * seamCostAround() + guidanceCost(). A lost label
-// (lostLabels) counts as stretched by kLostStretch at least.
+// #V, cost of each label: log stretch() + 0.75 seamCostAround() + guidanceCost(). A lost label (lostLabels)
+// counts as stretched by 4 at least. trust: #V.
 std::vector<float> badness(const SeamModel& model, const Labels& labels, const std::vector<float>& trust);
 
 // Whether a transported value has enough confidence to be used (kLowTrust).
@@ -57,11 +57,13 @@ Wear scaled(Wear wear, const std::vector<float>& factor);
 double wornShare(const std::vector<Strain>& rates, double seconds, double keepStretch,
                  const std::vector<float>& factor = {});
 
-// Discs around vertices whose wear exceeds that of texture stretched by keepStretch, worst first, until the
-// budget is used. The threshold varies smoothly over the exemplar, from half of log keepStretch on, so that
-// neighbours are not renewed at once. Vertices that are not `free` (#V: in a cross-fade, on droplets, or of
-// wear 0) are no members; discs in which many of them are worn are skipped. Urgent vertices between discs,
-// within twice their radius, join the nearest disc whatever the budget.
+// Discs around the vertices of largest wear.bad, until the budget is used. Centres are vertices whose
+// wear.bad exceeds a threshold of 0.5 to 1 times log keepStretch. The threshold varies smoothly over the
+// exemplar, so that texture laid together is not renewed together. Members are `free` vertices only (#V; 0:
+// in a cross-fade, on a droplet, where the flow goes through the surface, or never renewed). A disc is
+// skipped if more than 35% of its vertices are not free but have wear. Urgent free vertices (wear.stretch of
+// kUrgent log keepStretch or more) between discs join the disc that reaches them first, within twice its
+// radius, whatever the budget.
 std::vector<Disc> worstDiscs(const SeamModel& model, const Labels& labels, const Wear& wear,
                              const std::vector<std::uint8_t>& free, const DiscOptions& options,
                              std::uint64_t seed);
@@ -78,12 +80,12 @@ std::vector<std::uint8_t> lostLabels(const SeamModel& model, const Labels& label
 // The mask (#V) grown by `rings` rings of neighbours.
 std::vector<std::uint8_t> grown(const VertexGraph& graph, std::vector<std::uint8_t> mask, int rings);
 
-// Merges proposed labels into transported ones. Where both show the same texel, the transported label stays
-// unless it is clearly more stretched.
-// Among the others sub-texel misalignments are closed. Each connected piece of them is accepted only if that
-// lowers the summed badness of the surface by a least mean gain: its own, and that of its neighbours, whose
-// seams change with it. renewed (#V) is 1 where a label was accepted. Every renewal lowers a sum that is
-// bounded below, so a surface at rest comes to rest. factor: #V, on the badness; empty: 1.
+// Merges proposed labels into transported ones. Where both show the same texel, within 0.7 texels, the
+// transported label stays unless it is clearly more stretched. Sub-texel misalignments of the other vertices
+// are closed (closeSlips). Each connected piece of these is accepted only if it lowers the summed badness,
+// its own and that of neighbours which share seams with it, by at least 0.05 per vertex of the piece. renewed
+// (#V) is 1 where a label was accepted. Each renewal lowers a sum that is bounded below, so renewal ends on a
+// surface that does not move. factor: #V, on the badness; empty: 1.
 Labels settle(const SeamModel& model, const Labels& carried, const Labels& proposed,
               const std::vector<float>& trust, std::vector<std::uint8_t>& renewed,
               const std::vector<float>& factor = {});

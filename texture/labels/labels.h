@@ -34,7 +34,8 @@ struct Lay {
   bool mirrored = false;
 };
 
-// The same placement for other axes: `rotation` takes local coordinates there to those that `lay` is for.
+// The same placement in the axes of another vertex. rotation: unit complex number that rotates local
+// coordinates from those axes to the axes of `lay`.
 inline Lay seenFrom(const Lay& lay, const Complexf& rotation) {
   return {lay.mirrored ? conjugateProduct(rotation, lay.turn) : product(lay.turn, rotation), lay.mirrored};
 }
@@ -47,6 +48,7 @@ inline bool isMirrored(const Label& label) {
   return label.jacobian[0] * label.jacobian[3] < label.jacobian[1] * label.jacobian[2];
 }
 
+// The label with the isometric Jacobian of a placement.
 Label unstretched(const Vec2f& texel, const Lay& lay);
 
 // Largest of s1 and 1 / s2, singular values s1 >= s2 of the Jacobian: 1 where the texture is isometric, 1000
@@ -55,10 +57,14 @@ float stretch(const Label& label);
 // The same of a gradient, for an exemplar pixel of `spacing` metres.
 float stretch(const TexelGradient& gradient, double spacing);
 
+// The label at vertex v: coordinate in texels, gradient in texels per metre. Requires mesh.orientation.
 Label labelOf(const SurfaceMesh& mesh, std::uint32_t v, const Vec2f& coordinate,
               const TexelGradient& gradient);
+// The same for all vertices, #V.
 Labels labelsOf(const SurfaceMesh& mesh, const std::vector<Vec2f>& coordinate,
                 const std::vector<TexelGradient>& gradient);
+// Gradient of a label, texels per metre. orientation, normal: of its vertex, unit. spacing: spacingAt()
+// there, metres.
 TexelGradient gradientOf(const Label& label, const Vec3f& orientation, const Vec3f& normal, double spacing);
 
 // Channels of the image at the labels.

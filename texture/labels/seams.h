@@ -14,9 +14,11 @@ struct SeamModel {
   const TexelImage& image;
   Float8 channelWeight{};  // on squared differences
   float unit = 1.0f;       // unit of cost: rms difference of random texels
-  // #V (null: none), Carried::stays: where it differs texture slides past texture, and seams cost nothing.
+  // #V (null: none), Carried::stays. Edges between a vertex that stays and one that does not cost nothing in
+  // seamCostAround(), since the texture on one side moves past that on the other.
   const std::vector<std::uint8_t>* stays = nullptr;
-  // #V (null: none), VertexTexture::original: a mesh may show its picture mirrored, and beyond its edge.
+  // #V (null: none), VertexTexture::original. Original labels may be mirrored, or lie beyond the edge of the
+  // exemplar.
   const std::vector<std::uint8_t>* original = nullptr;
 
   bool isOriginal(std::uint32_t v) const {
@@ -33,9 +35,9 @@ SeamModel makeSeamModel(const MeshView& view, const TexelImage& image, const Flo
 // Whether two labels at the ends of edge h, from v to u, continue each other (kCoherent).
 bool continues(const SeamModel& model, const Label& atV, const Label& atU, std::uint32_t h);
 
-// Cost of edge h, from v to u: zero where the labels continue each other, else kSeamLength + |A(v) - B(v)| +
-// |A(u) - B(u)|, with A and B the values that the two labels predict at a place. The norms are not squared,
-// so that this is a metric on labels [Kwatra03].
+// Cost of edge h, from v to u: zero where the labels continue each other, else kSeamLength + (|A(v) - B(v)| +
+// |A(u) - B(u)|) / model.unit. A and B: image values at the texels that the two labels predict at a vertex.
+// The norm is weighted by model.channelWeight and not squared, so that this is a metric on labels [Kwatra03].
 float seamCost(const SeamModel& model, const Label& atV, const Label& atU, std::uint32_t h);
 // The same for texels that have been looked up already.
 float seamCost(const SeamModel& model, const Label& atV, const Float8& valueV, const Label& atU,

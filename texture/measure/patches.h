@@ -10,7 +10,8 @@
 
 namespace fluidtex::texture {
 
-// Pyramid of the pictures by halving, as long as the larger patches fit twice; at most three levels.
+// Pyramid of the pictures by halving, at most three levels: a picture is halved while its shorter side is at
+// least 14 texels, twice the width of the smaller patches (7).
 std::vector<Stack> pyramidOf(Stack stack);
 
 // Keyed by pyramid level and width of the patches.
@@ -30,7 +31,8 @@ class PatchJudge {
   std::map<std::pair<int, int>, std::shared_ptr<const Space>> m_spaces;
 };
 
-// Mean over levels and widths of the distances over the mean of `own`, the exemplar's distances to itself.
+// Mean, over pyramid levels and patch widths, of the ratio of distance to self-distance. Self-distance: mean
+// of `own`, the distances between halves of the exemplar, at that level and width, at least 0.02.
 double patchRatio(const PatchDistances& distances, const std::vector<PatchDistances>& own);
 
 // Which of an exemplar's 8 x 8 parts patches of nine texels resemble, at eight rotations.

@@ -12,8 +12,8 @@ namespace fluidtex::texture {
 // = 1 to half the picture's size.
 std::vector<double> radialSpectrum(const Stack& pictures);
 
-// rms difference of two spectra, dB (10 log10), over frequencies where either holds a millionth of its
-// largest power; below that it counts as that. 0 where there is none.
+// rms difference of two spectra, dB (10 log10), over frequencies where either exceeds the floor, 1e-6 of the
+// largest power in both; lower powers are raised to the floor. 0 if there is no such frequency.
 double spectrumDistance(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace fluidtex::texture

@@ -53,7 +53,8 @@ struct Tile {
   std::vector<Reading> texels;  // size x size
 };
 
-// A mesh with the data for laying out tiles. Keeps a reference to the surface.
+// A mesh with the data for laying out tiles. Keeps a reference to the surface. Throws std::invalid_argument
+// if the mesh is not closed and manifold, as all measures do that use it.
 struct TileGround {
   explicit TileGround(const TexturedSurface& surface);
   const TexturedSurface& surface;
@@ -70,8 +71,9 @@ using SmoothReading = std::array<std::pair<float, std::uint32_t>, kReadFrom>;
 double readAt(const TileGround& ground, const Vec3f& x, std::uint32_t at, bool withoutIt,
               SmoothReading& found);
 
-// `count` tiles of size x size texels of surface.spacing around random vertices, at random angles. Fewer if
-// 12 times as many vertices do not give them: a tile bends by at most 40 degrees on average.
+// `count` tiles of size x size texels of surface.spacing, around random vertices at random angles; fewer if
+// 12 count vertices do not give that many. A tile's normals deviate from that of its centre by at most 40
+// degrees on average (mean cosine) and 59 degrees anywhere. At most 2% of its texels may lie off the surface.
 std::vector<Tile> flatTiles(const TileGround& ground, int size, int count, Dice& dice);
 
 // sRGB-encoded picture of the exemplar: 3 channels, or 4 where alpha varies.
@@ -89,9 +91,10 @@ Image seenLuminance(const Image& color);
 // The value that `share` of the values do not exceed; 0 if there are none.
 double percentile(std::vector<float> values, double share);
 
-// The surface's colours on the tiles, as in encodedPicture(), and the exemplar laid on the same vertices at
-// random places and angles; both in CIELAB / 100 over mid grey (and alpha). Tiles are reused if there are
-// fewer than `count`.
+// The surface's colours on the tiles, and those of `picture`, the exemplar as from encodedPicture(), on the
+// same vertices at random positions and rotations. Interpolated as sRGB-encoded values, then converted to
+// CIELAB / 100, transparent colours over mid grey; with 4 channels the last is alpha. exemplarTiles() uses
+// tiles again until there are `count` pictures.
 Stack colorTiles(const TexturedSurface& surface, const std::vector<Tile>& tiles, int size, int channels);
 Stack exemplarTiles(const Image& picture, const std::vector<Tile>& tiles, int size, int count, Dice& dice);
 

@@ -4,6 +4,8 @@
 //
 //   E(s) = sum over windows p of m_p phi(D_p / m_p) + sum over vertices k of f_k |s_k - c_k|^2
 //
+// the first sum being equation (1) of the paper with a robust norm, the second its equation (2).
+//
 // D_p: squared difference of surface and matched window over the vertex neighbourhood, weighted by the
 // Gaussian fall-off g. m_p: sum of g. phi(x) = (2 / r) D0 (x / D0)^(r/2) is the robust norm |.|^r; D0 is the
 // mean of D_p / m_p at the start; below D0 / 100 phi is continued by its tangent.

@@ -12,9 +12,10 @@ namespace fluidtex::texture {
 //    spacingAt, N the surface's normal, so that stretched bumps become flatter; z is taken as 0.05 at least;
 //  - directions are advected as lines: the tangent d with G d = (x, -y), as long as (x, y), plus z N; zero
 //    where less than 0.02 is left, as eight bits cannot represent 0.
-// Cross-faded as colours are. Requires gradient, normals and spacing. Removes entries of surface.maps under
-// the names that a PLY gives the components. Throws std::invalid_argument if the map has not three channels,
-// holds values, or the surface does not know the size of its exemplar.
+// In a cross-fade, former and present vectors are mixed linearly and normalised. Requires gradient, normals
+// and spacing. Removes entries of surface.maps under the names that a PLY gives the components. Throws
+// std::invalid_argument if the map has not three channels, holds values, or the surface does not know the
+// size of its exemplar.
 void lookUpVectors(const std::string& name, const ExemplarMap& map, bool toroidal, TexturedSurface& surface);
 
 // Estimates surface.gradient, and that of the cross-fade, from the coordinates, for surfaces read from files

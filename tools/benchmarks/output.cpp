@@ -10,7 +10,7 @@
 #include "tools/benchmarks/measure.h"
 #include "tools/benchmarks/textured_samples.h"
 #include "tools/formats/exports.h"
-#include "tools/output/ply.h"
+#include "tools/formats/ply.h"
 
 #include <tbb/global_control.h>
 

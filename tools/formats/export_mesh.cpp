@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <limits>
 #include <numeric>
 #include <set>
 #include <string_view>
@@ -16,7 +15,7 @@
 namespace fluidtex::tools {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+using texture::kNone;
 
 bool sameRow(const std::vector<const Column*>& columns, std::uint32_t a, std::uint32_t b) {
   return std::all_of(columns.begin(), columns.end(), [=](const Column* column) {

@@ -1,4 +1,4 @@
-// The files of a run in the formats other than PLY, which tools/output/ply.h writes.
+// The files of a run in the formats other than PLY, which ply.h writes.
 #pragma once
 
 #include "tools/formats/appearance.h"

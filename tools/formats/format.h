@@ -1,4 +1,8 @@
 // The file formats that the textured surface is written in, and where their files lie in the folder of a run.
+//
+// A further format needs a member of Format and a line of kFormatFiles here, a writer of an ExportMesh (as
+// vtp.h) that write() in exports.cpp calls, a line in docs/reference/formats.md, and a share in
+// tools/frames/disk_plan.cpp.
 #pragma once
 
 #include <string>

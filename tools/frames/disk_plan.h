@@ -11,11 +11,11 @@
 
 namespace fluidtex::tools {
 
-// What is written. Leads, not promises.
+// Estimated sizes of what a run writes, bytes.
 struct DiskPlan {
-  double surfaces = 0.0;  // bytes of all frames, in all formats
+  double surfaces = 0.0;  // of all frames, in all formats
   double pictures = 0.0;  // and the video
-  double state = 0.0;     // while a new one takes the place of the last, both are there
+  double state = 0.0;     // of two states: the old one is removed after the new one is written
   double page = 0.0;      // report.html, exemplar.png, exemplar/ and between.png
   double total() const { return surfaces + pictures + state + page; }
 };
@@ -31,7 +31,7 @@ std::string textOf(const DiskPlan& plan);
 // Bytes that are free where the folder is, or would be made; nothing where the system does not say.
 std::optional<double> freeBytes(const std::filesystem::path& folder);
 
-// A warning where what is free there, and what an earlier run takes there, will not do; empty else.
+// A warning if the plan exceeds the free bytes at `out` plus the bytes of all files in it; else empty.
 std::string diskNote(const DiskPlan& plan, const std::filesystem::path& out);
 
 }  // namespace fluidtex::tools

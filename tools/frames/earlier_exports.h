@@ -7,10 +7,11 @@
 
 namespace fluidtex::tools {
 
-// Of frames `first` to `last`: writes the files that the journal does not have whole; and all of a format
-// that comes out otherwise now, as with joints of the other kind, so that a sequence is of one kind. Frame
-// `last` tells, and is written last, so that what was interrupted is noticed again. Throws as exportFrame(),
-// and Interrupted once `stop` is set.
+// Completes the exports of frames `first` to `last`, which an earlier run has finished. Writes files that are
+// missing or not as the journal records them. If a format's file of frame `last` would now have other bytes,
+// for example with another setting of joints, that format is written again for all frames. Frame `last` is
+// written last, so that an interrupted conversion is detected the next time. No effect if PLY is the only
+// format. Throws as exportFrame(), and Interrupted once `stop` is set.
 void exportEarlierFrames(const std::filesystem::path& out, int first, int last, const Exports& exports,
                          const texture::Image& color, const std::atomic<bool>& stop);
 

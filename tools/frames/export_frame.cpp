@@ -6,7 +6,7 @@
 #include "tools/base/atomic_file.h"
 #include "tools/base/errors.h"
 #include "tools/formats/exemplar_picture.h"
-#include "tools/output/read_ply.h"
+#include "tools/formats/read_ply.h"
 #include "tools/run_folder/finished_run.h"
 #include "tools/run_folder/journal.h"
 

@@ -10,7 +10,8 @@
 
 namespace fluidtex::tools {
 
-// Of a run with this scene, as resolved. color: the exemplar. Throws UsageError for what is no such scene.
+// How exports show the surface, by the scene of run.json (all keys resolved). color: the exemplar, linear
+// RGBA. Throws UsageError if a key has a value of another type.
 Appearance appearanceOf(const Json& scene, const texture::Image& color);
 
 // Writes OUT/exemplar.png, and OUT/between.png of a picture that is looked up in its place, unless they are

@@ -11,9 +11,9 @@ namespace fluidtex::tools {
 
 std::filesystem::path videoFile(const scenes::Scene& scene, const std::filesystem::path& out);
 
-// The pictures first..last of out/frames as videoFile(), at the scene's frame rate. Where the encoder fails
-// or the disk is full, throws std::runtime_error, or Interrupted where `stop` is set, of which `onward` is
-// the option that goes on.
+// Encodes the pictures first..last of out/frames to videoFile(), at the scene's frame rate. If that fails
+// (encoder, full disk), throws std::runtime_error, or Interrupted(onward) where `stop` is set. onward:
+// command-line option with which the run can be continued.
 void writeVideo(const scenes::Scene& scene, const std::filesystem::path& out, int first, int last,
                 const std::atomic<bool>& stop, const std::string& onward);
 

@@ -5,8 +5,8 @@
 #include "texture/exemplar/srgb.h"
 #include "tools/base/atomic_file.h"
 #include "tools/base/errors.h"
+#include "tools/formats/read_ply.h"
 #include "tools/joints/stand_out.h"
-#include "tools/output/read_ply.h"
 #include "tools/run_folder/finished_run.h"
 
 #include <fmt/core.h>

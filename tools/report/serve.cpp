@@ -2,7 +2,7 @@
 
 #include "render/frame_name.h"
 #include "tools/base/errors.h"
-#include "tools/output/read_ply.h"
+#include "tools/formats/read_ply.h"
 #include "tools/report/figures.h"
 #include "tools/report/packed_mesh.h"
 #include "tools/report/page.h"

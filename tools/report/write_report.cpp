@@ -4,7 +4,7 @@
 #include "tools/base/atomic_file.h"
 #include "tools/base/errors.h"
 #include "tools/base/work.h"
-#include "tools/output/read_ply.h"
+#include "tools/formats/read_ply.h"
 #include "tools/report/figures.h"
 #include "tools/report/packed_mesh.h"
 #include "tools/report/page.h"

@@ -19,10 +19,11 @@ struct EarlierFrames {
   bool writeLastAgain = false;       // files of the last are lost or changed
 };
 
-// Looks in options.out for finished frames, up to the scene's last one `last`, and removes half-written files
-// of a killed run. now: report of this run, without frames. Nothing if there is nothing to resume. Throws
-// UsageError if the scene or its files differ, or a frame's file has changed since it was written, and
-// std::runtime_error for a damaged state.
+// Looks in options.out for finished frames, up to the scene's last one `last`, and removes temporary files of
+// a killed run. now: report of this run, without frames. Nothing if there is nothing to resume. Throws
+// UsageError if the scene or its files differ, or a file of a finished frame is missing or changed (of the
+// last finished frame writeLastAgain is set instead); std::runtime_error for a damaged state or a journal
+// that lacks a frame; openvdb::IoError if the solver's file is intact but no state.
 std::optional<EarlierFrames> earlierFrames(const scenes::Scene& scene, const RunOptions& options,
                                            const Report& now, int last);
 

@@ -18,14 +18,15 @@ struct FinishedRun {
   bool toroidal = false;
   bool looksUp = false;      // colours were looked up at exemplar coordinates
   bool isProjected = false;  // from rest positions: there are no coordinates
-  // The exemplar is a sequence, and `color` its first picture; a frame shows one of them, or places differ.
+  // moves: the exemplar is an image sequence, and `color` its first image. movesWithTime: one image per
+  // frame, chosen by time; otherwise guidance chooses one per vertex.
   bool moves = false, movesWithTime = false;
   std::vector<int> frames;  // with a surface on disk, ascending; never empty
   std::filesystem::path surfaceOf(int frame) const;
 };
 
-// run.json, and of a run that was killed or goes on the frames that it lacks, from the journal. Throws
-// UsageError if the folder holds none, or one that is damaged.
+// run.json. Frames that it lacks, since the run was killed or is still running, are added from the journal.
+// Throws UsageError if run.json is missing or is no report of a run.
 Json readReport(const std::filesystem::path& out);
 
 // Frames whose file is in the folder, ascending. extension: with its dot.
@@ -47,8 +48,10 @@ const std::filesystem::path& existing(const std::filesystem::path& out);
 // Whether colours were looked up at exemplar coordinates, by run.json's settings of the texture.
 bool looksUp(std::string_view method, std::string_view laterFrames);
 
-// exemplar: replaces the run's own; else empty. Where that is no longer at its place, the copy in the folder
-// is taken. Throws UsageError if the folder holds no run, or its exemplar is missing.
+// exemplar: image that replaces the run's own. Empty: the run's own or, where that is missing, its copy in
+// the folder. Throws UsageError if the folder holds no run or no surface, the exemplar is missing, or the
+// given one has another size than the halved picture of a run with [texture.start]; ExemplarError if it
+// cannot be read.
 FinishedRun openRun(const std::filesystem::path& out, const std::filesystem::path& exemplar);
 
 }  // namespace fluidtex::tools

@@ -5,11 +5,11 @@
 
 namespace fluidtex::tools {
 
-// Who else may write into the folder: nobody, or others that say so too, each of them other files.
+// Lock on the folder: exclusive, or shared with processes that also take a shared lock and write other files.
 enum class Holding { alone, together };
 
-// Locked for the lifetime of this object and at most of the process. Contains no links for what a run writes
-// or removes, so that all of it is inside the folder.
+// Lock on an output folder while this object lives; the system releases it when the process ends. What a run
+// writes or removes in the folder is no symbolic link, so that nothing outside the folder changes.
 class OutFolder {
  public:
   // Creates the folder if missing. Throws UsageError, with the folder's name, if it cannot be created or

@@ -1,7 +1,7 @@
 // Drawing of a contact sheet.
 #pragma once
 
-#include "tools/output/contact_sheet.h"
+#include "tools/summaries/contact_sheet.h"
 
 namespace fluidtex::tools {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/step/solver.h"
-#include "tests/validation/face_velocities.h"
+#include "tools/validation/face_velocities.h"
 
 #include <array>
 #include <cstring>

@@ -1,7 +1,7 @@
 #include "tools/formats/export_mesh.h"
 
 #include "tests/tools/formats/sample_mesh.h"
-#include "tests/tools/output/sample_surface.h"
+#include "tests/tools/formats/sample_surface.h"
 #include "texture/joints/joints.h"
 
 #include <catch2/catch.hpp>

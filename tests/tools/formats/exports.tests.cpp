@@ -1,7 +1,7 @@
 #include "tools/formats/exports.h"
 
 #include "tests/scratch.h"
-#include "tests/tools/output/sample_surface.h"
+#include "tests/tools/formats/sample_surface.h"
 #include "tools/formats/exemplar_picture.h"
 
 #include <catch2/catch.hpp>

@@ -2,8 +2,8 @@
 
 #include "sim/meshes/read_mesh.h"
 #include "tests/tools/balls.h"
-#include "tests/tools/output/sample_surface.h"
-#include "tools/output/read_ply.h"
+#include "tests/tools/formats/sample_surface.h"
+#include "tools/formats/read_ply.h"
 
 #include <catch2/catch.hpp>
 

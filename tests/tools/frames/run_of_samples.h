@@ -2,11 +2,11 @@
 #pragma once
 
 #include "render/frame_name.h"
-#include "tests/tools/output/sample_surface.h"
+#include "tests/tools/formats/sample_surface.h"
 #include "texture/exemplar/image.h"
 #include "tools/base/fingerprint.h"
 #include "tools/formats/exports.h"
-#include "tools/output/ply.h"
+#include "tools/formats/ply.h"
 #include "tools/run_folder/journal.h"
 
 #include <filesystem>

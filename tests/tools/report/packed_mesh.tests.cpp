@@ -1,5 +1,5 @@
 #include "tools/report/packed_mesh.h"
-#include "tests/tools/output/sample_surface.h"
+#include "tests/tools/formats/sample_surface.h"
 
 #include <meshoptimizer.h>
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 #include "tests/scratch.h"
-#include "tests/tools/output/sample_surface.h"
+#include "tests/tools/formats/sample_surface.h"
 #include "tests/tools/program.h"
-#include "tools/output/ply.h"
+#include "tools/formats/ply.h"
 #include "tools/run_folder/report.h"
 
 #include <arpa/inet.h>

@@ -1,9 +1,9 @@
 #include "tools/report/write_report.h"
 #include "tests/scratch.h"
-#include "tests/tools/output/sample_surface.h"
+#include "tests/tools/formats/sample_surface.h"
 #include "tests/tools/program.h"
 #include "tools/base/errors.h"
-#include "tools/output/ply.h"
+#include "tools/formats/ply.h"
 
 #include <catch2/catch.hpp>
 

@@ -4,7 +4,7 @@
 #include "tests/tools/program.h"
 #include "tests/tools/run_folder/inputs.h"
 #include "tools/base/errors.h"
-#include "tools/output/read_ply.h"
+#include "tools/formats/read_ply.h"
 #include "tools/run_folder/journal.h"
 
 #include <catch2/catch.hpp>

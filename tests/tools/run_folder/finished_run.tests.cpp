@@ -1,7 +1,7 @@
 #include "tools/run_folder/finished_run.h"
 
 #include "tests/scratch.h"
-#include "tests/tools/output/sample_surface.h"
+#include "tests/tools/formats/sample_surface.h"
 #include "tests/tools/program.h"
 #include "tools/base/errors.h"
 

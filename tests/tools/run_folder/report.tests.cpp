@@ -1,6 +1,6 @@
 #include "tools/run_folder/report.h"
 
-#include "tests/tools/output/sample_surface.h"
+#include "tests/tools/formats/sample_surface.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 #include "tools/run_folder/state.h"
 
 #include "tests/scratch.h"
-#include "tests/tools/output/sample_surface.h"
+#include "tests/tools/formats/sample_surface.h"
 
 #include <catch2/catch.hpp>
 
