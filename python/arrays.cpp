@@ -33,7 +33,7 @@ std::string shapeOf(const py::array& array) {
 }
 
 py::array anyArray(const py::handle& value, const std::string& name) {
-  const py::array array = py::array::ensure(value);
+  py::array array = py::array::ensure(value);
   // Truth values, whole numbers and floats; no complex ones, texts or objects.
   if (!array || std::string("biuf").find(array.dtype().kind()) == std::string::npos)
     throw std::invalid_argument(fmt::format("{}: is no array of numbers; give a NumPy array", name));
@@ -41,7 +41,7 @@ py::array anyArray(const py::handle& value, const std::string& name) {
 }
 
 openvdb::math::Transform::Ptr transformOf(const Vec3d& origin, double voxel) {
-  const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
+  auto transform = openvdb::math::Transform::createLinearTransform(voxel);
   transform->postTranslate(origin);
   return transform;
 }
@@ -53,7 +53,7 @@ CoordBBox boxOf(const py::array& array) {
 // All voxels active, in leaves.
 template <class Grid, class Value>
 typename Grid::Ptr gridOf(const Floats& array, const Value& background, const Vec3d& origin, double voxel) {
-  const typename Grid::Ptr grid = Grid::create(background);
+  typename Grid::Ptr grid = Grid::create(background);
   grid->setTransform(transformOf(origin, voxel));
   auto* values = reinterpret_cast<Value*>(const_cast<float*>(array.data()));
   Dense<Value, LayoutZYX> dense(boxOf(array), values);
@@ -114,7 +114,7 @@ Floats floats(const py::handle& value, const std::string& name, int dimensions, 
     throw std::invalid_argument(
         fmt::format("{}: its shape is {}; give {} dimensions{}", name, shapeOf(given), dimensions,
                     last > 0 ? fmt::format(", the last of {}", last) : std::string()));
-  const Floats array = Floats::ensure(given);
+  Floats array = Floats::ensure(given);
   if (!array) throw std::invalid_argument(name + ": cannot be made floats; give an array of float32");
   const float* numbers = array.data();
   for (py::ssize_t n = 0; n < array.size(); ++n)

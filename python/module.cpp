@@ -98,7 +98,7 @@ scenes::Scene sceneOf(const py::object& exemplar, bool inMemory, const std::opti
   overrides.liquidOnly = inMemory;
   // Its liquid comes frame by frame, as that of other programs does.
   overrides.set = {"motion.flow=files", "files.path=."};
-  if (toroidal) overrides.set.push_back("texture.toroidal=true");
+  if (toroidal) overrides.set.emplace_back("texture.toroidal=true");
   if (spacing) overrides.set.push_back(fmt::format("texture.spacing={}", *spacing));
   if (points) overrides.set.push_back(fmt::format("texture.points={}", *points));
   if (!inMemory) overrides.exemplar = py::str(exemplar).cast<std::string>();
@@ -261,6 +261,7 @@ py::dict textureOnce(const py::object& exemplar, const std::optional<double>& sp
   return texturer.attr("frame")(**frame);
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 calls it so.
 void asValueError(std::exception_ptr error) {
   try {
     if (error) std::rethrow_exception(error);

@@ -23,7 +23,7 @@ std::vector<Distance> wallsAt(const sim::Options& options, double time) {
   for (int side = 0; side < 6; ++side) {
     if (!sim::isClosed(options.sides[side])) continue;
     const int a = side / 2;
-    walls.push_back(
+    walls.emplace_back(
         [a, up = side % 2 == 1, end = options.size[a]](const Vec3d& x) { return up ? end - x[a] : x[a]; });
   }
   for (const sim::Solid& solid : options.solids) {
@@ -31,7 +31,7 @@ std::vector<Distance> wallsAt(const sim::Options& options, double time) {
     sim::Options alone = options;
     alone.sides.fill(sim::Side::unbounded);
     alone.solids = {solid};
-    walls.push_back([solids = std::make_shared<sim::Solids>(alone), time](const Vec3d& x) {
+    walls.emplace_back([solids = std::make_shared<sim::Solids>(alone), time](const Vec3d& x) {
       return solids->distance(x, time);
     });
   }

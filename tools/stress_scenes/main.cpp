@@ -117,7 +117,9 @@ class Runs {
 }  // namespace
 }  // namespace fluidtex::stress
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
   fluidtex::stress::Settings settings;
   CLI::App app("Runs random scenes and checks what must hold in all of them.", "tools/stress");
   app.add_option("N", settings.count, "how many scenes")
@@ -130,10 +132,16 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", settings.seconds, "the longest that a scene may take")->capture_default_str();
   app.add_flag("--small", settings.small, "leave out of each scene that fails what it fails without");
   CLI11_PARSE(app, argc, argv);
+  return fluidtex::stress::Runs(settings).run() ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    return fluidtex::stress::Runs(settings).run() ? 0 : 1;
+    return run(argc, argv);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "tools/stress: {}\n", error.what());
+    std::fprintf(stderr, "tools/stress: %s\n", error.what());
     return 2;
   }
 }

@@ -7,7 +7,9 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -161,7 +163,7 @@ std::string gridDifference(const std::string& name, const sim::FloatGrid* one, c
       return name + ", its cells";
     for (int i = 0; i < sim::kLeafSize; ++i) {
       const float &mine = first->buffer().data()[i], &its = second->buffer().data()[i];
-      if (std::memcmp(&mine, &its, sizeof mine) == 0) continue;
+      if (std::bit_cast<std::uint32_t>(mine) == std::bit_cast<std::uint32_t>(its)) continue;
       return fmt::format("{}, {} and {} at {}", name, mine, its,
                          written(one->indexToWorld(first->offsetToGlobalCoord(i))));
     }
@@ -185,9 +187,8 @@ std::string notFinite(const sim::State& state) {
 
 std::string difference(const sim::State& a, const sim::State& b) {
   if (a.frame != b.frame || a.steps != b.steps) return "the number of steps";
-  if (std::memcmp(&a.time, &b.time, sizeof a.time) != 0 ||
-      std::memcmp(&a.leapfrogOffset, &b.leapfrogOffset, sizeof a.leapfrogOffset) != 0)
-    return "the time";
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  if (bits(a.time) != bits(b.time) || bits(a.leapfrogOffset) != bits(b.leapfrogOffset)) return "the time";
   if (a.poured != b.poured) return "what is poured";
   std::vector<const sim::FloatGrid*> others;
   sim::forEachGrid(b,

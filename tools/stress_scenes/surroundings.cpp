@@ -133,9 +133,8 @@ Surroundings::Surroundings(const sim::Options& options, const std::vector<std::s
 
 Vec3d Surroundings::place(std::size_t sample) const {
   const int n = static_cast<int>(sample);
-  return (Vec3d(n / (m_count[1] * m_count[2]), n / m_count[2] % m_count[1], n % m_count[2]) +
-          m_first.asVec3d() + Vec3d(0.5)) *
-         m_step;
+  const openvdb::Coord cell(n / (m_count[1] * m_count[2]), n / m_count[2] % m_count[1], n % m_count[2]);
+  return ((m_first + cell).asVec3d() + Vec3d(0.5)) * m_step;
 }
 
 std::vector<float> Surroundings::distances(const std::function<double(const Vec3d&)>& distance) const {

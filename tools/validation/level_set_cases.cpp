@@ -59,7 +59,8 @@ Result rowsOf(const std::string& name, const AdvectionTest& test, int resolution
 Case advectionCase(std::string name, std::string title, AdvectionTest test, std::vector<int> resolutions,
                    std::vector<int> quick, std::map<int, Bars> bars) {
   Case c{name, "level_set", std::move(title), std::move(resolutions), std::move(quick), {}, {}};
-  c.run = [name, test = std::move(test), bars = std::move(bars)](int resolution, const Progress& progress) {
+  c.run = [name = std::move(name), test = std::move(test), bars = std::move(bars)](int resolution,
+                                                                                   const Progress& progress) {
     const auto it = bars.find(resolution);
     return rowsOf(name, test, resolution, it != bars.end() ? it->second : Bars{}, progress);
   };

@@ -123,6 +123,7 @@ Result outflowWave(int resolution, const Progress& progress) {
       progress(0.5 * (times - 1) + 0.5 * n / frames);
     }
     std::vector<double> profile;
+    profile.reserve(std::size_t(resolution));
     for (int i = 0; i < resolution; ++i) profile.push_back(middleHeight(solver.state(), i));
     profiles.push_back(std::move(profile));
   }
