@@ -25,8 +25,8 @@ void dropLeft(Markers& markers, const FloatGrid& left) {
 
 }  // namespace
 
-void moveSurface(FloatGrid& phi, Markers& markers, const Velocity& velocity, const SolidField& solid,
-                 double dt, std::uint64_t seed, const RunningFlows& flows, const FloatGrid* left) {
+void moveSurface(FloatGrid& phi, Markers& markers, const SurfaceMove& move, const RunningFlows& flows) {
+  const auto& [velocity, solid, dt, seed, left] = move;
   const Visibility* const visibility = solid.visibility.get();
   markers = advectMarkers(std::move(markers), velocity, dt, visibility);
   if (left != nullptr) dropLeft(markers, *left);

@@ -102,6 +102,92 @@ void keepOnOwnSide(const Trace& trace, const Marker& was, Marker& m) {
   m.x = to[0], m.y = to[1], m.z = to[2];
 }
 
+// Of a block: the markers that stay in it, and those that leave, by the neighbour they end in.
+struct Moved {
+  std::vector<Marker> stay, leave;
+  std::array<std::int32_t, 28> start{};  // into `leave`
+};
+
+// Traces the markers of a block. In the middle of a thin wall a marker is between the two sides, and the
+// smallest motion would put the liquid of one side into the air of the other: such markers are dropped.
+void trace(const Motion& motion, const Sight& sight, const Visibility* visibility, const Coord& origin,
+           std::vector<Marker>& markers) {
+  thread_local std::vector<Marker> before;
+  before.clear();
+  if (sight.any()) before = markers;
+  Marker none{};
+  for (std::size_t m = 0; m < markers.size(); m += 2)
+    motion.trace(markers[m], m + 1 < markers.size() ? markers[m + 1] : none);
+  if (!sight.any()) return;
+  const auto speed = [&](int axis, const Vec3f& place) { return motion.at(axis, place); };
+  std::size_t kept = 0;
+  for (std::size_t number = 0; number < markers.size(); ++number) {
+    Marker& m = markers[number];
+    keepOnOwnSide(OwnSideTrace(*visibility, origin, speed), before[number], m);
+    if (!sight.parts(before[number], m)) markers[kept++] = m;
+  }
+  markers.resize(kept);
+}
+
+// Sorts traced markers by the block that they are in now, with coordinates from its lower corner.
+Moved sorted(const std::vector<Marker>& markers) {
+  thread_local std::vector<Marker> stay;
+  thread_local std::vector<std::pair<int, Marker>> leave;
+  stay.clear();
+  leave.clear();
+  Moved moved;
+  std::array<std::int32_t, 28>& start = moved.start;
+  for (Marker m : markers) {
+    const int di = wrap(m.x), dj = wrap(m.y), dk = wrap(m.z), to = neighborNumber(di, dj, dk);
+    if (to == kHere) {
+      stay.push_back(m);
+    } else {
+      ++start[to + 1];
+      leave.emplace_back(to, m);
+    }
+  }
+  for (int to = 0; to < 27; ++to) start[to + 1] += start[to];
+  std::array<std::int32_t, 28> next = start;
+  moved.stay = stay;
+  moved.leave.resize(leave.size());
+  for (const auto& [to, m] : leave) moved.leave[next[to]++] = m;
+  return moved;
+}
+
+// Origins of the blocks that hold markers now, ascending.
+std::vector<Coord> originsOf(const Markers& markers, const std::vector<Moved>& parts) {
+  std::vector<Coord> origins;
+  for (std::size_t n = 0; n < markers.size(); ++n) {
+    const auto& start = parts[n].start;
+    if (!parts[n].stay.empty()) origins.push_back(markers[n].origin);
+    for (int to = 0; to < 27; ++to) {
+      if (start[to + 1] > start[to]) origins.push_back(markers[n].origin + neighborShift(to));
+    }
+  }
+  std::sort(origins.begin(), origins.end());
+  origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
+  return origins;
+}
+
+// The markers that stay in a block and those that enter it. Takes the ones that stay out of `parts`.
+std::vector<Marker> gathered(const Coord& origin, const Markers& markers, std::vector<Moved>& parts) {
+  thread_local std::vector<Marker> all;
+  all.clear();
+  for (int from = 0; from < 27; ++from) {
+    const MarkerBlock* source = findBlock(markers, origin + neighborShift(from));
+    if (source == nullptr) continue;
+    Moved& part = parts[std::size_t(source - markers.data())];
+    if (from == kHere) {
+      all.insert(all.end(), part.stay.begin(), part.stay.end());
+      part.stay = std::vector<Marker>();  // frees the memory early
+    } else {
+      const Marker* first = part.leave.data();
+      all.insert(all.end(), first + part.start[26 - from], first + part.start[27 - from]);
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 Markers advectMarkers(Markers markers, const Velocity& velocity, double dt, const Visibility* visibility) {
@@ -113,86 +199,26 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt, cons
   // those.
   require(dt * maxAbs(velocity) < kMaxTrace * h && reach.farthest() < kMaxTrace,
           "advectMarkers: nothing may move five cells or more in a step");
-  // Of a block: the markers that stay in it, and those that leave, by the neighbour they end in.
-  struct Moved {
-    std::vector<Marker> stay, leave;
-    std::array<std::int32_t, 28> start{};  // into `leave`
-  };
   std::vector<Moved> parts(markers.size());
   tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
     thread_local Motion motion;
-    thread_local std::vector<Marker> stay, before;
-    thread_local std::vector<std::pair<int, Marker>> leave;
-    const int halo = static_cast<int>(std::ceil(reach.from(markers[n].origin))) + 2;
-    motion.load(velocity, markers[n].origin, halo, scale);
-    stay.clear();
-    leave.clear();
-    std::array<std::int32_t, 28>& start = parts[n].start;
-    std::vector<Marker>& here = markers[n].markers;
+    MarkerBlock& block = markers[n];
+    const int halo = static_cast<int>(std::ceil(reach.from(block.origin))) + 2;
+    motion.load(velocity, block.origin, halo, scale);
     if (motion.anySqueeze) {
-      std::erase_if(here, [&](const Marker& m) {
+      std::erase_if(block.markers, [&](const Marker& m) {
         return m.radius > 0.0f && motion.squeeze.at(m.x, m.y, m.z) > kMaxSqueeze;
       });
     }
-    // In the middle of a thin wall a marker is between the two sides, and the smallest motion would put the
-    // liquid of one side into the air of the other.
-    const Sight sight(visibility, markers[n].origin, halo);
-    before.clear();
-    if (sight.any()) before = here;
-    const auto speed = [&](int axis, const Vec3f& place) { return motion.at(axis, place); };
-    Marker none{};
-    for (std::size_t m = 0; m < here.size(); m += 2)
-      motion.trace(here[m], m + 1 < here.size() ? here[m + 1] : none);
-    for (std::size_t number = 0; number < here.size(); ++number) {
-      Marker& m = here[number];
-      if (sight.any()) {
-        keepOnOwnSide(OwnSideTrace(*visibility, markers[n].origin, speed), before[number], m);
-        if (sight.parts(before[number], m)) continue;
-      }
-      const int di = wrap(m.x), dj = wrap(m.y), dk = wrap(m.z), to = neighborNumber(di, dj, dk);
-      if (to == kHere) {
-        stay.push_back(m);
-      } else {
-        ++start[to + 1];
-        leave.emplace_back(to, m);
-      }
-    }
-    markers[n].markers = std::vector<Marker>();  // frees the memory, unlike {}
-    for (int to = 0; to < 27; ++to) start[to + 1] += start[to];
-    std::array<std::int32_t, 28> next = start;
-    parts[n].stay = stay;
-    parts[n].leave.resize(leave.size());
-    for (const auto& [to, m] : leave) parts[n].leave[next[to]++] = m;
+    trace(motion, Sight(visibility, block.origin, halo), visibility, block.origin, block.markers);
+    parts[n] = sorted(block.markers);
+    block.markers = std::vector<Marker>();  // frees the memory, unlike {}
   });
-
-  std::vector<Coord> origins;
-  for (std::size_t n = 0; n < markers.size(); ++n) {
-    const auto& start = parts[n].start;
-    if (!parts[n].stay.empty()) origins.push_back(markers[n].origin);
-    for (int to = 0; to < 27; ++to) {
-      if (start[to + 1] > start[to]) origins.push_back(markers[n].origin + neighborShift(to));
-    }
-  }
-  std::sort(origins.begin(), origins.end());
-  origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
+  const std::vector<Coord> origins = originsOf(markers, parts);
   Markers moved(origins.size());
   tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
-    thread_local std::vector<Marker> all;
-    all.clear();
     moved[n].origin = origins[n];
-    for (int from = 0; from < 27; ++from) {
-      const MarkerBlock* source = findBlock(markers, origins[n] + neighborShift(from));
-      if (source == nullptr) continue;
-      Moved& part = parts[std::size_t(source - markers.data())];
-      if (from == kHere) {
-        all.insert(all.end(), part.stay.begin(), part.stay.end());
-        part.stay = std::vector<Marker>();  // frees the memory early
-      } else {
-        const Marker* first = part.leave.data();
-        all.insert(all.end(), first + part.start[26 - from], first + part.start[27 - from]);
-      }
-    }
-    moved[n].markers = all;
+    moved[n].markers = gathered(origins[n], markers, parts);
   });
   return moved;
 }

@@ -151,8 +151,8 @@ void AnalyticFlow::carryTo(double time, Frame& frame, const std::function<void(d
   for (int n = 0; n < steps; ++n) {
     const Velocity velocity = near(m_flow.strength(begin + (n + 0.5) * dt));
     ++m_state.steps;
-    moveSurface(*m_state.phi, m_state.markers, velocity, *m_solid, dt,
-                markerSeed(m_options.seed, m_state.steps));
+    moveSurface(*m_state.phi, m_state.markers,
+                {velocity, *m_solid, dt, markerSeed(m_options.seed, m_state.steps)});
     frame.substeps.push_back({dt, velocity.component[0], velocity.component[1], velocity.component[2]});
     if (progress) progress((n + 1.0) / steps);
   }

@@ -56,30 +56,14 @@ bool shutEdges(LiquidCells& liquid, const std::vector<double>& q) {
   return any;
 }
 
-// 1 plus the surface's part of a cell's diagonal entry, which grows as the surface comes near the centre.
-double anchoredBy(const LiquidSides& cell) {
-  double anchored = 1.0;
-  for (int s = 0; s < kSides; ++s) {
-    if (cell.theta[s] > 0.0f) anchored += cell.open[s] / cell.theta[s];
-  }
-  return anchored;
-}
-
-// Pressure of detached cells: that of the air, but near their own surface that of surface tension. Otherwise
-// the pressure difference would act over almost no distance.
-std::vector<double> pressureOfDetached(const LiquidCells& liquid, const std::vector<double>& guess) {
-  std::vector<double> pressure(liquid.numbering.size());
-  for (std::size_t i = 0; i < guess.size(); ++i)
-    pressure[i] = guess[i] * (1.0 - 1.0 / anchoredBy(liquid.sidesOf(static_cast<int>(i))));
-  return pressure;
-}
-
 // Subtracts the guess of the pressure from the unknowns x and the right-hand side b, but not in enclosed
 // parts. Differences are formed before they are weighted: weights are large where the surface is close to a
-// cell's centre. loose: pressure of detached cells.
-void takeOut(const LiquidCells& liquid, const SurfacePressure& surface, const std::vector<double>& guess,
-             const std::vector<double>& loose, const std::vector<char>& enclosed, const PoissonSystem& system,
-             const std::vector<int>& liquidOf, std::vector<double>& b, std::vector<double>& x) {
+// cell's centre.
+void takeOut(const LiquidCells& liquid, const Tension& tension, const std::vector<char>& enclosed,
+             const PoissonSystem& system, const std::vector<int>& liquidOf, std::vector<double>& b,
+             std::vector<double>& x) {
+  const SurfacePressure& surface = tension.surface;
+  const std::vector<double>&guess = tension.guess, &loose = tension.detached;
   const int n = static_cast<int>(b.size());
   tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
     for (int i = range.begin(); i < range.end(); ++i) {
@@ -138,9 +122,10 @@ void setOutflow(const FloatGrid& divergence, const LiquidCells& liquid, const Po
 // suction of a cell, below its pressure when detached, is limited by its own surface: a drop of one cell
 // bears only a share of `suction`, which is for a cell with a column of liquid below it. Suction below
 // `rounding` counts as 0.
-bool updateDetached(const LiquidCells& liquid, const SurfacePressure& surface, const std::vector<double>& q,
-                    const std::vector<double>& loose, const std::vector<char>& enclosed, double suction,
-                    double rounding, std::vector<char>& detached) {
+bool updateDetached(const LiquidCells& liquid, const Tension& tension, const std::vector<double>& q,
+                    const std::vector<char>& enclosed, double suction, double rounding,
+                    std::vector<char>& detached) {
+  const std::vector<double>& loose = tension.detached;
   const int n = liquid.numbering.size();
   std::vector<char> changed(n, 0);
   tbb::parallel_for(Range(0, n, 1024), [&](const Range& range) {
@@ -148,7 +133,8 @@ bool updateDetached(const LiquidCells& liquid, const SurfacePressure& surface, c
       const LiquidSides& cell = liquid.sidesOf(i);
       if (cell.closed <= 0.0f) continue;
       const double least = (loose.empty() ? 0.0 : loose[i]) - std::max(suction / anchoredBy(cell), rounding);
-      changed[i] = detached[i] ? projectedOutflow(liquid, surface, q, i) < 0.0 : q[i] < least && !enclosed[i];
+      changed[i] =
+          detached[i] ? projectedOutflow(liquid, tension.surface, q, i) < 0.0 : q[i] < least && !enclosed[i];
     }
   });
   bool any = false;
@@ -280,19 +266,16 @@ MaskGrid::Ptr separatingCells(const LiquidCells& liquid, const SolidField& solid
 
 }  // namespace
 
-Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi, const SolidField& solid,
-                   double dt, double density, const PressureOptions& options) {
+Projection project(Velocity& velocity, const FloatGrid& phi, const SolidField& solid, double dt,
+                   double density, const PressureOptions& options) {
   require(dt > 0.0 && density > 0.0, "project: the time step and the density must be positive");
+  FloatGrid &u = *velocity.component[0], &v = *velocity.component[1], &w = *velocity.component[2];
   LiquidCells liquid = gatherLiquid(phi, solid, {&u.constTree(), &v.constTree(), &w.constTree()});
   const int n = liquid.numbering.size();
   const double pascal = density * solid.voxelSize / dt;  // of one unit of q
 
-  const SurfacePressure surface = options.surfaceTension > 0.0
-                                      ? SurfacePressure(liquid, phi, solid, options.surfaceTension / pascal)
-                                      : SurfacePressure();
-  const std::vector<double> guess = surface.none() ? std::vector<double>() : guessedPressure(liquid, surface);
-  const std::vector<double> loose =
-      surface.none() ? std::vector<double>() : pressureOfDetached(liquid, guess);
+  const Tension tension = tensionOf(liquid, phi, solid, options.surfaceTension / pascal);
+  const SurfacePressure& surface = tension.surface;
 
   Projection result;
   PressureReport& report = result.report;
@@ -320,22 +303,22 @@ Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& ph
     q = std::vector<double>();  // frees the memory, unlike {}
     if (!surface.none()) {
       // Solve for the difference from the guess.
-      takeOut(liquid, surface, guess, loose, enclosed, system, liquidOf, b, x);
+      takeOut(liquid, tension, enclosed, system, liquidOf, b, x);
     }
     // Whether liquid separates from solids, or attaches again, at this pressure.
     bool again = false, last = pass == options.maxSeparationPasses;
     const auto separates = [&](const std::vector<double>& pressure) {
-      q = loose;
+      q = tension.detached;
       q.resize(n, 0.0);
       double largest = 0.0;
       for (std::size_t i = 0; i < liquidOf.size(); ++i) {
         const int number = liquidOf[i];
-        q[number] = surface.none() || enclosed[number] ? pressure[i] : pressure[i] + guess[number];
+        q[number] = surface.none() || enclosed[number] ? pressure[i] : pressure[i] + tension.guess[number];
         largest = std::max(largest, std::abs(pressure[i]));
       }
       if (last) return false;
       const bool shut = shutEdges(liquid, q);
-      const bool changed = updateDetached(liquid, surface, q, loose, enclosed, options.suction / pascal,
+      const bool changed = updateDetached(liquid, tension, q, enclosed, options.suction / pascal,
                                           kSuctionNoise * largest, detached);
       again = changed || shut;
       return again;

@@ -74,8 +74,7 @@ struct Projection {
 // positive.
 // Sources: Gibou, Fedkiw, Cheng, Kang 2002 (surface); Ng, Min, Gibou 2009 (solids); Batty, Bertails, Bridson
 // 2007, section 5 (separation).
-[[nodiscard]] Projection project(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
-                                 const SolidField& solid, double dt, double density,
-                                 const PressureOptions& options = {});
+[[nodiscard]] Projection project(Velocity& velocity, const FloatGrid& phi, const SolidField& solid, double dt,
+                                 double density, const PressureOptions& options = {});
 
 }  // namespace fluidtex::sim

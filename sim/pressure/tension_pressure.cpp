@@ -90,4 +90,23 @@ std::vector<double> guessedPressure(const LiquidCells& liquid, const SurfacePres
   return guess;
 }
 
+double anchoredBy(const LiquidSides& cell) {
+  double anchored = 1.0;
+  for (int s = 0; s < kSides; ++s) {
+    if (cell.theta[s] > 0.0f) anchored += cell.open[s] / cell.theta[s];
+  }
+  return anchored;
+}
+
+Tension tensionOf(const LiquidCells& liquid, const FloatGrid& phi, const SolidField& solid, double scale) {
+  if (!(scale > 0.0)) return {};
+  Tension tension{SurfacePressure(liquid, phi, solid, scale), {}, {}};
+  if (tension.surface.none()) return tension;
+  tension.guess = guessedPressure(liquid, tension.surface);
+  tension.detached.resize(tension.guess.size());
+  for (std::size_t i = 0; i < tension.guess.size(); ++i)
+    tension.detached[i] = tension.guess[i] * (1.0 - 1.0 / anchoredBy(liquid.sidesOf(static_cast<int>(i))));
+  return tension;
+}
+
 }  // namespace fluidtex::sim

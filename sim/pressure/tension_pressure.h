@@ -30,4 +30,19 @@ class SurfacePressure {
 // surface is close to a cell's centre; such a cell would otherwise dominate the residual.
 std::vector<double> guessedPressure(const LiquidCells& liquid, const SurfacePressure& surface);
 
+// 1 plus the surface's part of a cell's diagonal entry, which grows as the surface comes near the centre.
+double anchoredBy(const LiquidSides& cell);
+
+// What surface tension does to the pressure. All empty without it.
+struct Tension {
+  SurfacePressure surface;
+  std::vector<double> guess;  // #cells: of the pressure
+  // #cells: pressure of detached ones, that of the air, but near their own surface that of surface tension.
+  // Otherwise the pressure difference would act over almost no distance.
+  std::vector<double> detached;
+};
+
+// scale: q per curvature of 1/m; 0 without surface tension.
+Tension tensionOf(const LiquidCells& liquid, const FloatGrid& phi, const SolidField& solid, double scale);
+
 }  // namespace fluidtex::sim

@@ -81,9 +81,9 @@ FloatLeaf::NodeMaskType closedFaces(const FloatLeaf& leaf, const FloatTree& open
 
 }  // namespace
 
-void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
-                       const SolidField& solid, const FaceMasks& valid, const MaskGrid& separating) {
-  FloatGrid* const grids[3] = {&u, &v, &w};
+void constrainToSolids(Velocity& velocity, const FloatGrid& phi, const SolidField& solid,
+                       const FaceMasks& valid, const MaskGrid& separating) {
+  const auto& grids = velocity.component;
   const auto& open = solid.open.component;
   const auto& masks = valid.component;
 
@@ -95,7 +95,7 @@ void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid
     float* value;
     float to;
   };
-  const auto leaves = leavesOf(u.tree());
+  const auto leaves = leavesOf(grids[0]->tree());
   std::vector<std::vector<Change>> changes(leaves.size());
   tbb::parallel_for(Range(0, leaves.size()), [&](const Range& range) {
     const MaskAccessor leaving(separating.constTree());

@@ -13,7 +13,7 @@ namespace fluidtex::sim {
 // read, take the wall's velocity; where liquid separates on one side only, that of the next face on that side
 // if it leads away from the wall faster. Changes active faces only, and none beyond sides of the domain that
 // are not closed.
-void constrainToSolids(FloatGrid& u, FloatGrid& v, FloatGrid& w, const FloatGrid& phi,
-                       const SolidField& solid, const FaceMasks& valid, const MaskGrid& separating);
+void constrainToSolids(Velocity& velocity, const FloatGrid& phi, const SolidField& solid,
+                       const FaceMasks& valid, const MaskGrid& separating);
 
 }  // namespace fluidtex::sim

@@ -87,8 +87,7 @@ void extrapolateAll(Liquid& liquid, Projection& projection, const SolidField& so
   }
   extrapolate(fields, *liquid.phi, *solid.phi, solid.visibility.get());
   if (!expands) return;
-  const auto& [u, v, w] = projection.expansion.component;
-  constrainToSolids(*u, *v, *w, *liquid.phi, atRest(solid), valid, *projection.separating);
+  constrainToSolids(projection.expansion, *liquid.phi, atRest(solid), valid, *projection.separating);
   liquid.expansion = nearSurface(projection.expansion, *liquid.phi, {});
 }
 
@@ -117,15 +116,16 @@ bool applyViscosityFor(Liquid& liquid, const SolidField& solid, double kick, con
   return viscous.converged();
 }
 
-bool applyPressure(Liquid& liquid, const SolidField& solid, double dt, double kick, const Options& options,
-                   bool viscous, bool driven, Velocity arrived, StepReport* report) {
+bool applyPressure(Liquid& liquid, const SolidField& solid, const PressureStep& step, const Options& options,
+                   Velocity arrived, StepReport* report) {
+  const auto [dt, kick, viscous, driven] = step;
   PressureOptions pressure = pressureOf(options, voxelSize(liquid), dt, kick);
   pressure.keepBefore = driven && arrived.component[0] == nullptr;
   // The deficit is given back within about a frame; in less than two steps it would overshoot.
   if (liquid.deficit != nullptr && !liquid.deficit->empty())
     pressure.divergence = targetDivergence(*liquid.deficit, std::max(1.0 / options.frameRate, 2.0 * dt));
   auto& [u, v, w] = liquid.velocity.component;
-  Projection projection = project(*u, *v, *w, *liquid.phi, solid, dt, options.density, pressure);
+  Projection projection = project(liquid.velocity, *liquid.phi, solid, dt, options.density, pressure);
   if (report != nullptr) {
     projection.report.iterations += report->pressure.iterations;
     report->pressure = projection.report;
@@ -138,7 +138,7 @@ bool applyPressure(Liquid& liquid, const SolidField& solid, double dt, double ki
   if (pressure.keepBefore) arrived = std::move(projection.before);
   extrapolateAll(liquid, projection, solid, dt, driven, std::move(arrived));
   balanceAirLayers(liquid.velocity, projection.valid, *liquid.phi, *solid.phi, solid.visibility.get());
-  constrainToSolids(*u, *v, *w, *liquid.phi, solid, projection.valid, *projection.separating);
+  constrainToSolids(liquid.velocity, *liquid.phi, solid, projection.valid, *projection.separating);
   if (viscous) stickToWalls(liquid.velocity, solid, projection.valid);
   const bool lets = driven && !projection.separating->empty();
   const ShownLiquid shown = lets ? shownAround(*projection.separating, *liquid.phi, solid) : ShownLiquid{};

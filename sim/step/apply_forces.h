@@ -21,14 +21,18 @@ struct StepReport {
 bool applyViscosityFor(Liquid& liquid, const SolidField& solid, double kick, const Options& options,
                        const FloatGrid* viscosity, StepReport& report);
 
-// Projects the velocity over dt seconds, extrapolates it, constrains it at solids and opens gaps where liquid
-// separates from them.
-// kick: time for which gravity, viscosity and surface tension act in this step, s. viscous: whether viscosity
-// acts, so that walls without free slip hold liquid. driven: in a regular step; fills liquid.acceleration,
-// and requires liquid.deficit. arrived: the velocity before viscosity; without grids, that before the
-// projection takes its place. report: may be null. False where the solve does not converge or a velocity is
-// not finite.
-bool applyPressure(Liquid& liquid, const SolidField& solid, double dt, double kick, const Options& options,
-                   bool viscous, bool driven, Velocity arrived, StepReport* report);
+struct PressureStep {
+  double dt = 0.0;       // s, over which the velocity is projected
+  double kick = 0.0;     // s, time for which gravity, viscosity and surface tension act in this step
+  bool viscous = false;  // whether viscosity acts, so that walls without free slip hold liquid
+  bool driven = false;   // in a regular step; fills liquid.acceleration, and requires liquid.deficit
+};
+
+// Projects the velocity, extrapolates it, constrains it at solids and opens gaps where liquid separates from
+// them.
+// arrived: the velocity before viscosity; without grids, that before the projection takes its place. report:
+// may be null. False where the solve does not converge or a velocity is not finite.
+bool applyPressure(Liquid& liquid, const SolidField& solid, const PressureStep& step, const Options& options,
+                   Velocity arrived, StepReport* report);
 
 }  // namespace fluidtex::sim

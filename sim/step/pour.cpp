@@ -115,7 +115,7 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   const double dt = 1.0 / options.frameRate;
   const bool viscous = liquid.temperature != nullptr ||
                        !isNegligible(options.viscosity, dt, options.density, voxelSize(liquid));
-  return applyPressure(liquid, around, dt, kick, options, viscous, false, {}, report);
+  return applyPressure(liquid, around, {.dt = dt, .kick = kick, .viscous = viscous}, options, {}, report);
 }
 
 }  // namespace fluidtex::sim

@@ -221,8 +221,8 @@ void Solver::applyEvents() {
     }
   }
   if (!start) {
-    liquid.deficit = volumeDeficit(*whole, *liquid.phi, liquid.deficit.get(), makeVelocity(h), *before,
-                                   *m_solid, flows, 0.0);
+    liquid.deficit = volumeDeficit({*whole, *liquid.phi, liquid.deficit.get()}, makeVelocity(h),
+                                   {*before, *m_solid}, flows, 0.0);
   }
   if (!due.empty()) {
     const PouredLiquid bodies{dueLiquid, *whole, nearest, solids, start};
@@ -292,7 +292,7 @@ void Solver::advanceTo(double time, Frame& frame, const std::function<void(doubl
       const double nextLongest =
           longestStep(m_options, speed + m_options.gravity.length() * dt, speedOf(*solid));
       const double nextDt = std::min(longestNext, evenPart(after, nextLongest));
-      next = step(liquid, *m_solid, *solid, dt, nextDt, m_options, &solves,
+      next = step(liquid, {*m_solid, *solid, dt, nextDt}, m_options, &solves,
                   m_flows->at(m_state.time + 0.5 * dt));
       if (next) break;
       liquid.markers = seedMarkers(*liquid.phi, *m_solid->phi, markerSeed(m_options.seed, liquid.steps),

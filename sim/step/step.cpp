@@ -114,9 +114,9 @@ double capillaryStep(const Options& options) {
   return std::sqrt(options.density * h * h * h / (4.0 * std::numbers::pi * options.surfaceTension));
 }
 
-std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const SolidField& solid, double dt,
-                           double nextDt, const Options& options, StepReport* report,
+std::optional<Liquid> step(Liquid& liquid, const TimeStep& times, const Options& options, StepReport* report,
                            const RunningFlows& flows) {
+  const auto& [before, solid, dt, nextDt] = times;
   require(dt > 0.0 && nextDt >= 0.0, "step: the time step must be positive, the next one not negative");
   const double kick = std::max(0.0, dt - liquid.leapfrogOffset + 0.5 * nextDt);
   Liquid next{liquid.phi->deepCopy(), {}, {}, liquid.steps + 1, liquid.leapfrogOffset - dt + kick, {}};
@@ -124,11 +124,13 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
   liquid.markers = {};
   {
     const Velocity moving = movingVelocity(liquid);
-    moveSurface(*next.phi, next.markers, moving, solid, dt, markerSeed(options.seed, next.steps), flows,
-                before.phi != solid.phi && solid.speed ? before.phi.get() : nullptr);
+    moveSurface(*next.phi, next.markers,
+                {moving, solid, dt, markerSeed(options.seed, next.steps),
+                 before.phi != solid.phi && solid.speed ? before.phi.get() : nullptr},
+                flows);
     dropBeyond(next.markers, solid);
     next.deficit =
-        volumeDeficit(*liquid.phi, *next.phi, liquid.deficit.get(), moving, before, solid, flows, dt);
+        volumeDeficit({*liquid.phi, *next.phi, liquid.deficit.get()}, moving, {before, solid}, flows, dt);
     withdrawSurface(*next.phi, next.markers, *next.deficit, solid);
     regainSurface(*next.phi, next.markers, *next.deficit, solid, flows);
   }
@@ -152,9 +154,8 @@ std::optional<Liquid> step(Liquid& liquid, const SolidField& before, const Solid
       solves.heatConverged && applyViscosityFor(next, around, kick, options, viscosity.get(), solves);
   if (report != nullptr) *report = solves;
   if (!converged) return std::nullopt;
-  if (!applyPressure(next, around, dt, kick, options, !solves.viscosity.skipped, true, std::move(arrived),
-                     report))
-    return std::nullopt;
+  const PressureStep pressure{.dt = dt, .kick = kick, .viscous = !solves.viscosity.skipped, .driven = true};
+  if (!applyPressure(next, around, pressure, options, std::move(arrived), report)) return std::nullopt;
   if (!anyInside(*next.phi)) {
     // The rest of the narrow band has no surface to be updated from.
     next.phi->clear();

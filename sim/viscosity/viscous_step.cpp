@@ -14,8 +14,7 @@ ViscousStepReport applyViscousStep(Velocity& velocity, const FloatGrid& phi, con
   report.viscosity.skipped = isNegligible(viscosity, dt, density, solid.voxelSize);
   if (report.viscosity.skipped) return report;
   Velocity balanced = copyOf(velocity);
-  auto& [u, v, w] = balanced.component;
-  const Projection projection = project(*u, *v, *w, phi, solid, dt, density, pressure);
+  const Projection projection = project(balanced, phi, solid, dt, density, pressure);
   report.pressure = projection.report;
   if (!report.pressure.converged) return report;
   uniteTopology(balanced);

@@ -319,9 +319,10 @@ FloatGrid::Ptr toGrid(const LeafTable& leaves, const std::vector<float>& deficit
 
 }  // namespace
 
-FloatGrid::Ptr volumeDeficit(const FloatGrid& before, const FloatGrid& after, const FloatGrid* deficit,
-                             const Velocity& velocity, const SolidField& solid, const SolidField& solidAfter,
+FloatGrid::Ptr volumeDeficit(const MovedLiquid& liquid, const Velocity& velocity, const MovedSolids& solids,
                              const RunningFlows& flows, double dt) {
+  const auto& [before, after, deficit] = liquid;
+  const auto& [solid, solidAfter] = solids;
   // Between two steps solids come or go, anywhere in the liquid.
   const bool between = dt == 0.0;
   const VolumeFlux flux = volumeFlux(leavesAround(before, after, deficit, between, solidAfter.domain), before,

@@ -13,16 +13,26 @@
 
 namespace fluidtex::sim {
 
-// The deficit after a step of dt seconds in which `velocity` moved the surface from `before` to `after`: in
-// units of h^3 at cell centres, negative where there is too much liquid.
-// deficit: before the step, null for none. solid: while `velocity` held.
+// The surface before and after a step.
+struct MovedLiquid {
+  const FloatGrid& before;             // phi
+  const FloatGrid& after;              // phi
+  const FloatGrid* deficit = nullptr;  // before the step; null: none
+};
+
+struct MovedSolids {
+  const SolidField& before;  // while the velocity held
+  const SolidField& after;
+};
+
+// The deficit after a step of dt seconds in which `velocity` moved the surface: in units of h^3 at cell
+// centres, negative where there is too much liquid.
 // Volumes are advected by fluxes through the solids' open faces (sim/volume/volume_flux.h). What leaves
 // through sides of the domain is gone, and so is what is due within a cell of drains. Sources refill their
 // cells without deficit, but liquid that meets them from outside becomes deficit. Liquid that solids push
 // aside, or cover between two steps (dt 0), becomes deficit beside them. The sum of the enclosed volume
 // (liquidVolume) and the deficit is exact. Bit-identical on any number of threads.
-FloatGrid::Ptr volumeDeficit(const FloatGrid& before, const FloatGrid& after, const FloatGrid* deficit,
-                             const Velocity& velocity, const SolidField& solid, const SolidField& solidAfter,
+FloatGrid::Ptr volumeDeficit(const MovedLiquid& liquid, const Velocity& velocity, const MovedSolids& solids,
                              const RunningFlows& flows, double dt);
 
 }  // namespace fluidtex::sim

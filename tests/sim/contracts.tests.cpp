@@ -54,7 +54,7 @@ TEST_CASE("advectMarkers: what would move five cells or more in a step is refuse
     INFO(cells << " cells");
     Block fast(cells);
     CHECK_THROWS_AS(advectMarkers(fast.markers, fast.velocity, 1.0), std::invalid_argument);
-    CHECK_THROWS_AS(moveSurface(*fast.phi, fast.markers, fast.velocity, fast.solid, 1.0, 1),
+    CHECK_THROWS_AS(moveSurface(*fast.phi, fast.markers, {fast.velocity, fast.solid, 1.0, 1}),
                     std::invalid_argument);
   }
   // Backwards as well.
@@ -68,16 +68,16 @@ TEST_CASE("solver: a state without a surface or a velocity is refused", "[sim]")
 
 TEST_CASE("sim: time steps and properties that make no sense are refused", "[sim]") {
   Block block(0.0);
-  auto& [u, v, w] = block.velocity.component;
   for (const double wrong : {0.0, -1.0, std::nan("")}) {
     INFO(wrong);
-    CHECK_THROWS_AS(project(*u, *v, *w, *block.phi, block.solid, wrong, 1000.0), std::invalid_argument);
-    CHECK_THROWS_AS(project(*u, *v, *w, *block.phi, block.solid, 0.1, wrong), std::invalid_argument);
+    CHECK_THROWS_AS(project(block.velocity, *block.phi, block.solid, wrong, 1000.0), std::invalid_argument);
+    CHECK_THROWS_AS(project(block.velocity, *block.phi, block.solid, 0.1, wrong), std::invalid_argument);
     CHECK_THROWS_AS(applyViscosity(block.velocity, *block.phi, block.solid, 0.1, wrong, {.constant = 1.0}),
                     std::invalid_argument);
     CHECK_THROWS_AS(targetDivergence(*block.phi, wrong), std::invalid_argument);
     Liquid liquid{block.phi, block.velocity, {}, 0, 0.0, {}};
-    CHECK_THROWS_AS(step(liquid, block.solid, block.solid, wrong, 0.1, tank(16, {})), std::invalid_argument);
+    CHECK_THROWS_AS(step(liquid, {block.solid, block.solid, wrong, 0.1}, tank(16, {})),
+                    std::invalid_argument);
   }
   CHECK_THROWS_AS(applyViscosity(block.velocity, *block.phi, block.solid, 0.1, 1000.0, {.constant = -1.0}),
                   std::invalid_argument);

@@ -137,18 +137,6 @@ Labels layAnew(const Job& job, Renewal renewal, const std::vector<float>& trust,
   return std::move(state.labels);
 }
 
-std::vector<Disc> discsOf(const Synthesizer& synthesizer, const SeamModel& seams, const Labels& labels,
-                          const Wear& wear, const std::vector<std::uint8_t>& free,
-                          const std::vector<Strain>& rates, const std::vector<float>& factor,
-                          double seconds) {
-  const SynthesisOptions& options = synthesizer.options;
-  const double budget = options.renewalRate * seconds;
-  const double worn = kDiscsOfAll * wornShare(rates, seconds, options.keepStretch, factor);
-  return worstDiscs(seams, labels, wear, free,
-                    {options.keepStretch, options.renewalRadius, budget, std::max(budget, worn)},
-                    streamOf(options.seed, Stream::renewal));
-}
-
 // Texture that is renewed sooner is laid less compressed, or it would count as worn.
 std::vector<Strain> aheadOf(const std::vector<Strain>& rates, const SynthesisOptions& options,
                             const std::vector<float>& factor) {
@@ -185,7 +173,7 @@ std::vector<std::uint8_t> freeWhereEither(const std::vector<std::uint8_t>& free,
 }  // namespace
 
 LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, const MeshView& now,
-                           const Carried& carried, int frame, double secondsSinceLast, SynthesisStats& stats,
+                           const Carried& carried, const FrameTime& frame, SynthesisStats& stats,
                            const Progress& progress) {
   const SynthesisOptions& options = synthesizer.options;
   const Labels labels = labelsOf(now.mesh, carried.coordinate, carried.gradient);
@@ -195,7 +183,7 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   worn.original = &carried.original;
   const Wear wear = scaled(wearAround(worn, labels, carried.trust), carried.renewal);
   const std::vector<Strain> rates =
-      strainRates(now, carried.previousPosition, carried.trust, secondsSinceLast);
+      strainRates(now, carried.previousPosition, carried.trust, frame.secondsSinceLast);
   LaterFrame result{labels, std::vector<std::uint8_t>(count, 0), std::vector<float>(count)};
   forEachIndex(count, [&](std::uint32_t v) {
     result.fadingSpeed[v] = fadingSpeed(largest(rates[v]), options.keepStretch, options.fade);
@@ -212,7 +200,13 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
 
   const std::vector<std::uint8_t> free = renewable(synthesizer, view.graph, carried);
   Renewal renewal;
-  renewal.discs = discsOf(synthesizer, seams, labels, wear, free, rates, carried.renewal, secondsSinceLast);
+  const double budget = options.renewalRate * frame.secondsSinceLast;
+  // More where the flow wears texture out faster.
+  const double urgentBudget = std::max(
+      budget, kDiscsOfAll * wornShare(rates, frame.secondsSinceLast, options.keepStretch, carried.renewal));
+  renewal.discs = worstDiscs(seams, labels, wear, free,
+                             {options.keepStretch, options.renewalRadius, budget, urgentBudget},
+                             streamOf(options.seed, Stream::renewal));
   std::vector<std::uint8_t> inDiscs(count, 0);
   for (const Disc& disc : renewal.discs)
     for (const std::uint32_t v : disc.members) inDiscs[v] = 1;
@@ -221,7 +215,7 @@ LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, con
   if (!any(renewal.wanted)) return result;
   renewal.withRims = freeWhereEither(free, grown(view.graph, inDiscs, kRim), lost);
 
-  Labels proposed = layAnew({synthesizer, surface, seams, frame, stats, progress}, std::move(renewal),
+  Labels proposed = layAnew({synthesizer, surface, seams, frame.index, stats, progress}, std::move(renewal),
                             carried.trust, before);
   absorbChips(seams, free, proposed);
   // What is kept longer is judged as all else once it is to be renewed.

@@ -12,11 +12,15 @@ struct LaterFrame {
   std::vector<float> fadingSpeed;     // #V, 1/s: least decrease of cross-fade weights in this frame
 };
 
+struct FrameTime {
+  int index = 0;                  // of the frame
+  double secondsSinceLast = 0.0;  // since the transported frame, s
+};
+
 // Textures a frame from the transported one. `view` is of the surface's finest level. Where the surface has
 // coarser levels too, fresh regions that a window fits into are textured coarse to fine like a first frame.
-// secondsSinceLast: time since the transported frame, s.
 LaterFrame synthesizeLater(Synthesizer& synthesizer, const Surface& surface, const MeshView& view,
-                           const Carried& carried, int frame, double secondsSinceLast, SynthesisStats& stats,
+                           const Carried& carried, const FrameTime& frame, SynthesisStats& stats,
                            const Progress& progress);
 
 }  // namespace fluidtex::texture

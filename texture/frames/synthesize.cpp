@@ -107,8 +107,8 @@ TexturedSurface synthesize(Synthesizer& synthesizer, Surface surface, const Carr
   } else {
     const PreparedMesh prepared(mesh);
     if (labels) {
-      LaterFrame later = synthesizeLater(synthesizer, surface, prepared.view(), carried, frame,
-                                         secondsSinceLast, stats, progress);
+      LaterFrame later = synthesizeLater(synthesizer, surface, prepared.view(), carried,
+                                         {frame, secondsSinceLast}, stats, progress);
       result.fading = fadingAfter(carried, later, secondsSinceLast);
       state.labels = std::move(later.labels);
       renewed = std::move(later.renewed);

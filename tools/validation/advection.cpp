@@ -76,7 +76,7 @@ AdvectionResult run(const AdvectionTest& test, int resolution, const Progress& p
   for (int n = 0; n < steps; ++n) {
     // The flow in the middle of the step: second order in time.
     sim::scale(flow, test.flow.strength((n + 0.5) * dt), velocity);
-    sim::moveSurface(*phi, markers, velocity, *solid, dt, static_cast<std::uint64_t>(n) + 1);
+    sim::moveSurface(*phi, markers, {velocity, *solid, dt, static_cast<std::uint64_t>(n) + 1});
     if (n + 1 == (steps + 1) / 2) {
       result.volumeHalf = errorOf(test.start).volume / unit;
       result.half = outline(*phi, cells, slice);

@@ -55,9 +55,7 @@ double pressureAt(const sim::State& state, const sim::SolidField& solid, const s
   sim::PressureOptions settings;
   settings.keepPressure = true;
   settings.suction = 0.1 * options.density * options.gravity.length() * h;
-  const sim::Projection projection =
-      sim::project(*after.component[0], *after.component[1], *after.component[2], *state.phi, solid, kDt,
-                   options.density, settings);
+  const sim::Projection projection = sim::project(after, *state.phi, solid, kDt, options.density, settings);
   if (!projection.report.converged) return 0.0;
   return projection.pressure->tree().getValue(Coord::floor(place / h));
 }

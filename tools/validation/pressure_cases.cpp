@@ -74,7 +74,7 @@ Result manufactured(int resolution, const Progress&) {
   settings.maxSeparationPasses = 0;
   settings.keepPressure = true;
   auto& [u, v, w] = velocity.component;
-  const sim::Projection projection = sim::project(*u, *v, *w, *phi, *solid, kDt, kDensity, settings);
+  const sim::Projection projection = sim::project(velocity, *phi, *solid, kDt, kDensity, settings);
   const std::string test = "pressure";
   const auto row = [&](const char* measure, double value) {
     return Row{test, resolution, measure, value, {}, {}, false, {}, 0.0};

@@ -91,7 +91,7 @@ Result laplace(int resolution, const Progress&) {
   sim::PressureOptions pressure;
   pressure.surfaceTension = kTension;
   pressure.keepPressure = true;
-  const sim::Projection projection = sim::project(*u, *v, *w, *phi, *solid, dt, kDropDensity, pressure);
+  const sim::Projection projection = sim::project(velocity, *phi, *solid, dt, kDropDensity, pressure);
   double sum = 0.0, count = 0.0, most = 0.0;
   for (auto it = projection.pressure->cbeginValueOn(); it; ++it) {
     sum += *it;

@@ -51,7 +51,7 @@ TEST_CASE("move surface: a ball is carried by velocity times time, keeps its vol
   const Velocity velocity = uniform(Vec3d(1.0, 0.0, 0.0));
   const double before = liquidVolume(*ball.phi, ball.solid), dt = 1.6 * kVoxel;
   for (int n = 0; n < 4; ++n)
-    moveSurface(*ball.phi, ball.markers, velocity, ball.solid, dt, markerSeed(7, n));
+    moveSurface(*ball.phi, ball.markers, {velocity, ball.solid, dt, markerSeed(7, n)});
   CHECK(liquidVolume(*ball.phi, ball.solid) == Approx(before).epsilon(2e-3));
   double worst = 0.0;
   for (auto it = ball.phi->cbeginValueOn(); it; ++it) {
@@ -68,7 +68,7 @@ TEST_CASE("move surface: five cells or more in a step are refused", "[sim]") {
     INFO(cells << " cells");
     Ball ball;
     CHECK_THROWS_AS(
-        moveSurface(*ball.phi, ball.markers, uniform(Vec3d(cells * kVoxel, 0.0, 0.0)), ball.solid, 1.0, 1),
+        moveSurface(*ball.phi, ball.markers, {uniform(Vec3d(cells * kVoxel, 0.0, 0.0)), ball.solid, 1.0, 1}),
         std::invalid_argument);
   }
 }

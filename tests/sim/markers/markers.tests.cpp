@@ -243,7 +243,7 @@ TEST_CASE("markers: keep a thin sheet through a vortex and back, where the grid 
       if (withMarkers) {
         SolidField solid;
         solid.phi = solid.phiMirrored = noWalls;
-        moveSurface(*phi, markers, velocity, solid, dt, std::uint64_t(n));
+        moveSurface(*phi, markers, {velocity, solid, dt, std::uint64_t(n)});
         continue;
       }
       advectPhi(*phi, velocity, *noWalls, dt);

@@ -61,8 +61,7 @@ struct Scene {
 
   Projection projected(PressureOptions pressureOptions = {}) {
     pressureOptions.keepPressure = true;
-    Projection result = project(*velocity.component[0], *velocity.component[1], *velocity.component[2], *phi,
-                                *solid, kDt, kDensity, pressureOptions);
+    Projection result = project(velocity, *phi, *solid, kDt, kDensity, pressureOptions);
     CHECK(result.report.converged);
     return result;
   }

@@ -73,6 +73,34 @@ TEST_CASE("surface pressure: where the surface touches a cell's centre it is one
   CHECK(judged > 300);
 }
 
+TEST_CASE("tension: none without a coefficient, and detached cells have it near their own surface only") {
+  const double h = 1.0 / 16;
+  const auto solid = Solids(tank(16, {})).at(0.0);
+  const auto phi = makePhi(h, 4 * h);
+  unite(
+      *phi, [](const Vec3d& x) { return (x - Vec3d(0.5)).length() - 0.3; }, firstCells(Coord(16)));
+  const LiquidCells liquid = sidesOf(*solid, *phi).liquid;
+  const Tension none = tensionOf(liquid, *phi, *solid, 0.0);
+  CHECK(none.surface.none());
+  CHECK((none.guess.empty() && none.detached.empty()));
+
+  const Tension tension = tensionOf(liquid, *phi, *solid, 1.0);
+  REQUIRE(tension.detached.size() == std::size_t(liquid.numbering.size()));
+  const int inside = liquid.numbering.at(Coord(8)), beside = liquid.numbering.at(Coord(12, 8, 8));
+  CHECK(tension.guess[inside] > 0.0);
+  CHECK(tension.detached[inside] == 0.0);
+  CHECK(tension.detached[beside] > 0.2 * tension.guess[beside]);
+  CHECK(tension.detached[beside] < tension.guess[beside]);
+}
+
+TEST_CASE("tension: a cell is anchored by the open area of its surface over the distance to it") {
+  LiquidSides cell = kAllLiquid;
+  CHECK(anchoredBy(cell) == 1.0);
+  cell.open[3] = 0.5f;
+  cell.theta[3] = 0.25f;
+  CHECK(anchoredBy(cell) == 3.0);
+}
+
 TEST_CASE("surface pressure: drops and jets that separate from walls are not thrown out", "[slow]") {
   // A splash of drops of a few cells around a ball, which surface tension alone could set moving at no more
   // than sqrt(4 tension / (density h)) = 1.2 m/s.

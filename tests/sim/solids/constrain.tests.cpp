@@ -22,7 +22,8 @@ TEST_CASE("constrain: closed faces keep the motion along the solid only", "[sim]
   MaskGrid::Ptr nobody = MaskGrid::create();
   const FaceMasks valid{{MaskGrid::create(), MaskGrid::create(), MaskGrid::create()}};
   const auto speedInto = [&](double sign, const MaskGrid& separating) {
-    std::array<FloatGrid::Ptr, 3> c;
+    Velocity carried;
+    auto& c = carried.component;
     const Vec3d velocity =
         Vec3d(1.0, 0.5, std::tan(angle)) + sign * normal;  // along the slope, and into or off it
     for (int a = 0; a < 3; ++a) {
@@ -30,7 +31,7 @@ TEST_CASE("constrain: closed faces keep the motion along the solid only", "[sim]
       c[a]->tree().fill(openvdb::CoordBBox(Coord(-2), Coord(n + 1)), static_cast<float>(velocity[a]), true);
       c[a]->tree().voxelizeActiveTiles();
     }
-    constrainToSolids(*c[0], *c[1], *c[2], *phi, *field, valid, separating);
+    constrainToSolids(carried, *phi, *field, valid, separating);
     // A face just below the slope in the middle of the tank, and one in the open.
     const Coord open(8, 8, 14);
     for (int a = 0; a < 3; ++a) REQUIRE_THAT(c[a]->tree().getValue(open), WithinAbs(velocity[a], 1e-6));
@@ -68,14 +69,15 @@ TEST_CASE("constrain: nothing moves between the two sides of a thin wall") {
       tankWith(n, {solidOf(Shape{Box{Vec3d(-1.0, -1.0, low * h), Vec3d(2.0, 2.0, (low + 1.8) * h)}})}));
   const auto field = solids.at(0.0);
   const auto phi = makePhi(h, 6 * h);
-  std::array<FloatGrid::Ptr, 3> c;
+  Velocity carried;
+  auto& c = carried.component;
   for (int a = 0; a < 3; ++a) {
     c[a] = FloatGrid::create(0.0f);
     c[a]->tree().fill(openvdb::CoordBBox(Coord(-2), Coord(n + 1)), a == 2 ? 1.0f : 0.5f, true);
     c[a]->tree().voxelizeActiveTiles();
   }
   const FaceMasks none{{MaskGrid::create(), MaskGrid::create(), MaskGrid::create()}};
-  constrainToSolids(*c[0], *c[1], *c[2], *phi, *field, none, *MaskGrid::create());
+  constrainToSolids(carried, *phi, *field, none, *MaskGrid::create());
   CHECK(c[2]->tree().getValue(Coord(8, 8, 9)) == 0.0f);
   CHECK(c[0]->tree().getValue(Coord(8, 8, 9)) == 0.5f);
 }

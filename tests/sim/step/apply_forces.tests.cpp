@@ -24,7 +24,7 @@ struct Pool {
     solid = Solids(options).at(0.0);
   }
   bool press(double dt, StepReport* report = nullptr) {
-    return applyPressure(liquid, *solid, dt, dt, options, false, false, {}, report);
+    return applyPressure(liquid, *solid, {.dt = dt, .kick = dt}, options, {}, report);
   }
   float& velocityAt(int axis, const Coord& face) {
     auto* leaf = liquid.velocity.component[axis]->tree().touchLeaf(face);

@@ -31,7 +31,7 @@ TEST_CASE("step: a drop in the open is accelerated by gravity, to the middle of 
                offset = liquid.leapfrogOffset;
   const std::int64_t steps = liquid.steps;
   StepReport report;
-  const auto later = step(liquid, *solid, *solid, dt, nextDt, options, &report);
+  const auto later = step(liquid, {*solid, *solid, dt, nextDt}, options, &report);
   REQUIRE(later);
   CHECK(report.pressure.converged);
   CHECK(later->steps == steps + 1);
@@ -52,10 +52,10 @@ TEST_CASE("step: what a short step changes at once is no force that lasts throug
     it.setValue(it.getCoord()[0] < 12 ? 1.0f : -1.0f);
   const auto solid = Solids(options).at(0.0);
   const double dt = 1e-5, nextDt = 0.04;
-  auto met = step(liquid, *solid, *solid, dt, nextDt, options);
+  auto met = step(liquid, {*solid, *solid, dt, nextDt}, options);
   REQUIRE(met);
   const double fastest = maxAbs(met->velocity);
-  const auto later = step(*met, *solid, *solid, nextDt, nextDt, options);
+  const auto later = step(*met, {*solid, *solid, nextDt, nextDt}, options);
   REQUIRE(later);
   CHECK(maxAbs(later->velocity) < fastest);
 }

@@ -56,10 +56,9 @@ Velocity pool(double surfaceTension, bool ripple) {
   const auto phi =
       phiOf(16, [&](const Vec3d& x) { return x[2] - 0.47 + (ripple ? 0.01 * std::cos(12.0 * x[0]) : 0.0); });
   Velocity velocity = makeVelocity(1.0 / 16, phi->constTree());
-  const auto& [u, v, w] = velocity.component;
   PressureOptions pressure;
   pressure.surfaceTension = surfaceTension;
-  CHECK(project(*u, *v, *w, *phi, *solid, 0.01, 1000.0, pressure).report.converged);
+  CHECK(project(velocity, *phi, *solid, 0.01, 1000.0, pressure).report.converged);
   return velocity;
 }
 

@@ -20,11 +20,11 @@ TEST_CASE("volume deficit: what the surface loses is kept, whatever the flow doe
   const Velocity turning =
       flow([](const Vec3d& x) { return Vec3d(0.5 - x[1], x[0] - 0.5, std::sin(3.0 * x[0])); });
   for (const Velocity* velocity : {&still, &turning}) {
-    const auto deficit = volumeDeficit(*before, *after, nullptr, *velocity, solid, solid, {}, 2.5 * kVoxel);
+    const auto deficit = volumeDeficit({*before, *after}, *velocity, {solid, solid}, {}, 2.5 * kVoxel);
     CHECK(std::abs(sumOf(*deficit) / lost - 1.0) < 1e-4);
     // The same again, when nothing more is lost.
     const auto later =
-        volumeDeficit(*after, *after, deficit.get(), *velocity, solid, solid, {}, 2.5 * kVoxel);
+        volumeDeficit({*after, *after, deficit.get()}, *velocity, {solid, solid}, {}, 2.5 * kVoxel);
     CHECK(std::abs(sumOf(*later) / lost - 1.0) < 1e-4);
   }
 }
@@ -43,15 +43,15 @@ TEST_CASE("volume deficit: a cell in the open without an open face does no harm"
   const auto surface = phiOf(ball);
   CHECK(std::abs(surface->tree().getValue(cell)) < 0.5 * kVoxel);
   const Velocity turning = flow([](const Vec3d& x) { return Vec3d(0.5 - x[1], x[0] - 0.5, 0.0); });
-  const auto deficit = volumeDeficit(*surface, *surface, nullptr, turning, solid, solid, {}, 2.5 * kVoxel);
+  const auto deficit = volumeDeficit({*surface, *surface}, turning, {solid, solid}, {}, 2.5 * kVoxel);
   CHECK(std::isfinite(sumOf(*deficit)));
 }
 
 TEST_CASE("volume deficit: none at rest") {
   const SolidField solid = box();
   const auto phi = phiOf(ballAndFilm);
-  const auto deficit = volumeDeficit(*phi, *phi, nullptr, flow([](const Vec3d&) { return Vec3d(0.0); }),
-                                     solid, solid, {}, 1.0);
+  const auto deficit =
+      volumeDeficit({*phi, *phi}, flow([](const Vec3d&) { return Vec3d(0.0); }), {solid, solid}, {}, 1.0);
   CHECK(deficit->empty());
 }
 
@@ -60,8 +60,8 @@ TEST_CASE("volume deficit: next to none where the surface goes with the flow") {
   const Vec3d speed(0.5, -0.25, 0.125);
   const double dt = 4.0 * kVoxel, ballVolume = 4.19 * std::pow(0.2, 3);
   const auto before = phiOf(ball), after = phiOf([&](const Vec3d&x) { return ball(x - dt * speed); });
-  const auto deficit = volumeDeficit(*before, *after, nullptr, flow([&](const Vec3d&) { return speed; }),
-                                     solid, solid, {}, dt);
+  const auto deficit =
+      volumeDeficit({*before, *after}, flow([&](const Vec3d&) { return speed; }), {solid, solid}, {}, dt);
   const double change = liquidVolume(*before, solid) - liquidVolume(*after, solid);
   CHECK(std::abs(sumOf(*deficit) - change) < 1e-5 * ballVolume);
   CHECK(std::abs(change) < 4e-3 * ballVolume);
@@ -79,8 +79,8 @@ TEST_CASE("volume deficit: beside liquid it lies in the liquid") {
   const SolidField solid = box();
   // A film around the ball, 1.5 cells thick, is lost.
   const auto before = phiOf([](const Vec3d&x) { return ball(x) - 1.5 * kVoxel; }), after = phiOf(ball);
-  const auto deficit = volumeDeficit(*before, *after, nullptr, flow([](const Vec3d&) { return Vec3d(0.0); }),
-                                     solid, solid, {}, 0.01);
+  const auto deficit = volumeDeficit({*before, *after}, flow([](const Vec3d&) { return Vec3d(0.0); }),
+                                     {solid, solid}, {}, 0.01);
   double inside = 0.0;
   for (auto it = deficit->cbeginValueOn(); it; ++it)
     inside += after->tree().getValue(it.getCoord()) < 0.0f ? double(*it) * std::pow(kVoxel, 3) : 0.0;
@@ -99,7 +99,7 @@ TEST_CASE("volume deficit: what leaves the domain and what sources put in is not
   FloatGrid::Ptr deficit;
   const Velocity down = flow([](const Vec3d&) { return Vec3d(0.0, 0.0, -1.0); });
   const auto lower = phiOf([](const Vec3d& x) { return x[2] - 0.5 + 2.0 * kVoxel; });
-  deficit = volumeDeficit(*slab, *lower, nullptr, down, open, open, {}, 2.0 * kVoxel);
+  deficit = volumeDeficit({*slab, *lower}, down, {open, open}, {}, 2.0 * kVoxel);
   CHECK(std::abs(sumOf(*deficit)) < 1e-4);
 
   const SolidField closed = box();
@@ -108,7 +108,7 @@ TEST_CASE("volume deficit: what leaves the domain and what sources put in is not
   RunningFlows flows;
   flows.sources.push_back({&source, 1.0});
   const Velocity still = flow([](const Vec3d&) { return Vec3d(0.0); });
-  CHECK(volumeDeficit(*nothing, *source.phi, nullptr, still, closed, closed, flows, 0.01)->empty());
+  CHECK(volumeDeficit({*nothing, *source.phi}, still, {closed, closed}, flows, 0.01)->empty());
 }
 
 TEST_CASE("volume deficit: it stays on its side of a wall thinner than a cell") {
@@ -131,7 +131,7 @@ TEST_CASE("volume deficit: it stays on its side of a wall thinner than a cell") 
   SECTION("in liquid") {
     const auto before = phiOf([&](const Vec3d& x) { return x[2] - top - 1.6 * kVoxel; });
     const auto after = phiOf([&](const Vec3d& x) { return x[2] - top - 1.2 * kVoxel; });
-    const auto deficit = volumeDeficit(*before, *after, nullptr, still, solid, solid, {}, 0.01);
+    const auto deficit = volumeDeficit({*before, *after}, still, {solid, solid}, {}, 0.01);
     CHECK(sumOf(*deficit) == Approx(0.4 * kVoxel));
     CHECK(below(*deficit) == 0.0);
   }
@@ -140,7 +140,7 @@ TEST_CASE("volume deficit: it stays on its side of a wall thinner than a cell") 
     const auto before = FloatGrid::create(0.0f);
     before->setTransform(cellTransform(kVoxel));
     before->tree().setValueOn(Coord(16, 16, 16), 0.3f);
-    const auto deficit = volumeDeficit(*phi, *phi, before.get(), still, solid, solid, {}, 0.01);
+    const auto deficit = volumeDeficit({*phi, *phi, before.get()}, still, {solid, solid}, {}, 0.01);
     CHECK(below(*deficit) == Approx(0.3 * std::pow(kVoxel, 3)));
   }
 }
@@ -154,12 +154,12 @@ TEST_CASE("volume deficit: beside a drain no liquid comes out of nothing") {
   RunningFlows flows;
   flows.drains.push_back(drain.get());
   const Velocity still = flow([](const Vec3d&) { return Vec3d(0.0); });
-  const auto deficit = volumeDeficit(*before, *after, nullptr, still, solid, solid, flows, 0.01);
+  const auto deficit = volumeDeficit({*before, *after}, still, {solid, solid}, flows, 0.01);
   const double gained = liquidVolume(*after, solid) - liquidVolume(*before, solid);
   CHECK(gained == Approx(0.4 * kVoxel));
   CHECK(sumOf(*deficit) == Approx(-gained));
   // What the surface has lost there the drain has taken.
-  CHECK(volumeDeficit(*after, *before, nullptr, still, solid, solid, flows, 0.01)->empty());
+  CHECK(volumeDeficit({*after, *before}, still, {solid, solid}, flows, 0.01)->empty());
 }
 
 TEST_CASE("volume deficit: a source that holds its place has none, wherever cells are cut by its edges") {
@@ -177,7 +177,7 @@ TEST_CASE("volume deficit: a source that holds its place has none, wherever cell
   const Velocity still = flow([](const Vec3d&) { return Vec3d(0.0); });
   FloatGrid::Ptr deficit;
   for (int n = 0; n < 3; ++n)
-    deficit = volumeDeficit(*source.phi, *source.phi, deficit.get(), still, closed, closed, flows, 0.01);
+    deficit = volumeDeficit({*source.phi, *source.phi, deficit.get()}, still, {closed, closed}, flows, 0.01);
   CHECK(std::abs(sumOf(*deficit)) < 0.01 * std::pow(kVoxel, 3));
 }
 
@@ -201,8 +201,8 @@ TEST_CASE("volume deficit: a source without velocity in a pool that falls gives 
   double before = 0.0, after = 0.0;
   for (int n = 0; n < 8; ++n) {
     const double level = 17.0 * kVoxel - n * step;
-    deficit =
-        volumeDeficit(*pool(level), *pool(level - step), deficit.get(), down, closed, closed, flows, step);
+    deficit = volumeDeficit({*pool(level), *pool(level - step), deficit.get()}, down, {closed, closed}, flows,
+                            step);
     (n < 4 ? before : after) = sumOf(*deficit);
   }
   CAPTURE(before, after);
@@ -221,8 +221,8 @@ TEST_CASE("volume deficit: none in a cell is more than it holds, and nothing goe
     deficit->setTransform(cellTransform(kVoxel));
     const Coord cell(15, 20, 0);  // beside the wall, on the floor
     deficit->tree().setValueOn(cell, share);
-    const auto after = volumeDeficit(*phi, *phi, deficit.get(), flow([](const Vec3d&) { return Vec3d(0.0); }),
-                                     solid, solid, {}, 1e-6);
+    const auto after = volumeDeficit({*phi, *phi, deficit.get()},
+                                     flow([](const Vec3d&) { return Vec3d(0.0); }), {solid, solid}, {}, 1e-6);
     CHECK(totalDeficit(*after) == Catch::Detail::Approx(share * std::pow(kVoxel, 3)).epsilon(1e-4));
     double beyond = 0.0, most = 0.0;
     for (auto it = after->cbeginValueOn(); it; ++it) {

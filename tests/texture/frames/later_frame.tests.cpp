@@ -37,7 +37,7 @@ struct Rested {
     Surface shown = surface;
     shown.levels.resize(levels);
     const PreparedMesh prepared(shown.levels.front());
-    return synthesizeLater(synthesizer, shown, prepared.view(), carried, frame, kStep, stats, {});
+    return synthesizeLater(synthesizer, shown, prepared.view(), carried, {frame, kStep}, stats, {});
   }
   Labels transported() const {
     return labelsOf(surface.levels.front(), carried.coordinate, carried.gradient);
