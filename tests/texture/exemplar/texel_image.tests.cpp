@@ -9,6 +9,7 @@
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
+using fluidtex::Float8;
 using fluidtex::randomUnit;
 
 TEST_CASE("texel image: reads what sampleBilinear reads") {

@@ -10,6 +10,7 @@
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
+using fluidtex::Float8;
 
 namespace {
 

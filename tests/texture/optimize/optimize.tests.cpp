@@ -10,6 +10,7 @@
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
+using fluidtex::Float8;
 
 TEST_CASE("optimize: energy never rises while the window stays") {
   const OrientedMesh surface = orientedMesh(sphereMesh(20));

@@ -8,6 +8,7 @@
 
 using namespace fluidtex::texture;
 using namespace fluidtex::testing;
+using fluidtex::Float8;
 
 namespace {
 
