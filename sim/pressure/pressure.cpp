@@ -11,6 +11,7 @@
 #include "sim/pressure/pressure_system.h"
 #include "sim/pressure/slowed_sources.h"
 #include "sim/pressure/tension_pressure.h"
+#include "sim/pressure/update_faces.h"
 #include "sim/solids/solid_layers.h"
 #include "sim/surface/level_set.h"
 
@@ -35,9 +36,6 @@ constexpr double kExpansionTolerance = 1e-2;
 
 // Tolerance at which separation is tested first: mostly it shows by then.
 constexpr double kSeparationTolerance = 1e-3;
-
-// A face whose solid lies within about 25 degrees of square to it takes the solid's normal velocity.
-constexpr float kSquare = 0.9f;
 
 // Closes edges where the pressure would cause inflow. True if any was closed.
 bool shutEdges(LiquidCells& liquid, const std::vector<double>& q) {
@@ -86,22 +84,6 @@ void takeOut(const LiquidCells& liquid, const Tension& tension, const std::vecto
   });
 }
 
-// Outflow through a cell's open faces after the pressure has acted.
-double projectedOutflow(const LiquidCells& liquid, const SurfacePressure& surface,
-                        const std::vector<double>& q, int number) {
-  const LiquidSides& cell = liquid.sidesOf(number);
-  const Coord place = liquid.numbering.cell(number);
-  double outflow = liquid.outflow[number];
-  for (int s = 0; s < kSides; ++s) {
-    if (cell.open[s] <= 0.0f) continue;
-    const bool ends = cell.theta[s] > 0.0f;
-    const int neighbor = ends ? -1 : liquid.numbering.at(neighborOf(place, s));
-    const double step = (neighbor < 0 ? surface.at(number, s) : q[neighbor]) - q[number];
-    outflow -= cell.open[s] * (ends ? step / cell.theta[s] : step);
-  }
-  return outflow;
-}
-
 // Outflow of each unknown's cell that gives the expansion, m/s through one open face.
 void setOutflow(const FloatGrid& divergence, const LiquidCells& liquid, const PoissonSystem& system, double h,
                 std::vector<double>& outflow) {
@@ -146,122 +128,86 @@ bool updateDetached(const LiquidCells& liquid, const Tension& tension, const std
   return any;
 }
 
-// Leaves of `grid` that hold a face of a liquid cell; missing ones are made. They are the same for every
-// axis, so that the components keep one topology.
-std::vector<FloatLeaf*> faceLeaves(const LiquidCells& liquid, FloatGrid& grid) {
-  std::vector<FloatLeaf*> leaves;
-  for (const CellBlock& block : liquid.blocks) {
-    leaves.push_back(grid.tree().touchLeaf(block.origin));
-    for (int axis = 0; axis < 3; ++axis) {
-      Coord next = block.origin;
-      next[axis] += kLeafDim;
-      leaves.push_back(grid.tree().touchLeaf(next));
-    }
+// The unknowns of one pass: cells that are not detached.
+struct Unknowns {
+  std::vector<int> liquidOf;  // #unknowns, cell of each
+  PoissonSystem system;
+  std::vector<std::vector<int>> singular;  // parts without surface, each a list of unknowns
+  std::vector<char> enclosed;              // #cells, 1 in such parts
+};
+
+Unknowns unknownsOf(const LiquidCells& liquid, const std::vector<char>& detached) {
+  Unknowns unknowns;
+  unknowns.system = pressureSystem(liquid, detached, unknowns.liquidOf);
+  unknowns.singular = singularParts(unknowns.system);
+  unknowns.enclosed.assign(std::size_t(liquid.numbering.size()), 0);
+  for (const auto& part : unknowns.singular) {
+    for (const int i : part) unknowns.enclosed[unknowns.liquidOf[i]] = 1;
   }
-  std::sort(leaves.begin(), leaves.end(),
-            [](const FloatLeaf* a, const FloatLeaf* b) { return a->origin() < b->origin(); });
-  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
-  return leaves;
+  return unknowns;
 }
 
-// Subtracts the pressure gradient on the faces normal to `axis`, sets closed ones to the solid's speed, and
-// writes given velocities. Returns the valid faces.
-MaskGrid::Ptr updateFaces(const LiquidCells& liquid, const SurfacePressure& surface, const SolidField& solid,
-                          const std::vector<double>& q, const std::vector<char>& detached, int axis,
-                          FloatGrid& grid) {
-  const FloatGrid* const solidSpeed = solid.speed.component[axis].get();
-  const FloatGrid* const given = solid.given.component[axis].get();
-  const FloatGrid& open = solid.open[axis];
-  auto valid = MaskGrid::create();
-  valid->setTransform(faceTransform(solid.voxelSize, axis));
-  const std::vector<FloatLeaf*> leaves = faceLeaves(liquid, grid);
-  std::vector<MaskGrid::TreeType::LeafNodeType*> masks;
-  masks.reserve(leaves.size());
-  for (const FloatLeaf* leaf : leaves) masks.push_back(valid->tree().touchLeaf(leaf->origin()));
-
-  tbb::parallel_for(Range(0, static_cast<int>(leaves.size())), [&](const Range& range) {
-    const openvdb::tree::ValueAccessor<const FloatTree> distance(solid.phi->constTree());
-    const auto isOpen = [&](const Coord& face) { return open.constTree().getValue(face) > 0.0f; };
-    for (int n = range.begin(); n < range.end(); ++n) {
-      FloatLeaf& leaf = *leaves[n];
-      const BlockNumbers numbers(liquid.numbering, leaf.origin());
-      for (int c = 0; c < kLeafSize; ++c) {
-        const int upper = numbers.at(c), lower = numbers.beside(c, 2 * axis);
-        if (upper < 0 && lower < 0) continue;
-
-        const LiquidSides& cell = liquid.sidesOf(upper >= 0 ? upper : lower);
-        const int side = 2 * axis + (upper >= 0 ? 0 : 1);
-        const Coord wetCell = liquid.numbering.cell(upper >= 0 ? upper : lower);
-        const bool edge = endsAt(Side::open, solid, wetCell, side);
-        if (cell.open[side] > 0.0f) {
-          // A nozzle: all that enters the cell would leave through this sliver, as fast as it must.
-          // Extrapolation from the liquid beside it is better; at an edge only the pressure gives the
-          // velocity.
-          if (cell.theta[side] > 0.0f && cell.open[side] < kLeastOpen && !edge) continue;
-          const double step = (upper < 0 ? surface.at(lower, side) : q[upper]) -
-                              (lower < 0 ? surface.at(upper, side) : q[lower]);
-          const double change = cell.theta[side] > 0.0f ? step / cell.theta[side] : step;
-          leaf.setValueOn(c, static_cast<float>(leaf.getValue(c) - change));
-          masks[n]->setValueOn(c);
-          continue;
-        }
-        const Coord place = leaf.offsetToGlobalCoord(c);
-        if (edge && isOpen(place)) {
-          // A closed edge is no wall that liquid could separate from.
-          leaf.setValueOn(c, 0.0f);
-          masks[n]->setValueOn(c);
-          continue;
-        }
-        const float slope = distance.getValue(place) - distance.getValue(neighborOf(place, 2 * axis));
-        const bool solidBelow = slope > 0.0f;
-        const int wet = solidBelow ? upper : lower;
-        if (std::abs(slope) < kSquare * solid.voxelSize || wet < 0) continue;
-        const double push = solidSpeed == nullptr ? 0.0 : solidSpeed->constTree().getValue(place);
-        double away = 0.0;
-        const int wall = 2 * axis + (solidBelow ? 0 : 1);
-        if (detached[wet] && !endsAt(Side::symmetry, solid, liquid.numbering.cell(wet), wall)) {
-          // The cell's outflow through open faces is balanced by inflow at its walls, so that it is
-          // divergence-free; each wall takes a share in proportion to the speed at which liquid was about to
-          // leave it.
-          const auto& sides = liquid.sidesOf(wet);
-          const double relative = leaf.getValue(c) - push;
-          const double ready = std::max(0.0, solidBelow ? relative : -relative);
-          const double share = sides.leaving > 0.0f ? ready / sides.leaving : 1.0 / sides.closed;
-          away = std::max(0.0, projectedOutflow(liquid, surface, q, wet)) * share;
-        }
-        leaf.setValueOn(c, static_cast<float>(push + (solidBelow ? away : -away)));
-        masks[n]->setValueOn(c);
-      }
-    }
-  });
-  if (given != nullptr) {
-    for (auto it = given->cbeginValueOn(); it; ++it) {
-      grid.tree().setValueOn(it.getCoord(), *it);
-      valid->tree().setValueOn(it.getCoord());
-    }
+// Right-hand side b and initial guess x, from the pressure q so far (#cells); with surface tension those of
+// the difference from the guessed pressure.
+void setUp(const LiquidCells& liquid, const Tension& tension, const Unknowns& unknowns,
+           const std::vector<double>& q, std::vector<double>& b, std::vector<double>& x) {
+  const std::vector<int>& liquidOf = unknowns.liquidOf;
+  b.resize(liquidOf.size());
+  x.resize(liquidOf.size());
+  for (std::size_t i = 0; i < liquidOf.size(); ++i) {
+    b[i] = -liquid.outflow[liquidOf[i]];
+    x[i] = q[liquidOf[i]];
   }
-  return valid;
+  if (!tension.surface.none()) takeOut(liquid, tension, unknowns.enclosed, unknowns.system, liquidOf, b, x);
 }
 
-// Liquid cells that separate. A cell deep in a solid has almost no open area: the liquid beside it separates
-// with it.
-MaskGrid::Ptr separatingCells(const LiquidCells& liquid, const SolidField& solid,
-                              const std::vector<char>& detached) {
-  MaskGrid::Ptr separating = MaskGrid::create();
-  separating->setTransform(cellTransform(solid.voxelSize));
-  const auto distance = solid.phi->getConstAccessor();
-  const float deep = -kDeepInSolid * static_cast<float>(solid.voxelSize);
-  for (int i = 0; i < liquid.numbering.size(); ++i) {
-    if (!detached[i]) continue;
-    const Coord cell = liquid.numbering.cell(i);
-    separating->tree().setValueOn(cell);
-    if (distance.getValue(cell) >= deep) continue;
-    const LiquidSides& sides = liquid.sidesOf(i);
-    for (int side = 0; side < kSides; ++side)
-      if (sides.open[side] > 0.0f && liquid.numbering.at(neighborOf(cell, side)) >= 0)
-        separating->tree().setValueOn(neighborOf(cell, side));
+// #cells, pressure of all of them from that of the unknowns.
+std::vector<double> pressureFrom(const std::vector<double>& solved, const Unknowns& unknowns,
+                                 const Tension& tension, int cells) {
+  std::vector<double> q = tension.detached;
+  q.resize(std::size_t(cells), 0.0);
+  for (std::size_t i = 0; i < solved.size(); ++i) {
+    const int cell = unknowns.liquidOf[i];
+    q[cell] = tension.surface.none() || unknowns.enclosed[cell] ? solved[i] : solved[i] + tension.guess[cell];
   }
-  return separating;
+  return q;
+}
+
+// #cells, the potential of options.divergence; empty if it is not found: then no deficit is given back in
+// this step. still: gets the velocities at which sources take back what is too much.
+std::vector<double> expansionOf(const LiquidCells& liquid, const SolidField& solid, const Unknowns& unknowns,
+                                PoissonSolver& poisson, const PressureOptions& options, SolidField& still) {
+  std::vector<double> b, x(unknowns.liquidOf.size(), 0.0);
+  setOutflow(*options.divergence, liquid, unknowns.system, solid.voxelSize, b);
+  still = atRest(solid);
+  if (solid.given) takeBack(solid, unknowns.singular, unknowns.liquidOf, liquid, b, still.given);
+  if (!poisson.solve(std::move(b), x, kExpansionTolerance, options.maxIterations).converged) return {};
+  std::vector<double> expansion(std::size_t(liquid.numbering.size()), 0.0);
+  for (std::size_t i = 0; i < x.size(); ++i) expansion[unknowns.liquidOf[i]] = x[i];
+  return expansion;
+}
+
+// Faces of the edges that were shut.
+std::vector<Face> facesOfShutEdges(const LiquidCells& liquid) {
+  std::vector<Face> shut;
+  for (const Edge& edge : liquid.edges) {
+    if (!edge.shut) continue;
+    Coord face = liquid.numbering.cell(edge.cell);
+    face[edge.side / 2] += edge.side % 2;
+    shut.push_back({edge.side / 2, face});
+  }
+  return shut;
+}
+
+openvdb::DoubleGrid::Ptr pressureGrid(const LiquidCells& liquid, const std::vector<double>& q, double pascal,
+                                      double h) {
+  auto grid = openvdb::DoubleGrid::create(0.0);
+  grid->setTransform(cellTransform(h));
+  grid->setName("pressure");
+  openvdb::DoubleGrid::Accessor pressure = grid->getAccessor();
+  for (std::size_t i = 0; i < q.size(); ++i)
+    pressure.setValue(liquid.numbering.cell(static_cast<int>(i)), q[i] * pascal);
+  return grid;
 }
 
 }  // namespace
@@ -269,13 +215,11 @@ MaskGrid::Ptr separatingCells(const LiquidCells& liquid, const SolidField& solid
 Projection project(Velocity& velocity, const FloatGrid& phi, const SolidField& solid, double dt,
                    double density, const PressureOptions& options) {
   require(dt > 0.0 && density > 0.0, "project: the time step and the density must be positive");
-  FloatGrid &u = *velocity.component[0], &v = *velocity.component[1], &w = *velocity.component[2];
-  LiquidCells liquid = gatherLiquid(phi, solid, {&u.constTree(), &v.constTree(), &w.constTree()});
+  auto& [u, v, w] = velocity.component;
+  LiquidCells liquid = gatherLiquid(phi, solid, {&u->constTree(), &v->constTree(), &w->constTree()});
   const int n = liquid.numbering.size();
   const double pascal = density * solid.voxelSize / dt;  // of one unit of q
-
   const Tension tension = tensionOf(liquid, phi, solid, options.surfaceTension / pascal);
-  const SurfacePressure& surface = tension.surface;
 
   Projection result;
   PressureReport& report = result.report;
@@ -286,44 +230,26 @@ Projection project(Velocity& velocity, const FloatGrid& phi, const SolidField& s
   std::vector<char> detached(n, 0);
   SolidField slowed = solid;  // with the velocities that sources get in the end
   for (int pass = 0; n > 0; ++pass) {
-    std::vector<int> liquidOf;
-    const PoissonSystem system = pressureSystem(liquid, detached, liquidOf);
-    const auto singular = singularParts(system);
+    const Unknowns unknowns = unknownsOf(liquid, detached);
     // All cells are unknowns yet. In later passes a part with more inflow than outflow keeps an open edge.
-    if (pass == 0 && solid.given) slowed.given = slowedSources(solid, singular, liquid);
-    std::vector<char> enclosed(n, 0);
-    for (const auto& part : singular) {
-      for (const int i : part) enclosed[liquidOf[i]] = 1;
-    }
-    std::vector<double> b(liquidOf.size()), x(liquidOf.size());
-    for (std::size_t i = 0; i < liquidOf.size(); ++i) {
-      b[i] = -liquid.outflow[liquidOf[i]];
-      x[i] = q[liquidOf[i]];
-    }
+    if (pass == 0 && solid.given) slowed.given = slowedSources(solid, unknowns.singular, liquid);
+    std::vector<double> b, x;
+    setUp(liquid, tension, unknowns, q, b, x);
     q = std::vector<double>();  // frees the memory, unlike {}
-    if (!surface.none()) {
-      // Solve for the difference from the guess.
-      takeOut(liquid, tension, enclosed, system, liquidOf, b, x);
-    }
     // Whether liquid separates from solids, or attaches again, at this pressure.
     bool again = false, last = pass == options.maxSeparationPasses;
-    const auto separates = [&](const std::vector<double>& pressure) {
-      q = tension.detached;
-      q.resize(n, 0.0);
-      double largest = 0.0;
-      for (std::size_t i = 0; i < liquidOf.size(); ++i) {
-        const int number = liquidOf[i];
-        q[number] = surface.none() || enclosed[number] ? pressure[i] : pressure[i] + tension.guess[number];
-        largest = std::max(largest, std::abs(pressure[i]));
-      }
+    const auto separates = [&](const std::vector<double>& solved) {
+      q = pressureFrom(solved, unknowns, tension, n);
       if (last) return false;
+      double largest = 0.0;
+      for (const double value : solved) largest = std::max(largest, std::abs(value));
       const bool shut = shutEdges(liquid, q);
-      const bool changed = updateDetached(liquid, tension, q, enclosed, options.suction / pascal,
+      const bool changed = updateDetached(liquid, tension, q, unknowns.enclosed, options.suction / pascal,
                                           kSuctionNoise * largest, detached);
       again = changed || shut;
       return again;
     };
-    PoissonSolver poisson(system, singular);
+    PoissonSolver poisson(unknowns.system, unknowns.singular);
     const PoissonReport solved =
         poisson.solve(std::move(b), x, options.tolerance, options.maxIterations,
                       {kSeparationTolerance, [&](const std::vector<double>& rough) {
@@ -337,24 +263,16 @@ Projection project(Velocity& velocity, const FloatGrid& phi, const SolidField& s
     report.converged = solved.converged;
     report.separationPasses = pass;
     if (again || separates(x)) continue;
-    if (options.divergence != nullptr && solved.converged) {
-      setOutflow(*options.divergence, liquid, system, solid.voxelSize, b);
-      still = atRest(solid);
-      if (solid.given) takeBack(solid, singular, liquidOf, liquid, b, still.given);
-      std::fill(x.begin(), x.end(), 0.0);
-      // If this fails, no deficit is given back in this step.
-      if (poisson.solve(std::move(b), x, kExpansionTolerance, options.maxIterations).converged) {
-        expansion.assign(n, 0.0);
-        for (std::size_t i = 0; i < liquidOf.size(); ++i) expansion[liquidOf[i]] = x[i];
-      }
-    }
+    x = std::vector<double>();
+    if (options.divergence != nullptr && solved.converged)
+      expansion = expansionOf(liquid, solid, unknowns, poisson, options, still);
     break;
   }
 
-  if (options.keepBefore) result.before = {{u.deepCopy(), v.deepCopy(), w.deepCopy()}};
-  result.valid.component[0] = updateFaces(liquid, surface, slowed, q, detached, 0, u);
-  result.valid.component[1] = updateFaces(liquid, surface, slowed, q, detached, 1, v);
-  result.valid.component[2] = updateFaces(liquid, surface, slowed, q, detached, 2, w);
+  if (options.keepBefore) result.before = copyOf(velocity);
+  for (int axis = 0; axis < 3; ++axis)
+    result.valid.component[axis] =
+        updateFaces(liquid, tension.surface, slowed, q, detached, axis, *velocity.component[axis]);
   if (!expansion.empty()) {
     result.expansion = makeVelocity(solid.voxelSize);
     const std::vector<char> none(n, 0);
@@ -362,19 +280,8 @@ Projection project(Velocity& velocity, const FloatGrid& phi, const SolidField& s
       updateFaces(liquid, {}, still, expansion, none, axis, *result.expansion.component[axis]);
   }
   result.separating = separatingCells(liquid, solid, detached);
-  for (const Edge& edge : liquid.edges) {
-    if (!edge.shut) continue;
-    Coord face = liquid.numbering.cell(edge.cell);
-    face[edge.side / 2] += edge.side % 2;
-    result.shut.push_back({edge.side / 2, face});
-  }
-  if (options.keepPressure) {
-    result.pressure = openvdb::DoubleGrid::create(0.0);
-    result.pressure->setTransform(cellTransform(solid.voxelSize));
-    result.pressure->setName("pressure");
-    openvdb::DoubleGrid::Accessor pressure = result.pressure->getAccessor();
-    for (int i = 0; i < n; ++i) pressure.setValue(liquid.numbering.cell(i), q[i] * pascal);
-  }
+  result.shut = facesOfShutEdges(liquid);
+  if (options.keepPressure) result.pressure = pressureGrid(liquid, q, pascal, solid.voxelSize);
   return result;
 }
 

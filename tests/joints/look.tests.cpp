@@ -33,7 +33,7 @@ struct FromAbove {
     const double fov = 2.0 * std::atan(0.5 / 3.0) * 180.0 / std::numbers::pi;
     const render::CameraRays camera =
         render::makeCamera({{0.45, 0.45, 3.0}, {0.45, 0.45, 0.0}, fov, 0.0}, 100, 100, 0.0);
-    return look(surface, joints, cut, true, ways, camera, 100, 100);
+    return look(surface, joints, cut, true, ways, camera, {100, 100});
   }
 };
 

@@ -179,27 +179,33 @@ void keptOrMadeMatch(Exemplar& exemplar, MatchedInputs inputs, const SynthesisOp
   writeKept(cache, name, std::move(bytes));
 }
 
-// sequence: further pictures, matched but not looked up.
-Exemplar prepare(Image color, Image guidance, std::map<std::string, ExemplarMap> maps,
-                 const std::map<std::string, ExemplarMap>& sequence, bool toroidal,
-                 const SynthesisOptions& synthesis, int levels, const std::string& name,
-                 const CacheFolder& cache) {
-  check(color, toroidal, synthesis, name);
+struct Pictures {
+  std::string name;  // in messages
+  Image color;
+  bool toroidal = false;
+  Image guidance{};  // empty: unguided
+  std::map<std::string, ExemplarMap> maps{};
+  std::map<std::string, ExemplarMap> sequence{};  // further pictures, matched but not looked up
+};
+
+Exemplar prepare(Pictures pictures, const SynthesisOptions& synthesis, int levels, const CacheFolder& cache) {
+  Image& color = pictures.color;
+  check(color, pictures.toroidal, synthesis, pictures.name);
   Exemplar exemplar;
-  exemplar.toroidal = toroidal;
+  exemplar.toroidal = pictures.toroidal;
   float least = color.data[3], most = color.data[3];
   for (std::size_t i = 3; i < color.data.size(); i += 4)
     least = std::min(least, color.data[i]), most = std::max(most, color.data[i]);
   exemplar.colorChannels = least < most ? 4 : 3;
-  exemplar.guided = !guidance.data.empty();
+  exemplar.guided = !pictures.guidance.data.empty();
   exemplar.guidanceWeight = float(synthesis.guidanceWeight);
   exemplar.color = std::move(color);
-  exemplar.maps = std::move(maps);
+  exemplar.maps = std::move(pictures.maps);
   // Transported colours have no maps beside them.
   if (synthesis.method != Method::coordinates)
     for (auto& [own, map] : exemplar.maps) map.weight = 0.0f;
-  MatchedInputs inputs{std::move(guidance), exemplar.maps};
-  inputs.maps.insert(sequence.begin(), sequence.end());
+  MatchedInputs inputs{std::move(pictures.guidance), exemplar.maps};
+  inputs.maps.merge(pictures.sequence);
   keptOrMadeMatch(exemplar, std::move(inputs), synthesis, std::max(levels, 1), cache);
   return exemplar;
 }
@@ -229,8 +235,12 @@ std::map<std::string, ExemplarMap> sequenceMaps(const AnimationOptions& animatio
 
 Exemplar makeExemplar(Image color, bool toroidal, const SynthesisOptions& synthesis, int levels,
                       Image guidance, const CacheFolder& cache, std::map<std::string, ExemplarMap> maps) {
-  return prepare(std::move(color), std::move(guidance), std::move(maps), {}, toroidal, synthesis, levels,
-                 "the image", cache);
+  return prepare({.name = "the image",
+                  .color = std::move(color),
+                  .toroidal = toroidal,
+                  .guidance = std::move(guidance),
+                  .maps = std::move(maps)},
+                 synthesis, levels, cache);
 }
 
 Image exemplarPicture(const ExemplarOptions& options) {
@@ -258,9 +268,14 @@ Exemplar loadExemplar(const ExemplarOptions& options, const SynthesisOptions& sy
     throw std::invalid_argument("loadExemplar: the guidance must be as large as the picture");
   std::map<std::string, ExemplarMap> maps;
   for (const MapOptions& map : options.maps) maps[map.name] = loadMap(map, color.width, options.toroidal);
-  const std::map<std::string, ExemplarMap> sequence = sequenceMaps(options.animation, color);
-  return prepare(std::move(color), std::move(guidance), std::move(maps), sequence, options.toroidal,
-                 synthesis, levels, options.file.string(), cache);
+  std::map<std::string, ExemplarMap> sequence = sequenceMaps(options.animation, color);
+  return prepare({.name = options.file.string(),
+                  .color = std::move(color),
+                  .toroidal = options.toroidal,
+                  .guidance = std::move(guidance),
+                  .maps = std::move(maps),
+                  .sequence = std::move(sequence)},
+                 synthesis, levels, cache);
 }
 
 }  // namespace fluidtex::texture

@@ -169,6 +169,122 @@ void findFirstMatches(const Level& level, const Pass& pass, const Values& value,
   measureMatches(level.image, value, windows);
 }
 
+namespace {
+
+// The best of the places that are tried for one window.
+class Candidates {
+ public:
+  // gathered: of the window. used: counted with weight `usage`. now: its present match, at distance
+  // `present`.
+  Candidates(const TexelImage& image, const Gathered& gathered, const Usage& used, float usage, float reach,
+             const Place& now, float present)
+      : nearest(now),
+        best(now),
+        bestDistance(present),
+        m_image(image),
+        m_gathered(gathered),
+        m_used(used),
+        m_usage(usage),
+        m_reach(reach),
+        m_now(now),
+        m_present(present),
+        m_nearestDistance(present) {}
+
+  void offer(const Vec2f& texel, Way way) {
+    const Place candidate{m_image.centerFor(texel, m_reach), way};
+    const auto same = [&](const Place& other) {
+      constexpr float kSame = 0.02f;  // texels, squared distance
+      return way == other.way && (candidate.center - other.center).lengthSqr() < kSame;
+    };
+    if (same(m_now) || std::any_of(m_tried.begin(), m_tried.begin() + m_triedCount, same)) return;
+    if (m_triedCount < m_tried.size()) m_tried[m_triedCount++] = candidate;
+    const float penalty =
+        m_usage > 0.0f ? 1.0f + m_usage * std::max(0.0f, m_used.at(candidate.center) - 1.0f) : 1.0f;
+    const float bound = std::min(m_present, m_bestScore / penalty);
+    const float distance = distanceAt(m_image, m_gathered, candidate, bound);
+    if (distance < m_nearestDistance) m_nearestDistance = distance, nearest = candidate;
+    if (distance < m_present && distance * penalty < m_bestScore)
+      m_bestScore = distance * penalty, bestDistance = distance, best = candidate;
+  }
+
+  Place nearest;  // of least distance
+  Place best;     // of least distance times penalty of usage, nearer than the present one; else that
+  float bestDistance;
+
+ private:
+  const TexelImage& m_image;
+  const Gathered& m_gathered;
+  const Usage& m_used;
+  float m_usage, m_reach;
+  Place m_now;
+  float m_present, m_nearestDistance, m_bestScore = kFar;
+  std::array<Place, kMaxLinks + kMaxSimilar + kTreeCandidates + kRandomCandidates> m_tried;
+  std::size_t m_triedCount = 0;
+};
+
+// Propagation: where the matches of overlapping windows would continue.
+void offerContinued(const Windows& windows, std::size_t p, Candidates& candidates) {
+  const Neighborhoods& n = windows.neighborhoods;
+  const bool oneWay = countOf(windows.ways) == 1;
+  for (std::uint32_t i = windows.links.first[p]; i < windows.links.first[p + 1]; ++i) {
+    const std::uint32_t entry = windows.links.entry[i];
+    const Complexf offset(n.offset[entry][0], n.offset[entry][1]);
+    // From p to the neighbour, in the neighbour's axes.
+    const Complexf towards = conjugateProduct(n.turn[entry], offset);
+    const std::uint32_t q = windows.links.window[i];
+    candidates.offer(
+        windows.texelAt(q, Vec2f(-towards.real(), -towards.imag())),
+        oneWay ? Way(0)
+               : nearestWay(windows.ways, seenFrom(layOf(windows.way[q]), std::conj(n.turn[entry]))));
+  }
+}
+
+// As many candidates per variant as an exemplar with one variant gets.
+void offerFromTree(const Windows& windows, std::size_t p, const Pass& pass, const Values& value, int channels,
+                   WindowQuery& query, Candidates& candidates) {
+  Match found[kTreeCandidates];
+  for (int w = 0; w < countOf(windows.ways); ++w) {
+    const Way way = wayAt(windows.ways, w);
+    const int count = searchWindows(windows, p, pass, value, channels, way, query, found);
+    for (int i = 0; i < count; ++i) candidates.offer(Vec2f(found[i].center), way);
+  }
+}
+
+// k-coherence: windows of the exemplar that are like the nearest one so far.
+void offerSimilar(const SearchTable& table, int similarCount, Candidates& candidates) {
+  Vec2i similar[kMaxSimilar];
+  const auto [nearest, way] = candidates.nearest;
+  const Vec2i center(int(std::lround(nearest[0])), int(std::lround(nearest[1])));
+  const Vec2f shift = nearest - Vec2f(center);
+  const int count =
+      similarWindows(table, validCenter(table, center), std::span(similar, std::size_t(similarCount)));
+  for (int i = 0; i < count; ++i) candidates.offer(Vec2f(similar[i]) + shift, way);
+}
+
+// One place anywhere, one near the nearest so far.
+void offerRandom(const TexelImage& image, const Ways& ways, float near, std::uint64_t key,
+                 Candidates& candidates) {
+  const auto random = [&](std::uint64_t i) { return float(randomUnit(key, i)); };
+  candidates.offer(Vec2f(random(0) * float(image.width), random(1) * float(image.height)),
+                   wayAt(ways, int(randomBelow(key, 4, std::uint64_t(countOf(ways))))));
+  const auto [nearest, way] = candidates.nearest;
+  candidates.offer(nearest + Vec2f((2.0f * random(2) - 1.0f) * near, (2.0f * random(3) - 1.0f) * near), way);
+}
+
+// Takes over the batch's new matches, and counts their use.
+void settleBatch(const std::vector<std::uint32_t>& batch, const std::vector<Place>& next, bool counts,
+                 Usage& used, Windows& windows) {
+  for (std::size_t b = 0; b < batch.size(); ++b) {
+    Vec2f& match = windows.match[batch[b]];
+    const Vec2f& center = next[b].center;
+    if (counts && center != match) used.add(match, -1.0f), used.add(center, 1.0f);
+    match = center;
+    windows.way[batch[b]] = next[b].way;
+  }
+}
+
+}  // namespace
+
 void improveMatches(const Level& level, const Pass& pass, int iteration, double usage, const Values& value,
                     Windows& windows) {
   const Neighborhoods& n = windows.neighborhoods;
@@ -176,6 +292,7 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
   const bool useTree = pass.table && pass.probes > 0;
   const int similarCount = pass.table ? std::min({pass.similar, pass.table->similarCount, kMaxSimilar}) : 0;
   const std::uint64_t key = randomBits(pass.seed, std::uint64_t(iteration));
+  const float reach = 0.5f * float(n.window - 1), near = 0.25f * float(n.window);
 
   std::vector<std::vector<std::uint32_t>> batches(kBatches);
   for (std::uint32_t p = 0; p < n.size(); ++p) batches[randomBits(key, p) % kBatches].push_back(p);
@@ -186,8 +303,6 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
 
   tbb::enumerable_thread_specific<Searcher> workspace(
       [&] { return Searcher(useTree ? pass.table : nullptr); });
-  const Ways& ways = windows.ways;
-  const int wayCount = countOf(ways);
   std::vector<Place> next;
   for (const std::vector<std::uint32_t>& batch : batches) {
     next.resize(batch.size());
@@ -197,79 +312,19 @@ void improveMatches(const Level& level, const Pass& pass, int iteration, double 
           Searcher& searcher = workspace.local();
           for (std::size_t b = range.begin(); b != range.end(); ++b) {
             const std::size_t p = batch[b];
-            const float reach = 0.5f * float(n.window - 1);
             gather(windows, p, value, searcher.gathered);
-            const float present = windows.distance[p];
-            const Place now{windows.match[p], windows.way[p]};
-            Place best = now, nearest = now;
-            float bestScore = kFar, bestDistance = present, nearestDistance = present;
-            std::array<Place, kMaxLinks + kMaxSimilar + kTreeCandidates + kRandomCandidates> tried;
-            std::size_t triedCount = 0;
-            const auto offer = [&](const Vec2f& texel, Way way) {
-              const Place candidate{image.centerFor(texel, reach), way};
-              const auto same = [&](const Place& other) {
-                constexpr float kSame = 0.02f;  // texels, squared distance
-                return way == other.way && (candidate.center - other.center).lengthSqr() < kSame;
-              };
-              if (same(now) || std::any_of(tried.begin(), tried.begin() + triedCount, same)) return;
-              if (triedCount < tried.size()) tried[triedCount++] = candidate;
-              const float penalty =
-                  usage > 0.0 ? 1.0f + float(usage) * std::max(0.0f, used.at(candidate.center) - 1.0f) : 1.0f;
-              const float bound = std::min(present, bestScore / penalty);
-              const float distance = distanceAt(image, searcher.gathered, candidate, bound);
-              if (distance < nearestDistance) nearestDistance = distance, nearest = candidate;
-              if (distance < present && distance * penalty < bestScore)
-                bestScore = distance * penalty, bestDistance = distance, best = candidate;
-            };
-
-            for (std::uint32_t i = windows.links.first[p]; i < windows.links.first[p + 1]; ++i) {
-              const std::uint32_t entry = windows.links.entry[i];
-              const Complexf offset(n.offset[entry][0], n.offset[entry][1]);
-              // From p to the neighbour, in the neighbour's axes.
-              const Complexf towards = conjugateProduct(n.turn[entry], offset);
-              const std::uint32_t q = windows.links.window[i];
-              offer(windows.texelAt(q, Vec2f(-towards.real(), -towards.imag())),
-                    wayCount == 1
-                        ? Way(0)
-                        : nearestWay(ways, seenFrom(layOf(windows.way[q]), std::conj(n.turn[entry]))));
-            }
-            if (useTree) {
-              // As many candidates per variant as an exemplar with one variant gets.
-              Match found[kTreeCandidates];
-              for (int w = 0; w < wayCount; ++w) {
-                const Way way = wayAt(ways, w);
-                const int count = searchWindows(windows, p, pass, value, image.channels, way,
-                                                searcher.query.front(), found);
-                for (int i = 0; i < count; ++i) offer(Vec2f(found[i].center), way);
-              }
-            }
-            if (similarCount > 0) {
-              Vec2i similar[kMaxSimilar];
-              const Vec2i center(int(std::lround(nearest.center[0])), int(std::lround(nearest.center[1])));
-              const Vec2f shift = nearest.center - Vec2f(center);
-              const Way way = nearest.way;
-              const int count = similarWindows(*pass.table, validCenter(*pass.table, center),
-                                               std::span(similar, std::size_t(similarCount)));
-              for (int i = 0; i < count; ++i) offer(Vec2f(similar[i]) + shift, way);
-            }
-            const std::uint64_t own = randomBits(key, kBatches + p);
-            const auto random = [&](std::uint64_t i) { return float(randomUnit(own, i)); };
-            offer(Vec2f(random(0) * float(image.width), random(1) * float(image.height)),
-                  wayAt(ways, int(randomBelow(own, 4, std::uint64_t(wayCount)))));
-            const float near = 0.25f * float(n.window);
-            offer(nearest.center + Vec2f((2.0f * random(2) - 1.0f) * near, (2.0f * random(3) - 1.0f) * near),
-                  nearest.way);
-            next[b] = best;
-            windows.distance[p] = bestDistance;  // read by no other window in this batch
+            Candidates candidates(image, searcher.gathered, used, float(usage), reach,
+                                  {windows.match[p], windows.way[p]}, windows.distance[p]);
+            offerContinued(windows, p, candidates);
+            if (useTree)
+              offerFromTree(windows, p, pass, value, image.channels, searcher.query.front(), candidates);
+            if (similarCount > 0) offerSimilar(*pass.table, similarCount, candidates);
+            offerRandom(image, windows.ways, near, randomBits(key, kBatches + p), candidates);
+            next[b] = candidates.best;
+            windows.distance[p] = candidates.bestDistance;  // read by no other window in this batch
           }
         });
-    for (std::size_t b = 0; b < batch.size(); ++b) {
-      Vec2f& match = windows.match[batch[b]];
-      const Vec2f& center = next[b].center;
-      if (usage > 0.0 && center != match) used.add(match, -1.0f), used.add(center, 1.0f);
-      match = center;
-      windows.way[batch[b]] = next[b].way;
-    }
+    settleBatch(batch, next, usage > 0.0, used, windows);
   }
 }
 

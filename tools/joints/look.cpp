@@ -105,13 +105,14 @@ bool isOfSeveralPieces(const texture::Joint& joint, const texture::Torus& torus)
 
 Seen look(const texture::TexturedSurface& surface, const texture::Joints& joints,
           const texture::CutSurface& cut, bool toroidal, const std::vector<Way>& ways,
-          const render::CameraRays& camera, int width, int height) {
+          const render::CameraRays& camera, const PictureSize& size) {
+  const auto [width, height] = size;
   const std::size_t pixels = std::size_t(width) * std::size_t(height);
   Seen seen{width, height, std::vector<Kind>(pixels), std::vector<Vec3f>(pixels, Vec3f(0.0f)),
             std::vector<std::vector<float>>(ways.size(), std::vector<float>(pixels, 0.0f))};
   const Looker looker(surface, joints, cut, toroidal, ways, camera);
   tbb::parallel_for(0, height, [&](int y) {
-    for (int x = 0; x < width; ++x) looker.lookAt(x, y, seen);
+    for (int x = 0; x < seen.width; ++x) looker.lookAt(x, y, seen);
   });
   return seen;
 }

@@ -12,6 +12,10 @@ namespace fluidtex::joints {
 // What the points of a pixel lie in. mixed: in joints and elsewhere, or beside the surface.
 enum class Kind : std::uint8_t { nothing, joint, elsewhere, mixed };
 
+struct PictureSize {
+  int width = 0, height = 0;  // pixels
+};
+
 // Pixels, rows from the top.
 struct Seen {
   int width = 0, height = 0;
@@ -25,7 +29,7 @@ struct Seen {
 // pieces, of what is shown or of what fades. The result does not depend on the number of threads.
 Seen look(const texture::TexturedSurface& surface, const texture::Joints& joints,
           const texture::CutSurface& cut, bool toroidal, const std::vector<Way>& ways,
-          const render::CameraRays& camera, int width, int height);
+          const render::CameraRays& camera, const PictureSize& size);
 
 // Whether the corners of a joint triangle are of different pieces; else it lies across the edge of a toroidal
 // exemplar.

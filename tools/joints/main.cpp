@@ -98,8 +98,8 @@ Json figuresOf(const tools::FinishedRun& run, const Settings& settings) {
   const texture::CutSurface cut = texture::cutAtJoints(surface, run.toroidal);
   const texture::Joints cutJoints = texture::findJoints(cut.surface, run.toroidal);
   const std::vector<Way> ways = waysToDraw(detail, surface, joints, cut, cutJoints);
-  const Seen seen = look(surface, joints, cut, run.toroidal, ways, cameraOf(run, settings), settings.size[0],
-                         settings.size[1]);
+  const Seen seen = look(surface, joints, cut, run.toroidal, ways, cameraOf(run, settings),
+                         {settings.size[0], settings.size[1]});
   const auto several =
       std::count_if(joints.joints.begin(), joints.joints.end(),
                     [torus = texture::Torus(surface, run.toroidal)](const texture::Joint& joint) {
