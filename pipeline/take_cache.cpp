@@ -58,6 +58,7 @@ void requireAttributes(const caches::Layout& layout, const scenes::Scene& scene)
   const texture::GuidanceOptions& guidance = scene.texture.guidance;
   require(guidance.by == texture::GuidanceBy::attribute, "texture.guidance.attribute", guidance.attribute);
   require(guidance.by == texture::GuidanceBy::temperature, "texture.guidance.by", "temperature");
+  require(guidance.by == texture::GuidanceBy::mixture, "texture.guidance.by", "mixture");
   const auto requireFactor = [&](const texture::FactorOptions& factor, const std::string& path) {
     require(factor.by == texture::FactorBy::attribute, path + ".attribute", factor.attribute);
     require(factor.by == texture::FactorBy::temperature, path + ".by", "temperature");

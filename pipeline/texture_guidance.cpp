@@ -53,6 +53,8 @@ std::vector<float> levelsOn(const TextureGuidance& guidance, const sim::Frame& f
       return alongCurve(points, mesh.positions, [] { return [](const openvdb::Vec3d& x) { return x.z(); }; });
     case GuidanceBy::temperature:
       return alongCurve(points, mesh.positions, sampler(fieldOf(frame, "temperature")));
+    case GuidanceBy::mixture:
+      return alongCurve(points, mesh.positions, sampler(fieldOf(frame, "mixture")));
     case GuidanceBy::speed:
       return along(speeds(mesh.positions, frame));
     case GuidanceBy::vorticity:

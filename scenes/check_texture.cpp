@@ -17,7 +17,12 @@ bool hasTemperature(const Scene& scene) {
   return scene.sim.heat.simulated || scene.motion.flow == sim::MotionKind::files;
 }
 
-// The solver's own liquid has a temperature at most; what files hold is seen when they are read.
+bool hasMixture(const Scene& scene) {
+  return scene.sim.mixes() || scene.motion.flow == sim::MotionKind::files;
+}
+
+// The solver's own liquid has a temperature and a mixture at most; what files hold is seen when they are
+// read.
 void checkAttribute(const Scene& scene, const std::string& path, const std::string& attribute,
                     Reader& reader) {
   const std::string key = path + ".attribute";
@@ -25,9 +30,11 @@ void checkAttribute(const Scene& scene, const std::string& path, const std::stri
   if (attribute.empty())
     reader.fault(path, "names no attribute", "give attribute = \"NAME\", one that `fluidtex check` lists");
   else if (scene.motion.flow != sim::MotionKind::files &&
-           !(attribute == "temperature" && hasTemperature(scene)))
+           !(attribute == "temperature" && hasTemperature(scene)) &&
+           !(attribute == "mixture" && hasMixture(scene)))
     reader.fault(key, "the liquid has no \"" + attribute + "\"",
-                 "give \"temperature\" with simulate = true in [heat], or a liquid out of files");
+                 "give \"temperature\" with simulate = true in [heat], \"mixture\" where a [[liquid]] or "
+                 "[[source]] has one, or a liquid out of files");
 }
 
 // To two digits, as a length that can be recommended.
@@ -91,6 +98,8 @@ void checkGuidance(const Scene& scene, Reader& reader) {
                  "give one [[texture.guidance.point]] or more, each with a value and a level");
   if (guidance.by == texture::GuidanceBy::temperature && !hasTemperature(scene))
     reader.fault(by, "\"temperature\" is not computed", "give simulate = true in [heat] too");
+  if (guidance.by == texture::GuidanceBy::mixture && !hasMixture(scene))
+    reader.fault(by, "\"mixture\" is the same everywhere", "give a [[liquid]] or [[source]] mixture = 1");
   if (guidance.by == texture::GuidanceBy::attribute) checkAttribute(scene, path, guidance.attribute, reader);
   const std::string full = path + ".foam.full";
   if (reader.clean(full) && !(guidance.foam.full > guidance.foam.from))

@@ -100,6 +100,7 @@ void describeLiquid(Visitor& visitor, sim::Options& sim, bool solved) {
     visitor.vector("velocity", body.velocity, kAny);
     visitor.number("from", body.from, kNotNegative);
     visitor.number("temperature", body.temperature, kPositive);
+    visitor.number("mixture", body.mixture, kShare);
   });
   visitor.list("solid", sim.solids, [&](sim::Solid& solid) {
     visitor.text("name", solid.name);
@@ -121,6 +122,7 @@ void describeLiquid(Visitor& visitor, sim::Options& sim, bool solved) {
     describeShape(visitor, source.shape);
     visitor.vector("velocity", source.velocity, kAny);
     visitor.number("temperature", source.temperature, kPositive);
+    visitor.number("mixture", source.mixture, kShare);
     visitor.number("from", source.from, kNotNegative);
     visitor.number("until", source.until, kUntil);
     visitor.list("rate", source.rate, [&](sim::RatePoint& point) {
@@ -179,8 +181,8 @@ void describeFactor(Visitor& visitor, texture::FactorOptions& factor, const Limi
 void describeGuidance(Visitor& visitor, texture::Options& texture) {
   texture::GuidanceOptions& guidance = texture.guidance;
   choice(visitor, "by", guidance.by,
-         {"none", "height", "temperature", "speed", "vorticity", "curvature", "age", "renewal", "foam",
-          "field", "attribute"});
+         {"none", "height", "temperature", "mixture", "speed", "vorticity", "curvature", "age", "renewal",
+          "foam", "field", "attribute"});
   // Where it chooses pictures of a sequence it chooses no places in them.
   const texture::AnimationOptions& animation = texture.exemplar.animation;
   const bool ofPictures = !animation.pattern.empty() && animation.by == texture::ShowBy::guidance;

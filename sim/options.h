@@ -25,6 +25,7 @@ struct LiquidBody {
   Vec3d velocity{0.0};  // m/s
   double from = 0.0;
   double temperature = 293.15;  // K
+  double mixture = 0.0;         // 0 to 1, see Options::mixes
 };
 
 enum class WallKind { slip, noSlip, friction };
@@ -109,6 +110,7 @@ struct Source {
   Shape shape;
   Vec3d velocity{0.0};          // m/s
   double temperature = 293.15;  // K, of the liquid that comes
+  double mixture = 0.0;         // 0 to 1, of the liquid that comes
   double from = 0.0, until = kForever;
   std::vector<RatePoint> rate;  // in the order of time
 };
@@ -156,6 +158,14 @@ struct Options {
       if (given.face == DomainFace::all || int(given.face) == side + 1) wall = given.wall;
     }
     return wall;
+  }
+
+  // Whether its liquids differ in `mixture`, a number that moves with the liquid and does nothing else: it
+  // tells which of them a place holds, or how they are mixed.
+  bool mixes() const {
+    const auto mixed = [](const auto& part) { return part.mixture != 0.0; };
+    return std::any_of(liquid.begin(), liquid.end(), mixed) ||
+           std::any_of(sources.begin(), sources.end(), mixed);
   }
 
   double voxelSize() const { return std::max({size.x(), size.y(), size.z()}) / resolution; }

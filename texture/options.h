@@ -93,6 +93,7 @@ enum class GuidanceBy {
   none,
   height,       // z, metres
   temperature,  // K
+  mixture,      // 0..1, of the scene's liquids
   speed,        // m/s
   vorticity,    // |curl u|, 1/s
   curvature,    // mean curvature, 1/m, positive on crests

@@ -25,6 +25,7 @@ Command runCommand();
 Command simulateCommand();
 Command textureCommand();
 Command applyCommand();
+Command transitionCommand();
 Command compareCommand();
 Command checkCommand();
 Command renderCommand();

@@ -30,10 +30,10 @@ Program fluidtexProgram() {
       "Variables: NO_COLOR, if set, leaves messages without colour; XDG_CACHE_HOME is where tables are kept "
       "between runs (default: ~/.cache).",
       "fluidtex " FLUIDTEX_VERSION};
-  program.commands = {runCommand(),      simulateCommand(), textureCommand(), compareCommand(),
-                      applyCommand(),    checkCommand(),    renderCommand(),  exportCommand(),
-                      measureCommand(),  videoCommand(),    reportCommand(),  viewCommand(),
-                      validateCommand(), newCommand(),      doctorCommand()};
+  program.commands = {runCommand(),    simulateCommand(),   textureCommand(), compareCommand(),
+                      applyCommand(),  transitionCommand(), checkCommand(),   renderCommand(),
+                      exportCommand(), measureCommand(),    videoCommand(),   reportCommand(),
+                      viewCommand(),   validateCommand(),   newCommand(),     doctorCommand()};
   return program;
 }
 

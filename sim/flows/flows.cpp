@@ -184,7 +184,7 @@ Flows::Flows(const Options& options)
   const auto distanceTo = [&](const Shape& shape) { return ShapeDistance(shape, m_h, m_box); };
   for (const Source& source : m_sources) {
     const ShapeDistance shape = distanceTo(source.shape);
-    SourceGrids grids{gridOf(shape), source.velocity, source.temperature, {}, shape};
+    SourceGrids grids{gridOf(shape), source.velocity, source.temperature, source.mixture, {}, shape};
     if (source.velocity != Vec3d(0.0)) grids.velocity = sourceFaces(*grids.phi, source.velocity, m_domain);
     m_sourceGrids.push_back(std::move(grids));
   }

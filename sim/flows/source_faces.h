@@ -14,6 +14,7 @@ struct SourceGrids {
   FloatGrid::Ptr phi;        // signed distance, metres: the cells that are kept full
   Vec3d speed{0.0};          // m/s
   double temperature = 0.0;  // K
+  double mixture = 0.0;
   std::array<FloatGrid::Ptr, 3>
       velocity{};  // active at all faces of the cells whose centre it holds; null where it only keeps full
   std::function<double(const Vec3d&)> distance = {};  // signed, metres, at any place

@@ -3,9 +3,7 @@
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/require.h"
 #include "sim/poisson/poisson.h"
-#include "sim/solids/solid_layers.h"
-#include "sim/solids/table_sight.h"
-#include "sim/surface/level_set.h"
+#include "sim/scalars/carried_scalar.h"
 
 #include <tbb/parallel_for.h>
 
@@ -17,10 +15,6 @@ namespace {
 
 constexpr double kStefanBoltzmann = 5.670374419e-8;  // W / (m2 K4)
 constexpr double kGasConstant = 8.31446261815324;    // J / (mol K)
-
-bool isLiquid(float phi, float solidDistance, float h) {
-  return phi < 0.0f && solidDistance >= -kDeepInSolid * h;
-}
 
 // Cells of liquid in the domain.
 std::vector<CellBlock> liquidCellBlocks(const FloatGrid& temperature, const FloatGrid& phi,
@@ -36,7 +30,7 @@ std::vector<CellBlock> liquidCellBlocks(const FloatGrid& temperature, const Floa
     const float* s = leafValues(solid.phi->constTree(), origin, solidScratch);
     for (int i = 0; i < kLeafSize; ++i) {
       const Coord cell = origin.offsetBy(i >> 6, (i >> 3) & 7, i & 7);
-      blocks[n].cells[i] = solid.domain.isInside(cell) && isLiquid(p[i], s[i], h);
+      blocks[n].cells[i] = solid.domain.isInside(cell) && isLiquidCell(p[i], s[i], h);
     }
   });
   std::erase_if(blocks, [](const CellBlock& block) { return block.cells.none(); });
@@ -79,70 +73,6 @@ FloatGrid::Ptr viscosityOf(const FloatGrid& temperature, const ViscosityLaw& law
       values[i] = static_cast<float>(viscosityAt(law, viscosity, values[i]));
   });
   return result;
-}
-
-FloatGrid::Ptr makeTemperature(double h, double background) {
-  FloatGrid::Ptr grid = FloatGrid::create(static_cast<float>(background));
-  grid->setTransform(cellTransform(h));
-  grid->setName("temperature");
-  return grid;
-}
-
-FloatGrid::Ptr makeTemperature(const FloatGrid& from, const FloatTree& like) {
-  FloatGrid::Ptr grid = makeTemperature(from.voxelSize()[0], from.background());
-  for (auto leaf = like.cbeginLeaf(); leaf; ++leaf) grid->tree().touchLeaf(leaf->origin());
-  const auto leaves = leavesOf(grid->tree());
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    leaves[n]->setValuesOn();
-    const FloatLeaf* before = from.constTree().probeConstLeaf(leaves[n]->origin());
-    if (before != nullptr) std::copy_n(before->buffer().data(), kLeafSize, leaves[n]->buffer().data());
-  });
-  return grid;
-}
-
-void heatBody(FloatGrid& temperature, const std::function<double(const Vec3d&)>& distance, double value) {
-  const double h = temperature.voxelSize()[0];
-  const auto leaves = leavesOf(temperature.tree());
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    for (auto it = leaves[n]->beginValueOn(); it; ++it) {
-      if (distance(temperature.indexToWorld(it.getCoord())) < 0.5 * h) it.setValue(static_cast<float>(value));
-    }
-  });
-}
-
-void extendTemperature(FloatGrid& temperature, const FloatGrid& phi, const FloatGrid& solidPhi, int layers,
-                       const Visibility* visibility) {
-  const float h = static_cast<float>(phi.voxelSize()[0]);
-  const LeafTable table = makeLeafTable(temperature.constTree());
-  const TableSight sight(table, visibility);
-  std::vector<float> value = sampleOn(table, temperature.constTree());
-  const std::vector<float> p = sampleOn(table, phi.constTree()), s = sampleOn(table, solidPhi.constTree());
-  std::vector<std::uint8_t> known(table.voxels());
-  for (std::size_t v = 0; v < table.voxels(); ++v) known[v] = isLiquid(p[v], s[v], h);
-  for (int layer = 0; layer < layers; ++layer) {
-    std::vector<std::uint8_t> next = known;
-    tbb::parallel_for(std::size_t{0}, table.size(), [&](std::size_t n) {
-      for (std::size_t v = n * kLeafSize; v < (n + 1) * kLeafSize; ++v) {
-        if (known[v] != 0) continue;
-        float sum = 0.0f;
-        int count = 0;
-        for (int side = 0; side < 6; ++side) {
-          const std::int64_t beside = sight.cell(static_cast<std::int64_t>(v), side);
-          if (beside < 0 || known[beside] == 0) continue;
-          sum += value[beside];
-          ++count;
-        }
-        if (count == 0) continue;
-        value[v] = sum / static_cast<float>(count);
-        next[v] = 1;
-      }
-    });
-    known.swap(next);
-  }
-  const auto leaves = leavesOf(temperature.tree());
-  tbb::parallel_for(std::size_t{0}, leaves.size(), [&](std::size_t n) {
-    std::copy_n(value.data() + n * kLeafSize, kLeafSize, leaves[n]->buffer().data());
-  });
 }
 
 bool conductHeat(FloatGrid& temperature, const FloatGrid& phi, const SolidField& solid, double dt,

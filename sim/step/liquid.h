@@ -23,6 +23,9 @@ struct Liquid {
   // K at cell centres of the velocity's leaves, extrapolated into air and solids; null where heat is not
   // simulated.
   FloatGrid::Ptr temperature = nullptr;
+  // 0 to 1, where and how far as the temperature: which of a scene's liquids it is, or how they are mixed.
+  // Null where all are alike.
+  FloatGrid::Ptr mixture = nullptr;
   // The volume deficit, see sim/volume/volume_deficit.h; null for none.
   FloatGrid::Ptr deficit = nullptr;
   // m/s at the velocity's faces near the surface: the flow that gives the deficit back; no grids where there
@@ -52,6 +55,7 @@ void forEachGrid(AnyLiquid& liquid, const Visit& visit) {
   faces({"u", "v", "w"}, liquid.velocity);
   faces({"au", "av", "aw"}, liquid.acceleration);
   visit("temperature", liquid.temperature, kAtCentres);
+  visit("mixture", liquid.mixture, kAtCentres);
   visit("deficit", liquid.deficit, kAtCentres);
   faces({"su", "sv", "sw"}, liquid.expansion);
 }

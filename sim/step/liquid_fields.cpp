@@ -44,13 +44,13 @@ void addGravity(Velocity& velocity, const Vec3d& change) {
   }
 }
 
-void setSourceTemperature(FloatGrid& temperature, const RunningFlows& flows) {
+void setInSources(FloatGrid& scalar, const RunningFlows& flows, double SourceGrids::*value) {
   for (const auto& [source, factor] : flows.sources) {
-    for (FloatLeaf* leaf : leavesOf(temperature.tree())) {
+    for (FloatLeaf* leaf : leavesOf(scalar.tree())) {
       float scratch[kLeafSize];
       const float* phi = leafValues(source->phi->constTree(), leaf->origin(), scratch);
       for (int i = 0; i < kLeafSize; ++i) {
-        if (phi[i] < 0.0f) leaf->setValueOnly(i, static_cast<float>(source->temperature));
+        if (phi[i] < 0.0f) leaf->setValueOnly(i, static_cast<float>(source->*value));
       }
     }
   }

@@ -18,11 +18,17 @@ Velocity velocityFor(const FloatGrid& phi, const SolidField& solid);
 // Adds `change` (m/s) to all active faces.
 void addGravity(Velocity& velocity, const Vec3d& change);
 
-// Layers of cells beyond the liquid to which its temperature is extrapolated: newly wet cells of a step lie
-// within.
-inline constexpr int kTemperatureLayers = 6;
+// A scalar that moves with the liquid, and the value of it that a body and a source bring.
+struct CarriedScalar {
+  FloatGrid::Ptr Liquid::*grid;
+  double LiquidBody::*ofBody;
+  double SourceGrids::*ofSource;
+};
+inline constexpr CarriedScalar kCarriedScalars[] = {
+    {&Liquid::temperature, &LiquidBody::temperature, &SourceGrids::temperature},
+    {&Liquid::mixture, &LiquidBody::mixture, &SourceGrids::mixture}};
 
-// Sets the temperature of sources, which their liquid gets.
-void setSourceTemperature(FloatGrid& temperature, const RunningFlows& flows);
+// Sets a scalar in the cells of sources to the value that their liquid has.
+void setInSources(FloatGrid& scalar, const RunningFlows& flows, double SourceGrids::*value);
 
 }  // namespace fluidtex::sim

@@ -3,6 +3,7 @@
 #include "sim/flows/move_surface.h"
 #include "sim/grid/leaf_table.h"
 #include "sim/heat/heat.h"
+#include "sim/scalars/carried_scalar.h"
 #include "sim/solids/visibility.h"
 #include "sim/step/liquid_fields.h"
 #include "sim/surface/level_set.h"
@@ -30,18 +31,20 @@ bool isOnSideOf(const ShapeDistance& body, const SolidField& solid, const Coord&
 }  // namespace
 
 void pour(Liquid& liquid, const ShapeDistance& body, const std::function<double(const Vec3d&)>& surface,
-          const Vec3d& velocity, double temperature, const SolidField& solid) {
+          const LiquidBody& values, const SolidField& solid) {
   unite(*liquid.phi, body, solid.domain, surface);
   const Velocity before = liquid.velocity;
   liquid.velocity = velocityFor(*liquid.phi, solid);
-  if (liquid.temperature) {
-    liquid.temperature = makeTemperature(*liquid.temperature, liquid.velocity.component[0]->constTree());
-    const auto onOwnSide = [&](const Vec3d& x) {
-      const double distance = body(x);
-      const Coord cell = Coord::round(liquid.temperature->worldToIndex(x));
-      return distance >= voxelSize(liquid) || isOnSideOf(body, solid, cell) ? distance : kForever;
-    };
-    heatBody(*liquid.temperature, onOwnSide, temperature);
+  const auto onOwnSide = [&](const Vec3d& x) {
+    const double distance = body(x);
+    const Coord cell = Coord::round(liquid.phi->worldToIndex(x));
+    return distance >= voxelSize(liquid) || isOnSideOf(body, solid, cell) ? distance : kForever;
+  };
+  for (const CarriedScalar& scalar : kCarriedScalars) {
+    FloatGrid::Ptr& grid = liquid.*scalar.grid;
+    if (grid == nullptr) continue;
+    grid = makeScalar(*grid, liquid.velocity.component[0]->constTree());
+    setInBody(*grid, onOwnSide, values.*scalar.ofBody);
   }
   const double h = voxelSize(liquid);
   for (int a = 0; a < 3; ++a) {
@@ -58,7 +61,7 @@ void pour(Liquid& liquid, const ShapeDistance& body, const std::function<double(
         below[a] -= 1;
         const bool inBody = body(grid.indexToWorld(face)) < 0.5 * h &&
                             (isOnSideOf(body, solid, face) || isOnSideOf(body, solid, below));
-        it.setValue(inBody ? static_cast<float>(velocity[a]) : was[it.pos()]);
+        it.setValue(inBody ? static_cast<float>(values.velocity[a]) : was[it.pos()]);
       }
     });
   }
@@ -100,10 +103,12 @@ bool settle(Liquid& liquid, const SolidField& solid, double kick, const Options&
   addGravity(liquid.velocity, options.gravity * kick);
   liquid.leapfrogOffset += kick;
   const SolidField around = withFlows(solid, flows, phi, before, options.gravity, 0.0);
-  if (liquid.temperature) {
-    liquid.temperature = makeTemperature(*liquid.temperature, liquid.velocity.component[0]->constTree());
-    setSourceTemperature(*liquid.temperature, flows);
-    extendTemperature(*liquid.temperature, phi, *solid.phi, kTemperatureLayers, solid.visibility.get());
+  for (const CarriedScalar& scalar : kCarriedScalars) {
+    FloatGrid::Ptr& grid = liquid.*scalar.grid;
+    if (grid == nullptr) continue;
+    grid = makeScalar(*grid, liquid.velocity.component[0]->constTree());
+    setInSources(*grid, flows, scalar.ofSource);
+    extendScalar(*grid, phi, *solid.phi, kScalarLayers, solid.visibility.get());
   }
   // Viscosity acts as long as gravity does.
   const FloatGrid::Ptr viscosity =

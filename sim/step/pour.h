@@ -11,12 +11,11 @@
 
 namespace fluidtex::sim {
 
-// Adds a body of liquid with this velocity (m/s) and temperature (K). settle() projects the velocity of the
-// whole.
+// Adds a body of liquid. settle() projects the velocity of the whole.
 // surface: the body's signed distance, without the surface where it ends at solids
-// (sim/surface/poured_surface.h).
+// (sim/surface/poured_surface.h). values: its velocity, temperature and mixture; shape and time do not count.
 void pour(Liquid& liquid, const ShapeDistance& body, const std::function<double(const Vec3d&)>& surface,
-          const Vec3d& velocity, double temperature, const SolidField& solid);
+          const LiquidBody& values, const SolidField& solid);
 
 // Removes liquid from the places that solids leave when `before` turns into `after`.
 void changeSolids(Liquid& liquid, const SolidField& before, const SolidField& after);

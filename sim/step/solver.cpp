@@ -4,7 +4,7 @@
 #include "sim/flows/move_surface.h"
 #include "sim/grid/mac_grid.h"
 #include "sim/grid/require.h"
-#include "sim/heat/heat.h"
+#include "sim/scalars/carried_scalar.h"
 #include "sim/shapes/shape_distance.h"
 #include "sim/solids/domain.h"
 #include "sim/solids/solids.h"
@@ -114,7 +114,8 @@ Solver::Solver(const Options& options)
   const double h = options.voxelSize();
   m_state.poured.assign(options.liquid.size(), false);
   store(m_state, {makePhi(h, bandWidth(options.cfl) * h), makeVelocity(h), {}, 0, 0.0, {}}, h);
-  if (options.heat.simulated) m_state.temperature = makeTemperature(h, options.heat.ambient);
+  if (options.heat.simulated) m_state.temperature = makeScalar(h, options.heat.ambient);
+  if (options.mixes()) m_state.mixture = makeScalar(h, 0.0);
   prepare();
 }
 
@@ -126,6 +127,9 @@ Solver::Solver(const Options& options, State state)
   if (options.heat.simulated && !m_state.temperature)
     throw SolverError("the state was made without heat, the scene asks for it");
   if (!options.heat.simulated) m_state.temperature = nullptr;
+  if (options.mixes() && !m_state.mixture)
+    throw SolverError("the state was made without a mixture of liquids, the scene asks for one");
+  if (!options.mixes()) m_state.mixture = nullptr;
   m_state.poured.resize(options.liquid.size(), false);
   prepare();
 }
@@ -178,10 +182,12 @@ void Solver::applyEvents() {
   const RunningFlows flows = m_flows->at(now);
   changed = changed || (isEmpty(liquid) && !flows.sources.empty());
   for (const auto& [body, shape] : due) {
+    LiquidBody values = *body;
     // With the same leapfrog offset as the velocity of the liquid that is there.
+    values.velocity += m_options.gravity * liquid.leapfrogOffset;
     pour(liquid, shape,
          pouredSurface(withNeighbors(shape, due, liquid.phi->background()), m_solids->distanceAt(now), h),
-         body->velocity + m_options.gravity * liquid.leapfrogOffset, body->temperature, *m_solid);
+         values, *m_solid);
     changed = true;
   }
   if (!changed) return;
@@ -353,6 +359,7 @@ Frame Solver::next(const std::function<void(double)>& progress) {
   if (m_state.deficit) frame.stats.deficit = totalDeficit(*m_state.deficit);
   m_whole = frame.stats.volume + frame.stats.deficit;
   if (m_state.temperature) frame.fields["temperature"] = m_state.temperature;
+  if (m_state.mixture) frame.fields["mixture"] = m_state.mixture;
   if (progress) progress(1.0);
   return frame;
 }

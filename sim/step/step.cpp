@@ -3,8 +3,9 @@
 #include "sim/flows/move_surface.h"
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/require.h"
-#include "sim/heat/advect_temperature.h"
 #include "sim/heat/heat.h"
+#include "sim/scalars/advect_scalar.h"
+#include "sim/scalars/carried_scalar.h"
 #include "sim/step/liquid_fields.h"
 #include "sim/velocity/acceleration.h"
 #include "sim/velocity/advect_velocity.h"
@@ -61,16 +62,23 @@ void carryVelocity(const Liquid& liquid, Liquid& next, const SolidField& solid, 
   if (before) next.velocity = plus(next.velocity, liquid.acceleration, -0.5 * dt);
 }
 
-// Advects the temperature into `next`, whose surface and leaves are known, and conducts it. False where that
-// fails.
-bool moveHeat(const Liquid& liquid, Liquid& next, const SolidField& solid, const RunningFlows& flows,
-              double dt, const Options& options) {
-  next.temperature = advectTemperature(*liquid.temperature, movingVelocity(liquid),
-                                       next.velocity.component[0]->constTree(), *next.phi, solid, dt);
-  setSourceTemperature(*next.temperature, flows);
-  const bool done = conductHeat(*next.temperature, *next.phi, solid, dt, options.density, options.heat);
-  extendTemperature(*next.temperature, *next.phi, *solid.phi, kTemperatureLayers, solid.visibility.get());
-  return done;
+// Advects the scalars into `next`, whose surface and leaves are known.
+void carryScalars(const Liquid& liquid, Liquid& next, const SolidField& solid, const RunningFlows& flows,
+                  double dt) {
+  for (const CarriedScalar& scalar : kCarriedScalars) {
+    const FloatGrid::Ptr& before = liquid.*scalar.grid;
+    if (before == nullptr) continue;
+    const FloatGrid::Ptr after = advectScalar(*before, movingVelocity(liquid),
+                                              next.velocity.component[0]->constTree(), *next.phi, solid, dt);
+    setInSources(*after, flows, scalar.ofSource);
+    next.*scalar.grid = after;
+  }
+}
+
+void extendScalars(Liquid& liquid, const SolidField& solid) {
+  for (const CarriedScalar& scalar : kCarriedScalars)
+    if (liquid.*scalar.grid != nullptr)
+      extendScalar(*(liquid.*scalar.grid), *liquid.phi, *solid.phi, kScalarLayers, solid.visibility.get());
 }
 
 // Drops markers beyond sides of the domain that are not closed, so that they hold no film there.
@@ -142,10 +150,12 @@ std::optional<Liquid> step(Liquid& liquid, const TimeStep& times, const Options&
   StepReport solves;
   solves.pressure.converged = true;
   FloatGrid::Ptr viscosity;
-  if (liquid.temperature) {
-    solves.heatConverged = moveHeat(liquid, next, around, flows, dt, options);
-    viscosity = viscosityOf(*next.temperature, options.heat.law, options.viscosity);
-  }
+  carryScalars(liquid, next, around, flows, dt);
+  if (next.temperature)
+    solves.heatConverged =
+        conductHeat(*next.temperature, *next.phi, around, dt, options.density, options.heat);
+  extendScalars(next, around);
+  if (next.temperature) viscosity = viscosityOf(*next.temperature, options.heat.law, options.viscosity);
   const bool inviscid =
       viscosity == nullptr && isNegligible(options.viscosity, kick, options.density, voxelSize(next));
   Velocity arrived;

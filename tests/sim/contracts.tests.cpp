@@ -81,7 +81,7 @@ TEST_CASE("sim: time steps and properties that make no sense are refused", "[sim
   }
   CHECK_THROWS_AS(applyViscosity(block.velocity, *block.phi, block.solid, 0.1, 1000.0, {.constant = -1.0}),
                   std::invalid_argument);
-  const FloatGrid::Ptr temperature = makeTemperature(block.h, 300.0);
+  const FloatGrid::Ptr temperature = makeScalar(block.h, 300.0);
   CHECK_THROWS_AS(conductHeat(*temperature, *block.phi, block.solid, -0.1, 1000.0, {}),
                   std::invalid_argument);
   CHECK_THROWS_AS(conductHeat(*temperature, *block.phi, block.solid, 0.1, 0.0, {}), std::invalid_argument);

@@ -1,4 +1,4 @@
-// The exemplar as a file of the run's folder, for materials that look it up.
+// The exemplar and its maps as PNG files, such as those in the run's folder that materials look up.
 #pragma once
 
 #include "texture/exemplar/image.h"
@@ -17,6 +17,10 @@ std::string exemplarFile(int frame);
 // A PNG of 8 bits a channel, sRGB, of linear RGBA pixels with straight alpha. Without alpha where it is 1
 // everywhere. Throws std::runtime_error.
 std::string pngOf(const texture::Image& color);
+
+// A PNG of 16 bits a channel of numbers 0 to 1 in one or three channels, stored as they are. Throws
+// std::runtime_error.
+std::string pngOfNumbers(const texture::Image& map);
 
 // Whether any alpha is below 1.
 bool isSeeThrough(const texture::Image& color);

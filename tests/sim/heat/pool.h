@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/heat/heat.h"
+#include "sim/scalars/carried_scalar.h"
 #include "sim/solids/solids.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ struct Pool {
       const double d = phi->indexToWorld(it.getCoord())[2] - level;
       it.setValue(static_cast<float>(std::clamp(d, -6.0 * h, 6.0 * h)));
     }
-    temperature = makeTemperature(*makeTemperature(h, 300.0), phi->tree());
+    temperature = makeScalar(*makeScalar(h, 300.0), phi->tree());
     for (auto it = temperature->beginValueOn(); it; ++it)
       it.setValue(static_cast<float>(field(temperature->indexToWorld(it.getCoord()))));
   }

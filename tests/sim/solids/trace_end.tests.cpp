@@ -1,5 +1,5 @@
 #include "sim/solids/trace_end.h"
-#include "sim/heat/advect_temperature.h"
+#include "sim/scalars/advect_scalar.h"
 
 #include "sim/heat/heat.h"
 #include "sim/solids/solids.h"
@@ -94,10 +94,10 @@ TEST_CASE("trace end: velocity and heat do not come through a plate") {
   const Velocity from = velocityField(kCell, phi->tree(), flow);
   Velocity to = makeVelocity(kCell, phi->tree());
   advectVelocity(from, from, to, *phi, *solid->phi, 3.0 * kCell, solid->visibility.get());
-  FloatGrid::Ptr heat = makeTemperature(*makeTemperature(kCell, 300.0), phi->tree());
+  FloatGrid::Ptr heat = makeScalar(*makeScalar(kCell, 300.0), phi->tree());
   for (auto it = heat->beginValueOn(); it; ++it)
     it.setValue(heat->indexToWorld(it.getCoord()).x() > middle ? 1000.0f : 300.0f);
-  heat = advectTemperature(*heat, from, phi->tree(), *phi, *solid, 3.0 * kCell);
+  heat = advectScalar(*heat, from, phi->tree(), *phi, *solid, 3.0 * kCell);
   for (int i = 6; i < 12; ++i) {
     CAPTURE(i);
     CHECK(to.component[1]->tree().getValue(Coord(i, 12, 12)) == 0.0f);

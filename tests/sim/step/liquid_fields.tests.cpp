@@ -51,7 +51,7 @@ TEST_CASE("liquid fields: gravity is added to every face along its own axis", "[
 TEST_CASE("liquid fields: the cells of a source have its temperature, others their own", "[sim]") {
   const auto solid = Solids(tankWith(16)).at(0.0);
   const Velocity velocity = velocityFor(*ball(), *solid);
-  const FloatGrid::Ptr temperature = makeTemperature(*makeTemperature(kVoxel, 300.0), velocity[0].tree());
+  const FloatGrid::Ptr temperature = makeScalar(*makeScalar(kVoxel, 300.0), velocity[0].tree());
   SourceGrids source;
   source.phi = makePhi(kVoxel, 6.0 * kVoxel);
   unite(
@@ -59,7 +59,7 @@ TEST_CASE("liquid fields: the cells of a source have its temperature, others the
   source.temperature = 900.0;
   RunningFlows flows;
   flows.sources.push_back({&source, 1.0});
-  setSourceTemperature(*temperature, flows);
+  setInSources(*temperature, flows, &SourceGrids::temperature);
   CHECK(temperature->tree().getValue(Coord(7, 8, 8)) == 900.0f);
   CHECK(temperature->tree().getValue(Coord(9, 8, 8)) == 300.0f);
 }

@@ -25,7 +25,7 @@ Liquid nothing(const SolidField& solid) {
 
 void pourBall(Liquid& liquid, const Vec3d& centre, const Vec3d& velocity, const SolidField& solid) {
   const ShapeDistance ball(Shape{Sphere{centre, 0.15}}, kVoxel);
-  pour(liquid, ball, ball, velocity, 300.0, solid);
+  pour(liquid, ball, ball, LiquidBody{.shape = {}, .velocity = velocity}, solid);
 }
 
 }  // namespace

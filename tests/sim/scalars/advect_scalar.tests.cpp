@@ -1,4 +1,4 @@
-#include "sim/heat/advect_temperature.h"
+#include "sim/scalars/advect_scalar.h"
 
 #include "tests/sim/heat/pool.h"
 #include "tests/sim/velocity/velocity_field.h"
@@ -11,12 +11,12 @@
 
 using namespace fluidtex::sim;
 
-TEST_CASE("advect temperature: an even temperature stays, another one moves with the flow", "[sim]") {
+TEST_CASE("advect scalar: an even temperature stays, another one moves with the flow", "[sim]") {
   const double dt = 0.05;
   const auto flow = [](const Vec3d& x) { return Vec3d(0.5 - x[1], x[0] - 0.5, 0.0); };
   Pool even(16, 0.5, [](const Vec3d&) { return 1234.5; });
   const Velocity turn = velocityField(even.h, even.phi->tree(), flow);
-  const auto kept = advectTemperature(*even.temperature, turn, even.phi->tree(), *even.phi, even.solid, dt);
+  const auto kept = advectScalar(*even.temperature, turn, even.phi->tree(), *even.phi, even.solid, dt);
   for (auto it = kept->cbeginValueOn(); it; ++it) {
     const Coord c = it.getCoord();  // in the domain: what comes from beyond the leaves is not known
     if (std::min({c[0], c[1], c[2]}) >= 0 && std::max({c[0], c[1], c[2]}) < 16) REQUIRE(*it == 1234.5f);
@@ -33,7 +33,7 @@ TEST_CASE("advect temperature: an even temperature stays, another one moves with
     const int steps = n / 2;
     const double whole = 1.0;
     for (int s = 0; s < steps; ++s)
-      t = advectTemperature(*t, speed, pool.phi->tree(), *pool.phi, pool.solid, whole / steps);
+      t = advectScalar(*t, speed, pool.phi->tree(), *pool.phi, pool.solid, whole / steps);
     double largest = 0.0;
     for (auto it = t->cbeginValueOn(); it; ++it) {
       const Vec3d x = t->indexToWorld(it.getCoord());

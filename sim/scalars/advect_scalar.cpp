@@ -1,11 +1,10 @@
 // Based on: Selle, Fedkiw, Kim, Liu and Rossignac, "An unconditionally stable MacCormack method", 2008; see
 // advect_velocity.cpp.
-#include "sim/heat/advect_temperature.h"
-
-#include "sim/heat/heat.h"
+#include "sim/scalars/advect_scalar.h"
 
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/velocity_window.h"
+#include "sim/scalars/carried_scalar.h"
 #include "sim/solids/own_side_trace.h"
 #include "sim/solids/trace_end.h"
 
@@ -16,13 +15,13 @@
 
 namespace fluidtex::sim {
 
-FloatGrid::Ptr advectTemperature(const FloatGrid& from, const Velocity& velocity, const FloatTree& like,
-                                 const FloatGrid& phiTo, const SolidField& solid, double dt) {
+FloatGrid::Ptr advectScalar(const FloatGrid& from, const Velocity& velocity, const FloatTree& like,
+                            const FloatGrid& phiTo, const SolidField& solid, double dt) {
   const double h = from.voxelSize()[0];
   const float step = static_cast<float>(dt / h);
   const int halo = std::min(kLeafDim, static_cast<int>(std::ceil(dt * maxAbs(velocity) / h)) + 2);
-  const FloatGrid::Ptr first = makeTemperature(from, like);
-  FloatGrid::Ptr result = makeTemperature(from, like);
+  const FloatGrid::Ptr first = makeScalar(from, like);
+  FloatGrid::Ptr result = makeScalar(from, like);
   const auto guess = leavesOf(first->tree()), target = leavesOf(result->tree());
   const Vec3f centre(0.5f);
   using Range = tbb::blocked_range<std::size_t>;

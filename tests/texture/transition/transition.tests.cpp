@@ -1,0 +1,126 @@
+#include "texture/transition/transition.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+using namespace fluidtex::texture;
+
+namespace {
+
+Image picture(int width, int height, const std::function<Vec3f(int, int)>& color) {
+  Image image{width, height, 4, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const Vec3f c = color(x, y);
+      image.data.insert(image.data.end(), {c[0], c[1], c[2], 1.0f});
+    }
+  return image;
+}
+
+// Discs of a colour on white, in rows.
+Image discs(int width, int height, const Vec3f& color, int pitch, int radius) {
+  return picture(width, height, [&](int x, int y) {
+    const int row = y / pitch, dx = (x + (row % 2) * pitch / 2) % pitch - pitch / 2,
+              dy = y % pitch - pitch / 2;
+    return dx * dx + dy * dy <= radius * radius ? color : Vec3f(1.0f);
+  });
+}
+
+const float* shown(const Image& left, const Image& right, const PixelSource& source) {
+  return (source.picture == 0 ? left : right).at(source.x, source.y);
+}
+
+// Sum over neighbours of the jump that the transition adds to those of its pictures.
+double visibleSeams(const Image& left, const Image& right, const std::vector<PixelSource>& sources,
+                    int width) {
+  double sum = 0.0;
+  const int height = int(sources.size()) / width;
+  for (int y = 0; y < height; ++y)
+    for (int x = 1; x < width; ++x) {
+      const PixelSource& here = sources[std::size_t(y * width + x)];
+      PixelSource before = sources[std::size_t(y * width + x - 1)];
+      const Image& own = here.picture == 0 ? left : right;
+      if (here.x == 0) continue;
+      const float* expected = own.at(here.x - 1, here.y);
+      const float* found = shown(left, right, before);
+      for (int c = 0; c < 3; ++c) sum += std::abs(expected[c] - found[c]);
+    }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "transition: begins as the one picture, ends as the other, and the share of the other rises evenly") {
+  const Image left = discs(200, 160, Vec3f(0.1f, 0.2f, 0.8f), 20, 7);
+  const Image right = discs(180, 160, Vec3f(0.9f, 0.1f, 0.1f), 26, 9);
+  const TransitionOptions options{.width = 120, .feature = 20, .seed = 3};
+  const std::vector<PixelSource> sources = transition(left, right, options);
+  REQUIRE(sources.size() == 120u * 160u);
+  std::vector<double> share(4, 0.0);
+  for (int y = 0; y < 160; ++y) {
+    const PixelSource& first = sources[std::size_t(y * 120)];
+    const PixelSource& last = sources[std::size_t(y * 120 + 119)];
+    REQUIRE((first.picture == 0 && first.x == 80 && first.y == y));
+    REQUIRE((last.picture == 1 && last.x == 119 && last.y == y));
+    for (int x = 0; x < 120; ++x) {
+      const PixelSource& source = sources[std::size_t(y * 120 + x)];
+      const Image& own = source.picture == 0 ? left : right;
+      REQUIRE((source.x >= 0 && source.y >= 0 && source.x < own.width && source.y < own.height));
+      share[std::size_t(x / 30)] += source.picture / (30.0 * 160.0);
+    }
+  }
+  INFO(share[0] << " " << share[1] << " " << share[2] << " " << share[3]);
+  for (int k = 0; k < 4; ++k) CHECK(share[std::size_t(k)] == Approx(0.125 + 0.25 * k).margin(0.12));
+  const auto again = transition(left, right, options);
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    REQUIRE(
+        (sources[i].picture == again[i].picture && sources[i].x == again[i].x && sources[i].y == again[i].y));
+}
+
+TEST_CASE("transition: outlines run between features, not through them") {
+  const Image left = discs(240, 200, Vec3f(0.1f, 0.2f, 0.8f), 20, 6);
+  const Image right = discs(240, 200, Vec3f(0.8f, 0.2f, 0.1f), 20, 6);
+  const int width = 160;
+  const std::vector<PixelSource> sources =
+      transition(left, right, {.width = width, .feature = 20, .seed = 1});
+  // A straight cut where both have equal shares, for comparison.
+  std::vector<PixelSource> straight;
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < width; ++x)
+      straight.push_back({x < width / 2 ? 0 : 1, x < width / 2 ? 240 - width + x : x, y});
+  int outline = 0;
+  for (int y = 0; y < 200; ++y)
+    for (int x = 1; x < width; ++x)
+      outline +=
+          sources[std::size_t(y * width + x)].picture != sources[std::size_t(y * width + x - 1)].picture;
+  const double found = visibleSeams(left, right, sources, width),
+               plain = visibleSeams(left, right, straight, width);
+  INFO(found << " of visible seam on " << outline << " rows crossed, " << plain << " on 200");
+  CHECK(outline > 400);  // pieces, not one cut
+  CHECK(found / outline < 0.25 * plain / 200.0);
+}
+
+TEST_CASE("transition: where both pictures are the same nothing is seen of it") {
+  const auto color = [](int x, int y) { return Vec3f(0.5f + 0.4f * float(std::sin(0.3 * x + 0.1 * y))); };
+  const Image left = picture(100, 60, color);
+  const Image right = picture(100, 60, [&](int x, int y) { return color(x + 40, y); });
+  const std::vector<PixelSource> sources = transition(left, right, {.width = 60, .feature = 12, .seed = 1});
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x)
+      REQUIRE(shown(left, right, sources[std::size_t(y * 60 + x)])[0] ==
+              Approx(color(40 + x, y)[0]).margin(0.02));
+}
+
+TEST_CASE("transition: what it cannot take it refuses") {
+  const Image left = discs(60, 40, Vec3f(0.0f), 20, 5), low = discs(60, 39, Vec3f(0.0f), 20, 5);
+  CHECK_THROWS_AS(transition(left, low, {.width = 20}), std::invalid_argument);
+  CHECK_THROWS_AS(transition(left, left, {.width = 61}), std::invalid_argument);
+  CHECK_THROWS_AS(transition(left, left, {.width = 7}), std::invalid_argument);
+  CHECK_THROWS_AS(transition(left, left, {.width = 20, .feature = 1}), std::invalid_argument);
+  CHECK_THROWS_AS(transition(left, Image{60, 40, 1, std::vector<float>(2400)}, {.width = 20}),
+                  std::invalid_argument);
+}
