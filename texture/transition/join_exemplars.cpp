@@ -46,10 +46,10 @@ JoinedExemplars joinExemplars(const std::vector<Image>& pictures, const Transiti
   for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
     TransitionOptions own = options;
     own.seed = options.seed + k;
-    const std::vector<PixelSource> between = transition(parts[k], parts[k + 1], own);
+    const std::vector<PixelOrigin> between = transition(parts[k], parts[k + 1], own);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < options.width; ++x) {
-        PixelSource source = between[std::size_t(y) * std::size_t(options.width) + std::size_t(x)];
+        PixelOrigin source = between[std::size_t(y) * std::size_t(options.width) + std::size_t(x)];
         source.y += (pictures[k + std::size_t(source.picture)].height - height) / 2;
         source.picture += std::int32_t(k);
         joined.source[at(first[k + 1] + x, y)] = source;
@@ -63,7 +63,7 @@ JoinedExemplars joinExemplars(const std::vector<Image>& pictures, const Transiti
 Image joinedMap(const JoinedExemplars& joined, const std::vector<Image>& maps) {
   Image result{joined.width, joined.height, maps.empty() ? 0 : maps[0].channels, {}};
   result.data.reserve(joined.source.size() * std::size_t(result.channels));
-  for (const PixelSource& source : joined.source) {
+  for (const PixelOrigin& source : joined.source) {
     const bool there = std::size_t(source.picture) < maps.size();
     if (!there || maps[std::size_t(source.picture)].channels != result.channels ||
         source.x >= maps[std::size_t(source.picture)].width ||

@@ -10,7 +10,7 @@ namespace fluidtex::texture {
 
 struct JoinedExemplars {
   int width = 0, height = 0;
-  std::vector<PixelSource> source;  // width x height, rows from the top
+  std::vector<PixelOrigin> source;  // width x height, rows from the top
   // One channel, the level of each pixel: k / (n - 1) in the k-th of n exemplars, rising evenly in the
   // transition to the next.
   Image guidance;

@@ -16,7 +16,7 @@ namespace fluidtex::texture {
 namespace {
 
 constexpr float kTolerance = 0.05f;   // deviation from the wanted share that costs nothing
-constexpr float kAdherence = 4.0f;    // cost of a wrong piece of one feature, in lengths of seam around it
+constexpr float kAdherence = 100.0f;  // cost of a wrong piece of one feature, in lengths of seam around it
 constexpr float kEdge = 6.0f;         // how much cheaper a seam is along a strong edge
 constexpr int kProposals = 6;         // expansions for each feature's square
 constexpr int kOffsets = 32;          // offsets tried for each
@@ -108,8 +108,8 @@ class Strip {
     }
   }
 
-  std::vector<PixelSource> sources() const {
-    std::vector<PixelSource> result(m_labels.size());
+  std::vector<PixelOrigin> sources() const {
+    std::vector<PixelOrigin> result(m_labels.size());
     for (int y = 0; y < m_height; ++y)
       for (int x = 0; x < m_width; ++x) {
         const Label& label = m_labels[index(x, y)];
@@ -285,7 +285,7 @@ class Strip {
 
 }  // namespace
 
-std::vector<PixelSource> transition(const Image& left, const Image& right, const TransitionOptions& options) {
+std::vector<PixelOrigin> transition(const Image& left, const Image& right, const TransitionOptions& options) {
   if (left.channels != 4 || right.channels != 4 || left.height != right.height || left.height < 1)
     throw std::invalid_argument("transition: the pictures must be RGBA, of one height");
   if (options.width < 8 || options.width > std::min(left.width, right.width))

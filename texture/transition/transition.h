@@ -16,7 +16,7 @@ struct TransitionOptions {
 };
 
 // A pixel of one of several pictures.
-struct PixelSource {
+struct PixelOrigin {
   std::int32_t picture = 0, x = 0, y = 0;
 };
 
@@ -27,6 +27,6 @@ struct PixelSource {
 // fit: alpha expansion with offsets as labels. The same on any number of threads. Pictures: linear RGBA, of
 // one height. Throws std::invalid_argument: other pictures; a width below 8 or wider than either of them; a
 // feature below 2 pixels.
-std::vector<PixelSource> transition(const Image& left, const Image& right, const TransitionOptions& options);
+std::vector<PixelOrigin> transition(const Image& left, const Image& right, const TransitionOptions& options);
 
 }  // namespace fluidtex::texture

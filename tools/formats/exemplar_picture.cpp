@@ -56,7 +56,9 @@ std::string pngOfNumbers(const texture::Image& map) {
   pixels.reserve(map.data.size());
   for (const float value : map.data)
     pixels.push_back(static_cast<png_uint_16>(std::lround(65535.0f * std::clamp(value, 0.0f, 1.0f))));
-  return encodedPng(map, map.channels == 1 ? PNG_FORMAT_LINEAR_Y : PNG_FORMAT_LINEAR, pixels.data());
+  return encodedPng(map,
+                    map.channels == 1 ? PNG_FORMAT_LINEAR_Y : PNG_FORMAT_LINEAR_Y | PNG_FORMAT_FLAG_COLOR,
+                    pixels.data());
 }
 
 }  // namespace fluidtex::tools

@@ -29,19 +29,19 @@ Image discs(int width, int height, const Vec3f& color, int pitch, int radius) {
   });
 }
 
-const float* shown(const Image& left, const Image& right, const PixelSource& source) {
+const float* shown(const Image& left, const Image& right, const PixelOrigin& source) {
   return (source.picture == 0 ? left : right).at(source.x, source.y);
 }
 
 // Sum over neighbours of the jump that the transition adds to those of its pictures.
-double visibleSeams(const Image& left, const Image& right, const std::vector<PixelSource>& sources,
+double visibleSeams(const Image& left, const Image& right, const std::vector<PixelOrigin>& sources,
                     int width) {
   double sum = 0.0;
   const int height = int(sources.size()) / width;
   for (int y = 0; y < height; ++y)
     for (int x = 1; x < width; ++x) {
-      const PixelSource& here = sources[std::size_t(y * width + x)];
-      PixelSource before = sources[std::size_t(y * width + x - 1)];
+      const PixelOrigin& here = sources[std::size_t(y * width + x)];
+      PixelOrigin before = sources[std::size_t(y * width + x - 1)];
       const Image& own = here.picture == 0 ? left : right;
       if (here.x == 0) continue;
       const float* expected = own.at(here.x - 1, here.y);
@@ -58,16 +58,16 @@ TEST_CASE(
   const Image left = discs(200, 160, Vec3f(0.1f, 0.2f, 0.8f), 20, 7);
   const Image right = discs(180, 160, Vec3f(0.9f, 0.1f, 0.1f), 26, 9);
   const TransitionOptions options{.width = 120, .feature = 20, .seed = 3};
-  const std::vector<PixelSource> sources = transition(left, right, options);
+  const std::vector<PixelOrigin> sources = transition(left, right, options);
   REQUIRE(sources.size() == 120u * 160u);
   std::vector<double> share(4, 0.0);
   for (int y = 0; y < 160; ++y) {
-    const PixelSource& first = sources[std::size_t(y * 120)];
-    const PixelSource& last = sources[std::size_t(y * 120 + 119)];
+    const PixelOrigin& first = sources[std::size_t(y * 120)];
+    const PixelOrigin& last = sources[std::size_t(y * 120 + 119)];
     REQUIRE((first.picture == 0 && first.x == 80 && first.y == y));
     REQUIRE((last.picture == 1 && last.x == 119 && last.y == y));
     for (int x = 0; x < 120; ++x) {
-      const PixelSource& source = sources[std::size_t(y * 120 + x)];
+      const PixelOrigin& source = sources[std::size_t(y * 120 + x)];
       const Image& own = source.picture == 0 ? left : right;
       REQUIRE((source.x >= 0 && source.y >= 0 && source.x < own.width && source.y < own.height));
       share[std::size_t(x / 30)] += source.picture / (30.0 * 160.0);
@@ -85,10 +85,10 @@ TEST_CASE("transition: outlines run between features, not through them") {
   const Image left = discs(240, 200, Vec3f(0.1f, 0.2f, 0.8f), 20, 6);
   const Image right = discs(240, 200, Vec3f(0.8f, 0.2f, 0.1f), 20, 6);
   const int width = 160;
-  const std::vector<PixelSource> sources =
+  const std::vector<PixelOrigin> sources =
       transition(left, right, {.width = width, .feature = 20, .seed = 1});
   // A straight cut where both have equal shares, for comparison.
-  std::vector<PixelSource> straight;
+  std::vector<PixelOrigin> straight;
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < width; ++x)
       straight.push_back({x < width / 2 ? 0 : 1, x < width / 2 ? 240 - width + x : x, y});
@@ -108,7 +108,7 @@ TEST_CASE("transition: where both pictures are the same nothing is seen of it") 
   const auto color = [](int x, int y) { return Vec3f(0.5f + 0.4f * float(std::sin(0.3 * x + 0.1 * y))); };
   const Image left = picture(100, 60, color);
   const Image right = picture(100, 60, [&](int x, int y) { return color(x + 40, y); });
-  const std::vector<PixelSource> sources = transition(left, right, {.width = 60, .feature = 12, .seed = 1});
+  const std::vector<PixelOrigin> sources = transition(left, right, {.width = 60, .feature = 12, .seed = 1});
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 60; ++x)
       REQUIRE(shown(left, right, sources[std::size_t(y * 60 + x)])[0] ==
