@@ -30,7 +30,9 @@ namespace {
 
 constexpr const char* kColor = "color";
 
-void checkName(const std::string& name) {
+}  // namespace
+
+void checkMapName(const std::string& name) {
   const auto fits = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
   if (name.empty() || !std::all_of(name.begin(), name.end(), fits) ||
       std::isdigit(static_cast<unsigned char>(name.front())))
@@ -39,8 +41,6 @@ void checkName(const std::string& name) {
   if (texture::isReservedName(name))
     throw UsageError(fmt::format("{}: is what every vertex has anyway; give another name", name));
 }
-
-}  // namespace
 
 texture::MapOptions parseMap(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -64,7 +64,7 @@ texture::MapOptions parseMap(const std::string& text) {
 void applyMaps(const ApplyWishes& wishes) {
   std::set<std::string> names;
   for (const texture::MapOptions& map : wishes.maps) {
-    if (map.name != kColor) checkName(map.name);
+    if (map.name != kColor) checkMapName(map.name);
     std::vector<std::string> own{map.name};
     if (map.holds != texture::MapHolds::values)
       for (const std::string& part : texture::vectorNames(map.name)) own.push_back(part);

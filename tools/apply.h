@@ -23,4 +23,7 @@ void applyMaps(const ApplyWishes& wishes);
 // Parses "NAME=FILE", "NAME:normals=FILE" or "NAME:directions=FILE". Throws UsageError for anything else.
 texture::MapOptions parseMap(const std::string& text);
 
+// Throws UsageError if no vertex property can have this name, or vertices have one of it anyway.
+void checkMapName(const std::string& name);
+
 }  // namespace fluidtex::tools

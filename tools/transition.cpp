@@ -10,6 +10,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace fluidtex::tools {
@@ -26,15 +27,23 @@ struct TransitionWishes {
 // A map over every picture: its name, and its images in the order of the pictures.
 struct MapOfEach {
   std::string name;
+  texture::MapHolds holds;
   std::vector<texture::Image> images;
 };
+
+constexpr const char* kGuidance = "guidance";
 
 std::vector<MapOfEach> readMaps(const TransitionWishes& wishes, const std::vector<texture::Image>& pictures) {
   std::vector<MapOfEach> maps;
   for (const std::string& text : wishes.maps) {
     const texture::MapOptions map = parseMap(text);
     auto of = std::find_if(maps.begin(), maps.end(), [&](const MapOfEach& m) { return m.name == map.name; });
-    if (of == maps.end()) of = maps.insert(maps.end(), MapOfEach{map.name, {}});
+    if (of == maps.end()) {
+      checkMapName(map.name);
+      if (map.name == kGuidance)
+        throw UsageError(text + ": guidance is the map that tells the exemplars apart; give another name");
+      of = maps.insert(maps.end(), MapOfEach{map.name, map.holds, {}});
+    }
     const std::size_t number = of->images.size();
     if (number >= pictures.size())
       throw UsageError(
@@ -75,6 +84,29 @@ fs::path besides(const fs::path& out, const std::string& name) {
   return out.parent_path() / (out.stem().string() + "_" + name + ".png");
 }
 
+// Nothing may be written over a picture that is read.
+void checkOutputs(const TransitionWishes& wishes, const std::vector<MapOfEach>& maps) {
+  std::vector<fs::path> read(wishes.pictures.begin(), wishes.pictures.end());
+  for (const std::string& map : wishes.maps) read.push_back(parseMap(map).file);
+  std::vector<fs::path> written{wishes.out, besides(wishes.out, kGuidance)};
+  for (const MapOfEach& map : maps) written.push_back(besides(wishes.out, map.name));
+  for (const fs::path& output : written)
+    for (const fs::path& input : read)
+      if (std::error_code failed; fs::equivalent(output, input, failed))
+        throw UsageError(output.string() + ": is one of the pictures to join; give another --out");
+}
+
+const char* holdsLine(texture::MapHolds holds) {
+  switch (holds) {
+    case texture::MapHolds::normals:
+      return "holds = \"normals\"\n";
+    case texture::MapHolds::directions:
+      return "holds = \"directions\"\n";
+    default:
+      return "";
+  }
+}
+
 void makeTransition(const TransitionWishes& wishes) {
   if (wishes.pictures.size() < 2)
     throw UsageError(wishes.pictures[0] + ": is one picture; give two or more, in the order of their levels");
@@ -82,12 +114,13 @@ void makeTransition(const TransitionWishes& wishes) {
   for (const std::string& file : wishes.pictures) pictures.push_back(texture::readImage(file));
   checkSizes(wishes, pictures);
   const std::vector<MapOfEach> maps = readMaps(wishes, pictures);
+  checkOutputs(wishes, maps);
   const texture::JoinedExemplars joined = texture::joinExemplars(
       pictures, {.width = wishes.width, .feature = wishes.feature, .seed = std::uint64_t(wishes.seed)});
   const auto put = [](const fs::path& file, const std::string& bytes) {
     writeAtomically(file, [&](const fs::path& temporary) { writeBytes(temporary, bytes); });
   };
-  const fs::path guidance = besides(wishes.out, "guidance");
+  const fs::path guidance = besides(wishes.out, kGuidance);
   for (const MapOfEach& map : maps)
     put(besides(wishes.out, map.name), pngOfNumbers(joinedMap(joined, map.images)));
   put(guidance, pngOfNumbers(joined.guidance));
@@ -98,8 +131,8 @@ void makeTransition(const TransitionWishes& wishes) {
       "map = \"{}\"\npoint = [{{ value = 0.0, level = 0.0 }}, {{ value = 1.0, level = 1.0 }}]\n",
       wishes.out.string(), joined.width, joined.height, wishes.out.string(), guidance.string());
   for (const MapOfEach& map : maps)
-    print("\n[[texture.map]]\nname = \"{}\"\nfile = \"{}\"\n", map.name,
-          besides(wishes.out, map.name).string());
+    print("\n[[texture.map]]\nname = \"{}\"\nfile = \"{}\"\n{}", map.name,
+          besides(wishes.out, map.name).string(), holdsLine(map.holds));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "sim/markers/markers.h"
 #include "sim/motion/motion.h"
 #include "sim/pressure/pressure.h"
+#include "sim/scalars/carried_scalar.h"
 #include "sim/step/check_options.h"
 #include "sim/step/step.h"
 #include "sim/surface/level_set.h"

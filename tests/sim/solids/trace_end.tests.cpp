@@ -1,7 +1,7 @@
 #include "sim/solids/trace_end.h"
-#include "sim/scalars/advect_scalar.h"
 
-#include "sim/heat/heat.h"
+#include "sim/scalars/advect_scalar.h"
+#include "sim/scalars/carried_scalar.h"
 #include "sim/solids/solids.h"
 #include "sim/velocity/advect_velocity.h"
 #include "tests/sim/step/solver_scenes.h"

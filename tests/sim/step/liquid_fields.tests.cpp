@@ -1,6 +1,6 @@
 #include "sim/step/liquid_fields.h"
 
-#include "sim/heat/heat.h"
+#include "sim/scalars/carried_scalar.h"
 #include "sim/surface/level_set.h"
 #include "tests/sim/solids/solid_scenes.h"
 

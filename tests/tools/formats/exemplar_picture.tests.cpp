@@ -31,3 +31,18 @@ TEST_CASE("exemplar picture: eight bits of sRGB come back as they were, alpha on
       CHECK(std::abs(texture::encodeSrgb(read.data[i]) - texture::encodeSrgb(image.data[i])) < 0.5f / 255.0f);
   }
 }
+
+TEST_CASE("exemplar picture: numbers come back as they are, to sixteen bits", "[tools]") {
+  const Scratch scratch;
+  for (const int channels : {1, 3}) {
+    texture::Image map{32, 8, channels, {}};
+    for (int i = 0; i < 32 * 8 * channels; ++i) map.data.push_back(float(i) / float(32 * 8 * channels - 1));
+    const std::filesystem::path file = scratch.path / "map.png";
+    std::ofstream(file, std::ios::binary) << tools::pngOfNumbers(map);
+    const texture::Image read = texture::readMap(file);
+    REQUIRE(read.channels == channels);
+    REQUIRE(read.data.size() == map.data.size());
+    for (std::size_t i = 0; i < read.data.size(); ++i)
+      CHECK(read.data[i] == Approx(map.data[i]).margin(0.6 / 65535.0));
+  }
+}
