@@ -317,7 +317,8 @@ TEST_CASE("checks: how the texture lies, and by what", "[scenes]") {
        "= "
        "1 }]",
        "s.toml:9:1: error: texture.guidance.attribute: the liquid has no \"age\"; give \"temperature\" with "
-       "simulate = true in [heat], or a liquid out of files"},
+       "simulate = true in [heat], \"mixture\" where a [[liquid]] or [[source]] has one, or a liquid out of "
+       "files"},
       {"[[texture.map]]\nname = '1a'\nfile = 'e.png'",
        "s.toml:7:1: error: texture.map.0.name: \"1a\" cannot be the name of a vertex's property; give "
        "letters, "

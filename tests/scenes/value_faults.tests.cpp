@@ -308,7 +308,8 @@ TEST_CASE("scene faults: files that are not there", "[scenes]") {
       {"[texture.orientation]\nalign = 'attribute'\nattribute = 'wind'",
        "s.toml:8:1: error: texture.orientation.attribute: the liquid has no \"wind\"; give \"temperature\" "
        "with "
-       "simulate = true in [heat], or a liquid out of files"},
+       "simulate = true in [heat], \"mixture\" where a [[liquid]] or [[source]] has one, or a liquid out of "
+       "files"},
       {"[texture.onto]\nfirst = 1",
        "s.toml:6:10: error: texture.onto.files: missing key; write for example files = \"rock_%04d.obj\""},
       {"[texture.transport]\nmethod = 'magic'",

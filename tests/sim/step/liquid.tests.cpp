@@ -28,7 +28,7 @@ TEST_CASE("liquid: every grid is visited once, with the faces it sits at", "[sim
     there += grid != nullptr;
     if (grid != nullptr) CHECK((axis == kAtCentres) == (std::string(name) == "phi"));
   });
-  CHECK(names.size() == 12);
+  CHECK(names.size() == 13);
   CHECK(there == 4);
 }
 
