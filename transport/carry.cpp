@@ -214,14 +214,15 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
     carried.previousPosition[v] = Vec3f(onOld ? landing.point.position : vertex.origin);
   };
   texture::forEachIndex(count, [&](std::uint32_t v) { place(v, true); });
+  texture::VertexGraph graph;
+  if (texture::any(stays) || anyOut(inflow)) graph = texture::buildVertexGraph(next);
   if (texture::any(stays)) {
     // So few that they would be a chip are no surface that stays.
     const std::vector<std::uint8_t> through = stays;
-    texture::forEachPiece(texture::buildVertexGraph(next), through,
-                          [&](const std::vector<std::uint32_t>& piece) {
-                            if (piece.size() >= texture::kChip) return;
-                            for (const std::uint32_t v : piece) place(v, false);
-                          });
+    texture::forEachPiece(graph, through, [&](const std::vector<std::uint32_t>& piece) {
+      if (piece.size() >= texture::kChip) return;
+      for (const std::uint32_t v : piece) place(v, false);
+    });
     for (std::uint32_t v = 0; v < count; ++v)
       if (stays[v]) trace.map[v] = Mat3d::identity();
   }
@@ -230,7 +231,7 @@ texture::Carried carry(const TexturedSurface& previous, const sim::Frame& frame,
     const float trust = carried.trust[v] * neighbors[v];
     carried.trust[v] = std::isfinite(trust) ? std::min(trust, stretched[v]) : 0.0f;
   });
-  drawOut(next, {previous, true}, inflow, way, symmetry, carried);
+  drawOut(next, graph, {previous, true}, inflow, way, symmetry, carried);
   return carried;
 }
 

@@ -166,10 +166,14 @@ bool hasStayed(const TracedVertex& vertex, const Landing& here) {
   return here.point.distance < kStayed * movedAcross(vertex);
 }
 
-void drawOut(const texture::SurfaceMesh& mesh, const texture::Torus& torus, const std::vector<Inflow>& inflow,
-             const std::vector<Vec3f>& way, int symmetry, texture::Carried& carried) {
-  if (std::find(inflow.begin(), inflow.end(), Inflow::out) == inflow.end()) return;
-  const texture::VertexGraph graph = texture::buildVertexGraph(mesh);
+bool anyOut(const std::vector<Inflow>& inflow) {
+  return std::find(inflow.begin(), inflow.end(), Inflow::out) != inflow.end();
+}
+
+void drawOut(const texture::SurfaceMesh& mesh, const texture::VertexGraph& graph, const texture::Torus& torus,
+             const std::vector<Inflow>& inflow, const std::vector<Vec3f>& way, int symmetry,
+             texture::Carried& carried) {
+  if (!anyOut(inflow)) return;
   const std::vector<std::uint8_t> out = outWithRims(graph, inflow);
   std::vector<std::uint8_t> placed(out.size(), 0);
   for (std::uint32_t v = 0; v < out.size(); ++v)

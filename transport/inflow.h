@@ -4,6 +4,7 @@
 #pragma once
 
 #include "texture/joints/places.h"
+#include "texture/orientation/tangent.h"
 #include "texture/surface.h"
 #include "transport/pick_up.h"
 
@@ -46,6 +47,8 @@ bool goesThrough(const TracedVertex& vertex, const Landing& landing);
 // here: the landing of the vertex's own place.
 bool hasStayed(const TracedVertex& vertex, const Landing& here);
 
+bool anyOut(const std::vector<Inflow>& inflow);
+
 // Extrapolates orientation, exemplar coordinates and cross-fade (`carried`) to vertices that are `out`, and
 // to `rim` vertices within four rings of these. Sources are all other vertices, except those that stay
 // (carried.stays) and those of trust below kLowTrust. Ring by ring, each vertex continues the values of one
@@ -53,9 +56,10 @@ bool hasStayed(const TracedVertex& vertex, const Landing& here);
 // aligned with carried.orientation, within 20 degrees and up to rotations by 360 / symmetry degrees; of
 // several the nearest. So misaligned patches do not spread. Across `way` (#V, metres: displacement in the
 // frame) the gradient is kept; along it the texture gets one texel per spacing, since new surface has not
-// been strained yet. Extrapolated vertices get age 0 and the trust of that neighbour. Precondition: unit
-// normals. Throws std::invalid_argument if the mesh is not closed and manifold.
-void drawOut(const texture::SurfaceMesh& mesh, const texture::Torus& torus, const std::vector<Inflow>& inflow,
-             const std::vector<Vec3f>& way, int symmetry, texture::Carried& carried);
+// been strained yet. Extrapolated vertices get age 0 and the trust of that neighbour. Preconditions: unit
+// normals; `graph` is the mesh's wherever anyOut().
+void drawOut(const texture::SurfaceMesh& mesh, const texture::VertexGraph& graph, const texture::Torus& torus,
+             const std::vector<Inflow>& inflow, const std::vector<Vec3f>& way, int symmetry,
+             texture::Carried& carried);
 
 }  // namespace fluidtex::transport

@@ -144,3 +144,12 @@ TEST_CASE("read PLY: properties that are not in the order and of the types that 
   refused("float trust\n", std::string("float b\0\xff\n", 10), "name is no map's");
   refused("uchar contact\n", "uchar own\n", "own that is no float");
 }
+
+TEST_CASE("read PLY: what fuzzing begins with is read", "[tools]") {
+  // Else every input is refused by its first lines.
+  for (const char* seed : {"small.ply", "joints.ply"}) {
+    CAPTURE(seed);
+    CHECK(!tools::readPly(std::string(FLUIDTEX_SOURCE "/tests/fuzz/corpus/ply/") + seed, 64, 64)
+               .coordinate.empty());
+  }
+}

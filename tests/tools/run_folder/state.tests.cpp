@@ -44,6 +44,13 @@ TEST_CASE("state: a surface comes back bit for bit", "[tools]") {
   CHECK(readBytes(scratch.path / "a") == readBytes(scratch.path / "b"));
 }
 
+TEST_CASE("state: what fuzzing begins with is a surface of this version", "[tools]") {
+  // Else every input is refused by its first bytes. To make it anew: writeSurface(sampleSurface(), ...).
+  const texture::TexturedSurface seed =
+      tools::readSurface(FLUIDTEX_SOURCE "/tests/fuzz/corpus/state/begin.bin");
+  CHECK(seed.coordinate == sampleSurface().coordinate);
+}
+
 TEST_CASE("state: every shorter file is refused by a sentence that names it", "[tools]") {
   const Scratch scratch;
   tools::writeSurface(sampleSurface(), scratch.path / "whole");
