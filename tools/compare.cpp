@@ -88,6 +88,7 @@ void compare(const CommonOptions& options) {
       measureRun({.out = out / variant.folder,
                   .exemplar = {},
                   .json = out / variant.folder / "measure.json",
+                  .motion = {},
                   .quiet = true});
     rows.push_back(comparedRun(variant.label, out / variant.folder));
   }

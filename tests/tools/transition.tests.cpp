@@ -2,6 +2,7 @@
 #include "tests/tools/program.h"
 #include "texture/exemplar/read_image.h"
 #include "tools/formats/exemplar_picture.h"
+#include "tools/formats/read_ply.h"
 
 #include <catch2/catch.hpp>
 
@@ -39,6 +40,34 @@ struct Pictures {
     writePicture(blue, blueMap, 2, 80, 40);
   }
 };
+
+// Shares of the vertices, of mixture below 0.05 and above 0.95, that show the other exemplar.
+struct Astray {
+  double first = 0.0, second = 0.0;
+  std::size_t between = 0;  // vertices of other mixtures
+};
+
+Astray astrayOn(const texture::TexturedSurface& surface, const texture::Image& guidance) {
+  Astray result;
+  std::size_t first = 0, second = 0;
+  for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+    const int x = std::clamp(int(surface.coordinate[v][0]), 0, guidance.width - 1);
+    const int y = std::clamp(int(surface.coordinate[v][1]), 0, guidance.height - 1);
+    const float shown = guidance.at(x, y)[0], wanted = surface.guidance[v];
+    if (wanted < 0.05f) {
+      ++first;
+      result.first += shown > 0.5f;
+    } else if (wanted > 0.95f) {
+      ++second;
+      result.second += shown < 0.5f;
+    } else {
+      ++result.between;
+    }
+  }
+  result.first /= double(std::max<std::size_t>(first, 1));
+  result.second /= double(std::max<std::size_t>(second, 1));
+  return result;
+}
 
 }  // namespace
 
@@ -97,4 +126,27 @@ TEST_CASE("fluidtex transition: what cannot be joined is refused in one sentence
   refused({pictures.red, pictures.blue, "--out", pictures.blue, "--width", "40"},
           "is one of the pictures to join");
   CHECK(readBytes(pictures.blue) == before);
+}
+
+TEST_CASE("scene of two liquids: each shows its own exemplar, before they meet and after", "[tools][slow]") {
+  const Scratch scratch;
+  const Finished done =
+      runProgram({"run", FLUIDTEX_SOURCE "/scenes/mix.toml", "--quality", "preview", "--out",
+                  scratch.path.string(), "--frames", "1:24", "--no-render", "--no-report", "--set",
+                  "domain.resolution=32", "--set", "texture.points=3000"});
+  INFO(done.err);
+  REQUIRE(done.exitCode == 0);
+  const texture::Image guidance =
+      texture::readMap(FLUIDTEX_SOURCE "/scenes/exemplars/scales_and_lava_guidance.png");
+  for (const int frame : {1, 6, 12, 24}) {
+    CAPTURE(frame);
+    const Astray astray = astrayOn(
+        tools::readPly(scratch.path / "surface" /
+                           ("00" + std::string(frame < 10 ? "0" : "") + std::to_string(frame) + ".ply"),
+                       guidance.width, guidance.height),
+        guidance);
+    CHECK(astray.first < 0.02);
+    CHECK(astray.second < 0.02);
+    CHECK((frame == 1) == (astray.between == 0));
+  }
 }

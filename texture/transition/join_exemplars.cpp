@@ -46,13 +46,14 @@ JoinedExemplars joinExemplars(const std::vector<Image>& pictures, const Transiti
   for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
     TransitionOptions own = options;
     own.seed = options.seed + k;
-    const std::vector<PixelOrigin> between = transition(parts[k], parts[k + 1], own);
+    const std::vector<std::uint8_t> fromNext = transition(parts[k], parts[k + 1], own);
+    const int column = parts[k].width - options.width;
+    const int cut = (pictures[k].height - height) / 2, cutNext = (pictures[k + 1].height - height) / 2;
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < options.width; ++x) {
-        PixelOrigin source = between[std::size_t(y) * std::size_t(options.width) + std::size_t(x)];
-        source.y += (pictures[k + std::size_t(source.picture)].height - height) / 2;
-        source.picture += std::int32_t(k);
-        joined.source[at(first[k + 1] + x, y)] = source;
+        const bool next = fromNext[std::size_t(y) * std::size_t(options.width) + std::size_t(x)];
+        joined.source[at(first[k + 1] + x, y)] = next ? PixelOrigin{std::int32_t(k + 1), x, y + cutNext}
+                                                      : PixelOrigin{std::int32_t(k), column + x, y + cut};
         joined.guidance.data[at(first[k + 1] + x, y)] =
             step * (float(k) + (float(x) + 0.5f) / float(options.width));
       }

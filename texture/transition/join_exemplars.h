@@ -4,9 +4,15 @@
 
 #include "texture/transition/transition.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace fluidtex::texture {
+
+// A pixel of one of several pictures.
+struct PixelOrigin {
+  std::int32_t picture = 0, x = 0, y = 0;
+};
 
 struct JoinedExemplars {
   int width = 0, height = 0;

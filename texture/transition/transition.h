@@ -15,19 +15,13 @@ struct TransitionOptions {
   std::uint64_t seed = 1;
 };
 
-// A pixel of one of several pictures.
-struct PixelOrigin {
-  std::int32_t picture = 0, x = 0, y = 0;
-};
-
-// The transition from the last `width` columns of `left` to the first ones of `right`: width x height pixels,
-// rows from the top, picture 0 for left and 1 for right. The first column is that of `left` and the last that
-// of `right`. Along a row the share of `right` rises from 0 to 1, evenly as a mean over seeds: features stay
-// whole where that costs less than a wrong share. Of all ways to lay the pieces' outlines the one with the
-// least visible seams is sought, and pieces are moved in their texture until they fit: alpha expansion with
-// offsets as labels. The same on any number of threads. Pictures: linear RGBA, of one height. Throws
-// std::invalid_argument: other pictures; a width below 8 or wider than either of them; a feature below 2
-// pixels.
-std::vector<PixelOrigin> transition(const Image& left, const Image& right, const TransitionOptions& options);
+// The transition from the last `width` columns of `left` to the first ones of `right`, lying on each other:
+// width x height values, rows from the top, 1 where `right` is shown. The first column is `left`'s and the
+// last `right`'s. Along a row the share of `right` rises from 0 to 1, evenly as a mean over seeds: features
+// stay whole where that costs less than a wrong share. Of all ways to lay the pieces' outlines it is the one
+// with the least visible seams, found by one minimum cut. The same on any number of threads. Pictures: linear
+// RGBA, of one height. Throws std::invalid_argument: other pictures; a width below 8 or wider than either of
+// them; a feature below 2 pixels.
+std::vector<std::uint8_t> transition(const Image& left, const Image& right, const TransitionOptions& options);
 
 }  // namespace fluidtex::texture
