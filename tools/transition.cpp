@@ -24,10 +24,11 @@ struct TransitionWishes {
   int width = 160, feature = 24, seed = 1;
 };
 
-// A map over every picture: its name, and its images in the order of the pictures.
+// A map over every picture: what it is, and its files and images in the order of the pictures.
 struct MapOfEach {
   std::string name;
   texture::MapHolds holds;
+  std::vector<fs::path> files;
   std::vector<texture::Image> images;
 };
 
@@ -42,8 +43,10 @@ std::vector<MapOfEach> readMaps(const TransitionWishes& wishes, const std::vecto
       checkMapName(map.name);
       if (map.name == kGuidance)
         throw UsageError(text + ": guidance is the map that tells the exemplars apart; give another name");
-      of = maps.insert(maps.end(), MapOfEach{map.name, map.holds, {}});
+      of = maps.insert(maps.end(), MapOfEach{map.name, map.holds, {}, {}});
     }
+    if (of->holds != map.holds)
+      throw UsageError(text + ": holds something else than the earlier map of its name; give all alike");
     const std::size_t number = of->images.size();
     if (number >= pictures.size())
       throw UsageError(
@@ -54,6 +57,7 @@ std::vector<MapOfEach> readMaps(const TransitionWishes& wishes, const std::vecto
           fmt::format("{}: has {} x {} pixels, and its picture, {}, {} x {}; give one of its size",
                       map.file.string(), image.width, image.height, wishes.pictures[number],
                       pictures[number].width, pictures[number].height));
+    of->files.push_back(map.file);
     of->images.push_back(std::move(image));
   }
   for (const MapOfEach& map : maps) {
@@ -87,24 +91,15 @@ fs::path besides(const fs::path& out, const std::string& name) {
 // Nothing may be written over a picture that is read.
 void checkOutputs(const TransitionWishes& wishes, const std::vector<MapOfEach>& maps) {
   std::vector<fs::path> read(wishes.pictures.begin(), wishes.pictures.end());
-  for (const std::string& map : wishes.maps) read.push_back(parseMap(map).file);
   std::vector<fs::path> written{wishes.out, besides(wishes.out, kGuidance)};
-  for (const MapOfEach& map : maps) written.push_back(besides(wishes.out, map.name));
+  for (const MapOfEach& map : maps) {
+    read.insert(read.end(), map.files.begin(), map.files.end());
+    written.push_back(besides(wishes.out, map.name));
+  }
   for (const fs::path& output : written)
     for (const fs::path& input : read)
       if (std::error_code failed; fs::equivalent(output, input, failed))
         throw UsageError(output.string() + ": is one of the pictures to join; give another --out");
-}
-
-const char* holdsLine(texture::MapHolds holds) {
-  switch (holds) {
-    case texture::MapHolds::normals:
-      return "holds = \"normals\"\n";
-    case texture::MapHolds::directions:
-      return "holds = \"directions\"\n";
-    default:
-      return "";
-  }
 }
 
 void makeTransition(const TransitionWishes& wishes) {
@@ -130,9 +125,12 @@ void makeTransition(const TransitionWishes& wishes) {
       "\"mixture\"\n"
       "map = \"{}\"\npoint = [{{ value = 0.0, level = 0.0 }}, {{ value = 1.0, level = 1.0 }}]\n",
       wishes.out.string(), joined.width, joined.height, wishes.out.string(), guidance.string());
-  for (const MapOfEach& map : maps)
-    print("\n[[texture.map]]\nname = \"{}\"\nfile = \"{}\"\n{}", map.name,
-          besides(wishes.out, map.name).string(), holdsLine(map.holds));
+  for (const MapOfEach& map : maps) {
+    print("\n[[texture.map]]\nname = \"{}\"\nfile = \"{}\"\n", map.name,
+          besides(wishes.out, map.name).string());
+    if (map.holds != texture::MapHolds::values)
+      print("holds = \"{}\"\n", map.holds == texture::MapHolds::normals ? "normals" : "directions");
+  }
 }
 
 }  // namespace

@@ -47,6 +47,7 @@ bool goesThrough(const TracedVertex& vertex, const Landing& landing);
 // here: the landing of the vertex's own place.
 bool hasStayed(const TracedVertex& vertex, const Landing& here);
 
+// Whether one of them is `out`.
 bool anyOut(const std::vector<Inflow>& inflow);
 
 // Extrapolates orientation, exemplar coordinates and cross-fade (`carried`) to vertices that are `out`, and

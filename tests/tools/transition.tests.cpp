@@ -120,6 +120,8 @@ TEST_CASE("fluidtex transition: what cannot be joined is refused in one sentence
   refused(plus(two, {"--map", "height=" + pictures.redMap}), "is given for 1 of 2 pictures");
   refused(plus(two, {"--map", "height=" + pictures.redMap, "--map", "height=" + pictures.redMap}),
           "has 64 x 48 pixels, and its picture");
+  refused(plus(two, {"--map", "a=" + pictures.redMap, "--map", "a:normals=" + pictures.blueMap}),
+          "holds something else than the earlier map");
   refused(plus(two, {"--map", "guidance=" + pictures.redMap}), "give another name");
   refused(plus(two, {"--map", "x=" + pictures.redMap}), "is what every vertex has anyway");
   const std::string before = readBytes(pictures.blue);
