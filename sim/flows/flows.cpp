@@ -1,8 +1,8 @@
 #include "sim/flows/flows.h"
 
+#include "sim/grid/block_samples.h"
 #include "sim/grid/leaf_table.h"
 #include "sim/grid/normal.h"
-#include "sim/markers/drop_markers.h"
 #include "sim/solids/domain.h"
 #include "sim/surface/level_set.h"
 
@@ -90,11 +90,19 @@ void empty(FloatGrid& phi, const FloatGrid& drain) {
   });
 }
 
-// Drops the liquid markers, or the air markers, that lie in the shape.
+// Drops the liquid markers, or the air markers, that lie in the shape. Just those: air markers left at a
+// source's sides fall with its liquid and groove the sheet.
 void dropWithin(Markers& markers, const FloatGrid& shape, bool ofLiquid) {
-  dropMarkers(markers, [&](const Marker& m, const Coord& cell) {
-    return (m.radius < 0.0f) == ofLiquid && shape.constTree().getValue(cell) < 0.0f;
+  tbb::parallel_for(std::size_t{0}, markers.size(), [&](std::size_t n) {
+    thread_local BlockSamples distance(1);
+    distance.load(shape.constTree(), markers[n].origin);
+    const auto inside = [](float value) { return value < 0.0f; };
+    if (std::none_of(distance.value.begin(), distance.value.end(), inside)) return;
+    std::erase_if(markers[n].markers, [&](const Marker& m) {
+      return (m.radius < 0.0f) == ofLiquid && inside(distance.at(m.x, m.y, m.z));
+    });
   });
+  std::erase_if(markers, [](const MarkerBlock& block) { return block.markers.empty(); });
 }
 
 // Bounding box of the liquid in these cells.

@@ -3,7 +3,9 @@
 #include "numerics/random.h"
 #include "sim/grid/block_samples.h"
 #include "sim/grid/leaf_table.h"
+#include "sim/markers/marker_side.h"
 #include "sim/markers/marker_sight.h"
+#include "sim/markers/stray_markers.h"
 #include "sim/solids/solid_layers.h"
 
 #include <tbb/parallel_for.h>
@@ -43,18 +45,6 @@ class CellRandom {
  private:
   std::uint64_t m_state;
 };
-
-int cellOf(const Marker& m) {
-  return 64 * int(m.x) + 8 * int(m.y) + int(m.z);
-}
-
-float side(const Marker& m) {
-  return m.radius < 0.0f ? -1.0f : 1.0f;
-}
-
-bool escaped(const Marker& m, float phi) {
-  return side(m) * phi < -std::abs(m.radius);
-}
 
 // Whether the liquid here is only a film on the wall: no cell around is liquid, and the distance to the
 // liquid grows one cell away from the wall. (Beside a thread that stands on a wall it does not.)
@@ -103,7 +93,7 @@ float sample(const BlockSamples& distance, const Marker& m, const VisibleCells* 
 }
 
 void measure(Marker& m, float phi) {
-  m.radius = side(m) * std::clamp(side(m) * phi, kSmallest, kLargest);
+  m.radius = sideOf(m) * std::clamp(sideOf(m) * phi, kSmallest, kLargest);
 }
 
 }  // namespace
@@ -199,11 +189,12 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
   std::sort(origins.begin(), origins.end());
   origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
   Markers next(origins.size());
+  std::vector<Suspects> suspects(origins.size());
   tbb::parallel_for(std::size_t{0}, origins.size(), [&](std::size_t n) {
-    thread_local BlockSamples distance(2), solid(2);
+    thread_local BlockSamples distance(kStrayHalo), solid(2);
     thread_local CellRanges range, wallRange;
     const Sight sight(visibility, origins[n]);
-    distance.setHalo(sight.any() ? kThinWallHalo : 2);
+    distance.setHalo(sight.any() ? kThinWallHalo : kStrayHalo);
     distance.load(phi.constTree(), origins[n], 1.0f / h);
     solid.load(solidPhi.constTree(), origins[n], 1.0f / h);
     range.find(distance);
@@ -220,7 +211,7 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
         const bool open = wallRange.low[cell] > kRounding - 1.0f;
         const float here = sample(distance, m, sight.at(m));
         const bool out = escaped(m, here);
-        if (side(m) * here > kBand) continue;
+        if (sideOf(m) * here > kBand) continue;
         if (out && m.radius > 0.0f && -here > kDeepestAir) continue;
         if (!open || out) {
           const float wall = solid.at(m.x, m.y, m.z);
@@ -232,11 +223,14 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
         }
         if (!out && there >= 2 * kPerCell) continue;
         ++there;
+        if (out && !sight.any() && mayBeStray(m, here, distance))
+          suspects[n].marker.push_back(static_cast<std::uint32_t>(kept.size()));
         measure(m, here);
         kept.push_back(m);
       }
       block->markers = std::vector<Marker>();  // frees the memory early
     }
+    suspects[n].voters = kept.size();
     for (std::size_t c = 0; c < kLeafSize; ++c) {
       if (count[c] > kPerCell / 2) continue;
       const bool farOff = range.low[c] > kBand + kRounding || range.high[c] < -kBand - kRounding;
@@ -261,6 +255,7 @@ void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& so
     }
     next[n].markers = kept;
   });
+  dropOutvoted(next, suspects, phi);
   std::erase_if(next, [](const MarkerBlock& block) { return block.markers.empty(); });
   markers = std::move(next);
 }

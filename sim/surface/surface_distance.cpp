@@ -17,6 +17,9 @@ constexpr int kSearched = 3;                // cells: largest distance of the su
 constexpr int kSearchHalo = kSearched + 3;  // and more for the interpolation's stencil there
 constexpr int kMaxIterations = 12;
 constexpr double kTolerance = 1e-3;  // cells: of the last step
+// As kSharpSlope, across the surface. With 0.7 the middle of a sheet of three cells, which the interpolation
+// then took for a bend, moved the surface outwards by 0.02 cells in each call.
+constexpr double kSharpAcross = 0.3;
 
 // For each axis the cubic Lagrange weights of the values at -1, 0, 1, 2 for a place t in [0, 1], and their
 // derivatives.
@@ -90,17 +93,26 @@ struct SearchBlock : LeafBlock<kSearchHalo> {
     return true;
   }
 
-  // Whether phi bends smoothly on the stencil around x, where its slope is `slope`.
-  bool smooth(const Vec3d& x, double slope) const {
+  // Whether phi bends smoothly on the stencil around x, where its gradient is `gradient`. Along the surface
+  // a distance bends by the curvature, along the normal not at all: there it does so where the middle of a
+  // sheet or a gap is near.
+  bool smooth(const Vec3d& x, const Vec3d& gradient) const {
     double t[3];
     const float* at = corner(x, t);
     if (at == nullptr) return false;
     // The largest second difference of the stencil's lines along each axis, four lines side by side.
     const Float4 sign = float4(-0.0f);
-    Float4 largest{};
-    const auto bend = [&](Float4 a, Float4 b, Float4 c) {
-      largest = _mm_max_ps(largest, _mm_andnot_ps(sign, a - 2.0f * b + c));
+    Float4 largest{};  // in shares of what is allowed
+    const auto bend = [&](Float4 a, Float4 b, Float4 c, Float4 inverse) {
+      largest = _mm_max_ps(largest, _mm_andnot_ps(sign, a - 2.0f * b + c) * inverse);
     };
+    const double square = gradient.lengthSqr(), slope = std::sqrt(square);
+    Float4 inverse[3];
+    for (int a = 0; a < 3; ++a) {
+      const double across = gradient[a] * gradient[a] / square;
+      inverse[a] =
+          float4(static_cast<float>(1.0 / (slope * (kSharpSlope + (kSharpAcross - kSharpSlope) * across))));
+    }
     const float* first = at - SearchBlock::kStride[0] - SearchBlock::kStride[1] - 1;
     for (int j = 0; j < 4; ++j) {
       Float4 alongX[4], alongY[4], alongZ[4];
@@ -109,12 +121,14 @@ struct SearchBlock : LeafBlock<kSearchHalo> {
         alongY[k] = alongZ[k] = load4(first + j * SearchBlock::kStride[0] + k * SearchBlock::kStride[1]);
       }
       _MM_TRANSPOSE4_PS(alongZ[0], alongZ[1], alongZ[2], alongZ[3]);
+      int axis = 0;
       for (const auto* line : {alongX, alongY, alongZ}) {
-        bend(line[0], line[1], line[2]);
-        bend(line[1], line[2], line[3]);
+        bend(line[0], line[1], line[2], inverse[axis]);
+        bend(line[1], line[2], line[3], inverse[axis]);
+        ++axis;
       }
     }
-    return _mm_movemask_ps(_mm_cmpgt_ps(largest, float4(static_cast<float>(kSharpSlope * slope)))) == 0;
+    return _mm_movemask_ps(_mm_cmpgt_ps(largest, float4(1.0f))) == 0;
   }
 
   // By row along z, bit k: whether the sign changes at most kSearched cells from cell k. False where it never
@@ -207,7 +221,7 @@ bool advance(Search& search, const SearchBlock& block, double& distance) {
     const double slope = std::sqrt(square);
     // The distance to the tangent plane, which differs from that to the surface by half the curvature times
     // the step squared.
-    if (block.smooth(search.point, slope)) distance = std::abs(phi + height) / slope;
+    if (block.smooth(search.point, gradient)) distance = std::abs(phi + height) / slope;
     return true;
   }
   if (length > 1.0) step /= std::sqrt(length);

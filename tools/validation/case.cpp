@@ -9,6 +9,7 @@
 #include "tools/validation/reinit_cases.h"
 #include "tools/validation/rest_cases.h"
 #include "tools/validation/shallow_cases.h"
+#include "tools/validation/sheet_cases.h"
 #include "tools/validation/spread_cases.h"
 #include "tools/validation/stream_cases.h"
 #include "tools/validation/tension_cases.h"
@@ -34,7 +35,7 @@ const std::vector<Case>& cases() {
     std::vector<Case> list;
     for (auto* part : {levelSetCases, reinitCases, pressureCases, waveCases, restCases, alignedCases,
                        damBreakCases, marinCases, streamCases, shallowCases, shearCases, viscousFlowCases,
-                       filmCases, spreadCases, tensionCases}) {
+                       filmCases, sheetCases, spreadCases, tensionCases}) {
       for (Case& c : part()) list.push_back(std::move(c));
     }
     return list;

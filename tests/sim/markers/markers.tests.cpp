@@ -5,6 +5,7 @@
 #include "sim/surface/advect_phi.h"
 #include "sim/surface/level_set.h"
 #include "sim/surface/redistance.h"
+#include "tests/sim/markers/unit_cube.h"
 #include "tests/sim/velocity/velocity_field.h"
 
 #include <catch2/catch.hpp>
@@ -18,22 +19,8 @@ using namespace fluidtex::sim;
 
 namespace {
 
-constexpr int kCells = 32;
-constexpr double kVoxel = 1.0 / kCells;
-
 double ball(const Vec3d& x) {
   return (x - Vec3d(0.5, 0.5, 0.5)).length() - 0.25;
-}
-
-FloatGrid::Ptr phiOf(double (*distance)(const Vec3d&)) {
-  const auto phi = makePhi(kVoxel, 6 * kVoxel);
-  unite(*phi, distance, firstCells(Coord(kCells)));
-  trimBand(*phi, *makePhi(kVoxel, 3 * kVoxel));
-  return phi;
-}
-
-FloatGrid::Ptr noSolid() {
-  return makePhi(kVoxel, 3 * kVoxel);
 }
 
 Velocity flow(const std::function<Vec3d(const Vec3d&)>& field) {
@@ -42,16 +29,6 @@ Velocity flow(const std::function<Vec3d(const Vec3d&)>& field) {
     for (int j = -8; j < kCells + 8; j += 8)
       for (int k = -8; k < kCells + 8; k += 8) topology.touchLeaf(Coord(i, j, k))->setValuesOn();
   return velocityField(kVoxel, topology, field);
-}
-
-Vec3d worldOf(const MarkerBlock& block, const Marker& m) {
-  return kVoxel * (block.origin.asVec3d() + Vec3d(m.x, m.y, m.z) + Vec3d(0.5));
-}
-
-std::size_t countOf(const Markers& markers) {
-  std::size_t count = 0;
-  for (const MarkerBlock& block : markers) count += block.markers.size();
-  return count;
 }
 
 bool same(const Markers& a, const Markers& b) {
