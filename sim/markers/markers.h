@@ -56,9 +56,9 @@ Markers advectMarkers(Markers markers, const Velocity& velocity, double dt,
 void correctPhi(FloatGrid& phi, const Markers& markers, const FloatGrid& solidPhi,
                 const Visibility* visibility = nullptr);
 
-// Updates the radii; drops markers that have left the band, those in solids, those of bubbles that have closed,
-// and stray ones (sim/markers/stray_markers.h) away from thin solids; reseeds cells near the surface that have no more than half of their markers. `seed` must differ
-// from call to call.
+// Updates the radii; drops markers that have left the band, those in solids, those of bubbles that have
+// closed, and stray ones (sim/markers/stray_markers.h) away from thin solids; reseeds cells near the surface
+// that have no more than half of their markers. `seed` must differ from call to call.
 void maintainMarkers(Markers& markers, const FloatGrid& phi, const FloatGrid& solidPhi, std::uint64_t seed,
                      const Visibility* visibility = nullptr);
 

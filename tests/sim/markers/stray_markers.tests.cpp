@@ -6,7 +6,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -28,12 +27,12 @@ float heightOf(const MarkerBlock& block, const Marker& m) {
 }
 
 // A marker in the middle of the cube at a height, in cells; the block that it belongs to is there.
-void add(Markers& markers, float height, float radius, float x = 4.3f) {
+void add(Markers& markers, float height, float radius) {
   const float z = height + 0.75f + 16.0f - 0.5f;  // from the centre of the first cell of all
   const int first = static_cast<int>(z) & ~(kLeafDim - 1);
   MarkerBlock* block = findBlock(markers, Coord(16, 16, first));
   REQUIRE(block != nullptr);
-  block->markers.push_back({x, 4.2f, z - float(first), radius});
+  block->markers.push_back({4.3f, 4.2f, z - float(first), radius});
 }
 
 // How many of those added are left: no other has the same y.
