@@ -8,13 +8,20 @@
 namespace fluidtex::render {
 namespace {
 
-// Reflectance at normal incidence of a clear film of index 1.45, between water and varnish.
-constexpr float kF0 = 0.0337f;
-constexpr float kFMean = kF0 + (1.0f - kF0) / 21.0f;  // 2 * integral of F(mu) mu
+// Reflectance at normal incidence.
+float straightOn(const Material& material) {
+  const float root = (material.index - 1.0f) / (material.index + 1.0f);
+  return root * root;
+}
 
-float fresnel(float cosine) {
+float fresnel(float f0, float cosine) {
   const float m = 1.0f - cosine, m2 = m * m;
-  return kF0 + (1.0f - kF0) * m2 * m2 * m;
+  return f0 + (1.0f - f0) * m2 * m2 * m;
+}
+
+// 2 * integral of F(mu) mu.
+float fresnelMean(float f0) {
+  return f0 + (1.0f - f0) / 21.0f;
 }
 
 // GGX: density of normals, and Smith's lambda of the masking term.
@@ -43,49 +50,53 @@ Vec3f visibleNormal(const Vec3f& wo, float alpha, const Vec2f& u) {
   return normalized(Vec3f(alpha * n[0], alpha * n[1], std::max(1e-6f, n[2])));
 }
 
-// Share of the drawn directions that go to the coat: near its share of the reflected light, but never so few
-// that a single mirrored ray weighs heavily.
-float coatShare(const Material& material, float reflected) {
-  if (material.gloss <= 0.0f) return 0.0f;
-  constexpr float kLeast = 0.15f;
-  const float base = (1.0f - reflected) * luminance(material.base);
-  return std::clamp(reflected / (reflected + base + 1e-6f), kLeast, 0.9f);
-}
-
 }  // namespace
 
-Scattering evaluate(const Material& material, const Vec3f& wo, const Vec3f& wi) {
-  if (wo[2] <= 0.0f || wi[2] <= 0.0f) return {};
-  const float cosinePdf = wi[2] / kPi;
-  if (material.gloss <= 0.0f) return {material.base * cosinePdf, cosinePdf};
-
-  const float fo = material.gloss * fresnel(wo[2]), fi = material.gloss * fresnel(wi[2]);
-  const float share = coatShare(material, fo);
-  const Vec3f h = normalized(wo + wi);
-  const float density = normalDensity(h[2], material.roughness);
-  const float lo = lambda(wo[2], material.roughness), li = lambda(wi[2], material.roughness);
-  const float facet = density / (4.0f * wo[2]);
-  // D G F / (4 cos cos) * cos(wi)
-  const float coat = material.gloss * fresnel(std::min(1.0f, wo.dot(h))) * facet / (1.0f + lo + li);
-  const float base = (1.0f - fo) * (1.0f - fi) / (1.0f - material.gloss * kFMean) * cosinePdf;
-
-  Scattering result;
-  result.value = material.base * base + Vec3f(coat);
-  result.pdf = share * facet / (1.0f + lo) + (1.0f - share) * cosinePdf;
-  return result;
+float coatFresnel(const Material& material, float cosine) {
+  return material.gloss > 0.0f ? material.gloss * fresnel(straightOn(material), cosine) : 0.0f;
 }
 
-MaterialSample sampleMaterial(const Material& material, const Vec3f& wo, float choice, const Vec2f& u) {
-  MaterialSample sample;
-  const float share = coatShare(material, material.gloss > 0.0f ? material.gloss * fresnel(wo[2]) : 0.0f);
-  if (choice < share) {
-    const Vec3f h = visibleNormal(wo, material.roughness, u);
-    sample.wi = h * (2.0f * wo.dot(h)) - wo;
-  } else {
-    sample.wi = cosineHemisphere(u);
-  }
-  sample.scattering = evaluate(material, wo, sample.wi);
-  return sample;
+Lobe evaluateBase(const Material& material, const Vec3f& wo, const Vec3f& wi) {
+  if (wo[2] <= 0.0f || wi[2] <= 0.0f || material.clear) return {};
+  const float pdf = wi[2] / kPi;
+  if (material.gloss <= 0.0f) return {material.base * pdf, pdf};
+  const float passed = (1.0f - coatFresnel(material, wo[2])) * (1.0f - coatFresnel(material, wi[2]));
+  return {material.base * (passed / (1.0f - material.gloss * fresnelMean(straightOn(material))) * pdf), pdf};
+}
+
+Lobe evaluateCoat(const Material& material, const Vec3f& wo, const Vec3f& wi) {
+  if (wo[2] <= 0.0f || wi[2] <= 0.0f || material.gloss <= 0.0f) return {};
+  const Vec3f h = normalized(wo + wi);
+  const float lo = lambda(wo[2], material.roughness), li = lambda(wi[2], material.roughness);
+  const float facet = normalDensity(h[2], material.roughness) / (4.0f * wo[2]);
+  // D G F / (4 cos cos) * cos(wi)
+  const float value = coatFresnel(material, std::min(1.0f, wo.dot(h))) * facet / (1.0f + lo + li);
+  return {Vec3f(value), facet / (1.0f + lo)};
+}
+
+LobeSample sampleBase(const Material& material, const Vec3f& wo, const Vec2f& u) {
+  const Vec3f wi = cosineHemisphere(u);
+  return {wi, evaluateBase(material, wo, wi)};
+}
+
+LobeSample sampleCoat(const Material& material, const Vec3f& wo, const Vec2f& u) {
+  const Vec3f h = visibleNormal(wo, material.roughness, u);
+  const Vec3f wi = h * (2.0f * wo.dot(h)) - wo;
+  return {wi, evaluateCoat(material, wo, wi)};
+}
+
+Boundary boundaryAt(float cosine, float ratio) {
+  const float sineAfter2 = ratio * ratio * std::max(0.0f, 1.0f - cosine * cosine);
+  if (sineAfter2 >= 1.0f) return {1.0f, 0.0f};
+  const float after = std::sqrt(1.0f - sineAfter2);
+  const float across = (ratio * cosine - after) / (ratio * cosine + after);
+  const float along = (cosine - ratio * after) / (cosine + ratio * after);
+  return {0.5f * (across * across + along * along), after};
+}
+
+Vec3f refracted(const Vec3f& direction, const Vec3f& normal, float ratio, const Boundary& boundary) {
+  const float cosine = -direction.dot(normal);
+  return normalized(direction * ratio + normal * (ratio * cosine - boundary.cosineAfter));
 }
 
 }  // namespace fluidtex::render

@@ -63,15 +63,30 @@ Vec4f liquidColor(const Stage& stage, std::uint32_t triangle, const Vec3f& weigh
 
 float liquidOpacity(const Stage& stage, const Ray& ray) {
   if (ray.geometry != kLiquid) return 1.0f;
-  return liquidColor(stage, ray.triangle, Vec3f(1.0f - ray.u - ray.v, ray.u, ray.v))[3];
+  if (stage.cover <= 0.0f) return 0.0f;
+  return stage.cover * liquidColor(stage, ray.triangle, Vec3f(1.0f - ray.u - ray.v, ray.u, ray.v))[3];
 }
 
-ShadingPoint shadingPoint(const Stage& stage, const Ray& ray) {
+Hit hitOf(const Stage& stage, const Ray& ray) {
+  const Corners c = cornersOf(stage, ray);
+  const bool inside = c.faceNormal.dot(ray.direction) > 0.0f;
+  return {c.position, inside ? -c.faceNormal : c.faceNormal, inside};
+}
+
+bool touchesSolid(const Stage& stage, const Ray& ray) {
+  const std::vector<std::uint8_t>& contact = stage.liquid->contact;
+  if (ray.geometry != kLiquid || contact.empty()) return false;
+  const texture::Vec3I& corner = stage.liquid->triangles[ray.triangle];
+  return contact[corner[0]] && contact[corner[1]] && contact[corner[2]];
+}
+
+ShadingPoint shadingPoint(const Stage& stage, const Ray& ray, bool covered) {
   const Corners c = cornersOf(stage, ray);
   const float diagonal = stage.domainSize.length();
   const float side = c.faceNormal.dot(ray.direction) > 0.0f ? -1.0f : 1.0f;
 
   ShadingPoint point;
+  point.inside = ray.geometry == kLiquid && side < 0.0f;
   point.position = c.position;
   point.faceNormal = c.faceNormal * side;
   point.normal = point.faceNormal;
@@ -82,6 +97,12 @@ ShadingPoint shadingPoint(const Stage& stage, const Ray& ray) {
     for (int k = 0; k < 3; ++k) point.material.base[k] = std::clamp(color[k], 0.0f, 1.0f);
     point.material.gloss = stage.gloss;
     point.material.roughness = stage.roughness;
+    point.material.index = stage.index;
+    point.material.clear = stage.clear && !covered;
+    if (!stage.emission.empty()) {
+      const texture::Vec3I& corner = liquid.triangles[ray.triangle];
+      for (int k = 0; k < 3; ++k) point.material.emission += stage.emission[corner[k]] * c.weights[k];
+    }
     if (!liquid.normals.empty()) {
       const texture::Vec3I& triangle = liquid.triangles[ray.triangle];
       const std::vector<Vec3f>& shown = stage.bumped.empty() ? liquid.normals : stage.bumped;

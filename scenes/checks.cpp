@@ -1,7 +1,33 @@
 #include "scenes/checks.h"
 
+#include "scenes/value_text.h"
+
+#include <functional>
+#include <initializer_list>
+
 namespace fluidtex::scenes {
 namespace {
+
+// Whether `name` is that of one of the scene's maps, of a kind that does; if not, the fault is added.
+bool namesMap(const Scene& scene, const std::string& name, const std::string& key,
+              const std::function<bool(texture::MapHolds)>& does, const std::string& unfit,
+              const std::string& fit, Reader& reader) {
+  std::vector<std::string> names;
+  for (const texture::MapOptions& map : scene.texture.exemplar.maps) {
+    if (map.name != name) {
+      names.push_back(map.name);
+    } else if (does(map.holds)) {
+      return true;
+    } else {
+      reader.fault(key, "\"" + name + "\" holds " + unfit, "give a map of " + fit);
+      return false;
+    }
+  }
+  const std::string near = nearestName(name, names);
+  reader.fault(key, "\"" + name + "\" is no map of this scene",
+               near.empty() ? "give the name of a [[texture.map]]" : "did you mean \"" + near + "\"?");
+  return false;
+}
 
 void checkBump(const Scene& scene, Reader& reader) {
   const render::Bump& bump = scene.render.bump;
@@ -12,20 +38,39 @@ void checkBump(const Scene& scene, Reader& reader) {
         path + ".height", "is of no use without a map",
         "give map = \"height\", or whatever the [[texture.map]] is named that holds heights or normals");
   if (!bump.any()) return;
-  std::vector<std::string> names;
-  for (const texture::MapOptions& map : scene.texture.exemplar.maps) {
-    if (map.name != bump.map) {
-      names.push_back(map.name);
-    } else if (map.holds == texture::MapHolds::directions) {
-      return reader.fault(key, "\"" + bump.map + "\" holds directions, which make no relief",
-                          "give a map of values or of normals");
-    } else {
-      return;
-    }
+  namesMap(
+      scene, bump.map, key, [](texture::MapHolds holds) { return holds != texture::MapHolds::directions; },
+      "directions, which make no relief", "values or of normals", reader);
+}
+
+void checkMaterial(const Scene& scene, Reader& reader) {
+  using render::MaterialKind;
+  const render::LiquidMaterial& material = scene.render.material;
+  const std::string path = "render.material.";
+  if (!reader.clean(path + "kind")) return;
+  const auto needs = [&](const char* kind, std::initializer_list<const char*> keys) {
+    for (const char* key : keys)
+      if (reader.given(path + key) && reader.clean(path + key))
+        reader.fault(path + key, "is of no use to a coated liquid",
+                     std::string("give kind = \"") + kind + "\" too, or leave it out");
+  };
+  if (material.kind == MaterialKind::coated) {
+    needs("water", {"index", "absorption", "cover"});
+    // Another exemplar on the command line takes the glow away.
+    if (material.glow > 0.0) needs("lava", {"heat", "coldest", "hottest", "glow"});
   }
-  const std::string near = nearestName(bump.map, names);
-  reader.fault(key, "\"" + bump.map + "\" is no map of this scene",
-               near.empty() ? "give the name of a [[texture.map]]" : "did you mean \"" + near + "\"?");
+  if (material.kind != MaterialKind::lava) return;
+  const std::string hottest = path + "hottest", heat = path + "heat";
+  if (reader.clean(hottest) && reader.clean(path + "coldest") && !(material.hottest > material.coldest))
+    reader.fault(reader.given(hottest) ? hottest : path + "coldest",
+                 "the hottest, " + written(material.hottest) + " K, is not above the coldest, " +
+                     written(material.coldest) + " K",
+                 "give hottest a larger number");
+  if (material.glow > 0.0 && !material.heat.empty() && reader.clean(heat) && reader.clean("texture.map"))
+    namesMap(
+        scene, material.heat, heat,
+        [](texture::MapHolds holds) { return holds == texture::MapHolds::values; },
+        "vectors, which tell no heat", "values", reader);
 }
 
 void checkPicture(const Scene& scene, Reader& reader) {
@@ -45,6 +90,7 @@ void checkPicture(const Scene& scene, Reader& reader) {
     }
   }
   checkBump(scene, reader);
+  checkMaterial(scene, reader);
 }
 
 }  // namespace

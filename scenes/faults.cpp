@@ -44,8 +44,8 @@ bool Faults::clean(const std::string& key) const {
 std::vector<std::string> Faults::lines() const {
   std::vector<Fault> sorted = m_faults;
   std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
-    return std::tie(a.origin.layer, a.origin.line, a.origin.column) <
-           std::tie(b.origin.layer, b.origin.line, b.origin.column);
+    return std::tie(a.origin.layer, a.origin.extended, a.origin.line, a.origin.column) <
+           std::tie(b.origin.layer, b.origin.extended, b.origin.line, b.origin.column);
   });
   std::vector<std::string> result;
   for (const Fault& fault : sorted) {

@@ -12,6 +12,7 @@ struct Origin {
   int line = 1, column = 1;  // of the key, in the file
   std::string where;         // as it is printed: "FILE:LINE:COLUMN" or "--set KEY=VALUE"
   std::string prefix;        // "quality.preview." for a key written there
+  std::string extended{};    // the file, where it is one that the scene file extends
   bool commandLine() const { return layer > 0; }
 };
 
@@ -38,7 +39,7 @@ class Faults {
   bool full() const { return m_faults.size() >= kMost; }
   const std::vector<Fault>& all() const { return m_faults; }
 
-  // One line per fault: those of the file by line and column, then those of the command line. Names from the
+  // One line per fault: those of each file by line and column, then those of the command line. Names from the
   // scene are shortened and stripped of control characters.
   std::vector<std::string> lines() const;
 

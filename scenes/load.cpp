@@ -70,8 +70,8 @@ std::vector<Node> readOverrides(const Overrides& overrides, Faults& faults) {
       return Node{Table{{"texture", Node{Table{{key, Node{value, origin}}}, origin}}}, origin};
     };
     layers.push_back(layer("exemplar", name));
-    // Whether it wraps, the maps over it, their relief, a finer picture and what chooses pictures of a
-    // sequence were said of the scene's own; --set may say it of this one.
+    // Whether it wraps, the maps over it, their relief and glow, a finer picture and what chooses pictures of
+    // a sequence were said of the scene's own; --set may say it of this one.
     layers.insert(layers.begin(),
                   {layer("toroidal", false), layer("map", List{}), layer("between", std::string("points")),
                    layer("between_file", std::string())});
@@ -85,8 +85,10 @@ std::vector<Node> readOverrides(const Overrides& overrides, Faults& faults) {
     const Node byTime{Table{{"by", Node{std::string("time"), origin}}}, origin};
     layers.insert(layers.begin(), layer("animation", byTime.value));
     const Node flat{Table{{"height", Node{0.0, origin}}}, origin};
-    const Node unbumped{Table{{"bump", Node{flat.value, origin}}}, origin};
-    layers.insert(layers.begin(), Node{Table{{"render", Node{unbumped.value, origin}}}, origin});
+    const Node cold{Table{{"glow", Node{0.0, origin}}}, origin};
+    const Node plain{Table{{"bump", Node{flat.value, origin}}, {"material", Node{cold.value, origin}}},
+                     origin};
+    layers.insert(layers.begin(), Node{Table{{"render", Node{plain.value, origin}}}, origin});
   }
   return layers;
 }
@@ -143,9 +145,54 @@ Node documentOfCache(const std::filesystem::path& cache) {
         table({{"preview", quality(10000, 480, 270, 8)}, {"final", quality(200000, 1920, 1080, 64)}})}});
 }
 
+// Says of the node and all below that they are written in a file which the scene extends.
+void markExtended(Node& node, const std::string& file) {
+  node.origin.extended = file;
+  if (Table* table = std::get_if<Table>(&node.value)) {
+    for (Entry& entry : *table) markExtended(entry.node, file);
+  } else if (List* list = std::get_if<List>(&node.value)) {
+    for (Node& member : *list) markExtended(member, file);
+  }
+}
+
+// The document over that of the file which its key `extends` names, relative to `folder`.
+Node extended(Node document, const std::filesystem::path& folder, int depth, Faults& faults) {
+  constexpr int kDeepest = 8;
+  Table& root = std::get<Table>(document.value);
+  const Entry* entry = find(root, "extends");
+  if (!entry) return document;
+  const Origin origin = entry->node.origin;
+  const std::string* name = std::get_if<std::string>(&entry->node.value);
+  if (!name) {
+    faults.add(origin, "extends", "wrong type, " + kindName(entry->node) + " where a string is wanted",
+               "give a scene file, for example extends = \"river.toml\"");
+    return document;
+  }
+  const std::filesystem::path file = (folder / *name).lexically_normal();
+  std::error_code ignored;
+  if (depth == kDeepest) {
+    faults.add(origin, "extends", "goes on for more than " + std::to_string(kDeepest) + " files",
+               "extend a scene that does not come back to this one");
+  } else if (!std::filesystem::is_regular_file(file, ignored)) {
+    faults.add(origin, "extends", "no such file: " + file.string(),
+               "give a scene file, relative to the folder of the one that extends it");
+  } else {
+    std::erase_if(root, [](const Entry& other) { return other.key == "extends"; });
+    Node base = expanded(readDocument(file, faults), "", faults);
+    markExtended(base, file.string());
+    base = extended(std::move(base), file.parent_path(), depth + 1, faults);
+    overlay(base, document, faults);
+    base.origin = document.origin;
+    return base;
+  }
+  return document;
+}
+
 Node readSource(const Source& source, Faults& faults) {
-  return source.text ? readDocument(*source.text, source.file.string(), faults)
-                     : readDocument(source.file, faults);
+  Node document = source.text ? readDocument(*source.text, source.file.string(), faults)
+                              : readDocument(source.file, faults);
+  if (!faults.empty()) return document;
+  return extended(expanded(document, "", faults), source.file.parent_path(), 0, faults);
 }
 
 // The document with one of its qualities and the command line's layers over it.

@@ -27,6 +27,11 @@ Reader::Reader(const Node& document, std::filesystem::path folder, Faults& fault
   m_levels.push_back(std::move(root));
 }
 
+std::filesystem::path Reader::folderOf(const Origin& origin) const {
+  if (origin.commandLine()) return {};
+  return origin.extended.empty() ? m_folder : std::filesystem::path(origin.extended).parent_path();
+}
+
 std::string Reader::pathOf(const std::string& key) const {
   return joined(m_levels.back().path, key);
 }

@@ -12,8 +12,8 @@ namespace fluidtex::scenes {
 
 class Reader : public Visitor {
  public:
-  // folder: base of relative file names inside the scene; those on the command line are relative to the
-  // current folder.
+  // folder: base of relative file names of the scene; those in a file that it extends are relative to that
+  // file's folder, those on the command line to the current folder.
   Reader(const Node& document, std::filesystem::path folder, Faults& faults);
 
   void flag(const std::string& key, bool& value) override;
@@ -85,6 +85,9 @@ class Reader : public Visitor {
                  const std::vector<std::string>& endings);
   bool readInteger(const std::string& path, const Node& node, const Limits& limits,
                    const std::string& example, std::int64_t& value);
+
+  // Where file names begin that were given there.
+  std::filesystem::path folderOf(const Origin& origin) const;
 
   const Node& m_document;
   std::filesystem::path m_folder;

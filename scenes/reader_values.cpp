@@ -211,7 +211,7 @@ bool Reader::readName(const std::string& key, const std::string& example, const 
                  "give one of at most " + std::to_string(kLongestFile));
     return false;
   }
-  full = (node->origin.commandLine() ? std::filesystem::path(*name) : m_folder / *name).lexically_normal();
+  full = (folderOf(node->origin) / *name).lexically_normal();
   return true;
 }
 
@@ -278,8 +278,7 @@ void Reader::picture(const std::string& key, std::filesystem::path& value,
                      texture::AnimationOptions& sequence) {
   const Node* node = look(key, Need::optional);
   const std::string* name = node ? std::get_if<std::string>(&node->value) : nullptr;
-  if (!name || !isPattern(node->origin.commandLine() ? std::filesystem::path(*name) : m_folder / *name))
-    return file(key, value, {});
+  if (!name || !isPattern(folderOf(node->origin) / *name)) return file(key, value, {});
   files(key, sequence.pattern, {});
   const std::string path = pathOf(key);
   if (!clean(path)) return;

@@ -314,9 +314,21 @@ void describePicture(Visitor& visitor, render::Options& render) {
   visitor.table("render", [&] {
     visitor.pixels("size", render.width, render.height, {.low = 16, .high = 16384});
     visitor.integer("samples", render.samples, {.low = 1, .high = 65536});
+    visitor.number("noise", render.noise, kShare);
+    visitor.flag("smooth", render.smooth);
     visitor.integer("bounces", render.bounces, {.low = 0, .high = 64});
     visitor.number("gloss", render.gloss, kShare);
     visitor.number("roughness", render.roughness, kShare);
+    visitor.table("material", [&] {
+      choice(visitor, "kind", render.material.kind, {"coated", "water", "lava"});
+      visitor.number("index", render.material.index, {.low = 1.0, .high = 3.0});
+      visitor.vector("absorption", render.material.absorption, kNotNegative);
+      visitor.number("cover", render.material.cover, kShare);
+      visitor.text("heat", render.material.heat);
+      visitor.number("coldest", render.material.coldest, {.low = 300.0, .high = 1e4});
+      visitor.number("hottest", render.material.hottest, {.low = 300.0, .high = 1e4});
+      visitor.number("glow", render.material.glow, kNotNegative);
+    });
     visitor.table("bump", [&] {
       visitor.text("map", render.bump.map);
       visitor.number("height", render.bump.height, kAny);

@@ -163,7 +163,8 @@ class Drawing {
       const double turned = m_scene.frames > 1 ? double(frame - 1) / (m_scene.frames - 1) : 0.0;
       take(frame, render::render(surface, solids.at((frame - 1) / m_scene.sim.frameRate), m_scene.render,
                                  {m_scene.sim.size, turned, frame, colorBetween(detail, surface, joints),
-                                  detail && detail->seeThrough, m_scene.domainOrigin},
+                                  detail && detail->seeThrough, m_scene.domainOrigin,
+                                  m_scene.texture.synthesis.method != texture::Method::none},
                                  [&](double part) { show(frame, part); }));
     }
   }

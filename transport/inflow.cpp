@@ -4,6 +4,7 @@
 #include "texture/labels/fresh.h"
 #include "texture/labels/pieces.h"
 #include "texture/loops/parallel.h"
+#include "texture/mesh/vertex_graph.h"
 #include "texture/orientation/tangent.h"
 
 #include <algorithm>

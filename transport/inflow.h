@@ -4,7 +4,7 @@
 #pragma once
 
 #include "texture/joints/places.h"
-#include "texture/orientation/tangent.h"
+#include "texture/mesh/vertex_graph.h"
 #include "texture/surface.h"
 #include "transport/pick_up.h"
 

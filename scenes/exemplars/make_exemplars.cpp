@@ -2,8 +2,12 @@
 // WIDTH the green scales alone, green_scales_WIDTH.png: the same picture, so many pixels wide.
 #include "scenes/exemplars/foam.h"
 #include "scenes/exemplars/lava.h"
+#include "scenes/exemplars/leaves.h"
 #include "scenes/exemplars/ripples.h"
 #include "scenes/exemplars/scales.h"
+#include "scenes/exemplars/stones.h"
+#include "scenes/exemplars/strokes.h"
+#include "scenes/exemplars/waves.h"
 #include "scenes/write_png.h"
 
 #include <cstdio>
@@ -14,11 +18,15 @@
 
 namespace {
 
-// Three bytes a pixel are sRGB; one is a number.
-bool write(const std::string& file, int size, const std::vector<std::uint8_t>& pixels) {
+// Three bytes a pixel are sRGB, a fourth is alpha; one is a number. numbers: three are numbers too.
+bool write(const std::string& file, int size, const std::vector<std::uint8_t>& pixels, bool numbers = false) {
   const int channels = int(pixels.size()) / (size * size);
   OIIO::ImageSpec spec(size, size, channels, OIIO::TypeDesc::UINT8);
-  if (channels == 3) spec.attribute("oiio:ColorSpace", "sRGB");
+  if (channels == 4) {
+    spec.alpha_channel = 3;
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+  }
+  if (channels >= 3 && !numbers) spec.attribute("oiio:ColorSpace", "sRGB");
   if (!fluidtex::scenes::writePng(file, spec, pixels.data())) return false;
   std::cout << file << "\n";
   return true;
@@ -57,6 +65,12 @@ int main(int argc, char** argv) {
   const fluidtex::exemplars::FoamyWater water;
   const fluidtex::exemplars::FoamImages foam = fluidtex::exemplars::makeFoam(water);
   const fluidtex::exemplars::Ripples ripples;
+  const fluidtex::exemplars::Leaves leaves;
+  const fluidtex::exemplars::Stones bed;
+  const fluidtex::exemplars::StoneImages stones = fluidtex::exemplars::makeStones(bed);
+  const fluidtex::exemplars::Strokes strokes;
+  const fluidtex::exemplars::Waves sea;
+  const fluidtex::exemplars::WaveImages waves = fluidtex::exemplars::makeWaves(sea);
   constexpr int kStages = 12;
   const int coolingSize = fluidtex::exemplars::kCooling.size;
   const bool written =
@@ -67,6 +81,12 @@ int main(int argc, char** argv) {
       write((folder / "lava.png").string(), lava.size, fluidtex::exemplars::makeLava(lava)) &&
       write((folder / "lava_cooling.png").string(), coolingSize, cooling.pixels) &&
       write((folder / "lava_cooling_guidance.png").string(), coolingSize, cooling.guidance) &&
+      write((folder / "leaves.png").string(), leaves.size, fluidtex::exemplars::makeLeaves(leaves)) &&
+      write((folder / "stones.png").string(), bed.size, stones.pixels) &&
+      write((folder / "stones_height.png").string(), bed.size, stones.height) &&
+      write((folder / "strokes.png").string(), strokes.size, fluidtex::exemplars::makeStrokes(strokes)) &&
+      write((folder / "waves.png").string(), sea.size, waves.pixels) &&
+      write((folder / "waves_normals.png").string(), sea.size, waves.normals, true) &&
       write((folder / "foam.png").string(), water.size, foam.pixels) &&
       write((folder / "foam_guidance.png").string(), water.size, foam.guidance) &&
       writeSequence(folder / "lava_stages", kStages, fluidtex::exemplars::kLavaStages.size,

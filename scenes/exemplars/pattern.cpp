@@ -100,22 +100,52 @@ std::vector<std::uint8_t> levelMap(int size, const std::function<double(double x
   return pixels;
 }
 
-std::vector<std::uint8_t> rendered(int size, int samples, const std::function<Color(double, double)>& color) {
+namespace {
+
+// body(pixel, x, y) at samples x samples places in each pixel, row by row.
+template <class Body>
+void forEachSample(int size, int samples, const Body& body) {
   const double step = 1.0 / (double(size) * samples);
+  for (int row = 0; row < size; ++row)
+    for (int column = 0; column < size; ++column)
+      for (int j = 0; j < samples; ++j)
+        for (int i = 0; i < samples; ++i)
+          body(std::size_t(row) * size + column, (column * samples + i + 0.5) * step,
+               (row * samples + j + 0.5) * step);
+}
+
+std::uint8_t byteOf(double level) {
+  return std::uint8_t(255.0 * level + 0.5);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> rendered(int size, int samples, const std::function<Color(double, double)>& color) {
+  std::vector<Color> sums(std::size_t(size) * size);
+  forEachSample(size, samples, [&](std::size_t pixel, double x, double y) {
+    const Color part = color(x, y);
+    for (std::size_t k = 0; k < 3; ++k) sums[pixel][k] += part[k];
+  });
   std::vector<std::uint8_t> pixels;
-  pixels.reserve(std::size_t(size) * size * 3);
-  for (int row = 0; row < size; ++row) {
-    for (int column = 0; column < size; ++column) {
-      Color sum{};
-      for (int j = 0; j < samples; ++j) {
-        for (int i = 0; i < samples; ++i) {
-          const Color part = color((column * samples + i + 0.5) * step, (row * samples + j + 0.5) * step);
-          for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
-        }
-      }
-      for (const double channel : sum)
-        pixels.push_back(std::uint8_t(255.0 * encoded(channel / (samples * samples)) + 0.5));
-    }
+  pixels.reserve(3 * sums.size());
+  for (const Color& sum : sums)
+    for (const double channel : sum) pixels.push_back(byteOf(encoded(channel / (samples * samples))));
+  return pixels;
+}
+
+std::vector<std::uint8_t> cutOut(int size, int samples, const std::function<Sample(double, double)>& sample) {
+  std::vector<Sample> sums(std::size_t(size) * size);
+  forEachSample(size, samples, [&](std::size_t pixel, double x, double y) {
+    const Sample part = sample(x, y);
+    for (std::size_t k = 0; k < 3; ++k) sums[pixel].color[k] += part.color[k] * part.alpha;
+    sums[pixel].alpha += part.alpha;
+  });
+  std::vector<std::uint8_t> pixels;
+  pixels.reserve(4 * sums.size());
+  for (const Sample& sum : sums) {
+    for (const double channel : sum.color)
+      pixels.push_back(byteOf(encoded(sum.alpha > 0.0 ? channel / sum.alpha : 0.0)));
+    pixels.push_back(byteOf(sum.alpha / (samples * samples)));
   }
   return pixels;
 }

@@ -47,4 +47,14 @@ std::vector<std::uint8_t> levelMap(int size, const std::function<double(double x
 std::vector<std::uint8_t> rendered(int size, int samples,
                                    const std::function<Color(double x, double y)>& color);
 
+// A place of a picture that is cut out: its colour means nothing where alpha is 0.
+struct Sample {
+  Color color;
+  double alpha;
+};
+
+// The same, four bytes each: sRGB and alpha, which is straight.
+std::vector<std::uint8_t> cutOut(int size, int samples,
+                                 const std::function<Sample(double x, double y)>& sample);
+
 }  // namespace fluidtex::exemplars

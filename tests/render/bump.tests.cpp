@@ -104,9 +104,9 @@ TEST_CASE("bump: slopes towards the sun are brighter, those away from it darker"
   options.bounces = 0;
   // A ridge along y: its left side looks away from the sun.
   const auto surface = sheet([](const Vec3f& p) { return 1.0f - std::abs(2.0f * p[0] - 1.0f); });
-  const Picture flat = traceRadiance(surface, {}, options, shapes::unitView());
+  const Picture flat = shapes::traceRadiance(surface, {}, options, shapes::unitView());
   options.bump = {"height", 8.0};
-  const Picture bumped = traceRadiance(surface, {}, options, shapes::unitView());
+  const Picture bumped = shapes::traceRadiance(surface, {}, options, shapes::unitView());
   const auto sunny = [](float slope) {  // of the normal (-slope, 0, 1)
     return (1.0f - slope) / std::sqrt(1.0f + slope * slope);
   };
@@ -119,7 +119,7 @@ TEST_CASE("bump: slopes towards the sun are brighter, those away from it darker"
 TEST_CASE("bump: a surface without the map is drawn without relief", "[render]") {
   auto surface = sheet([](const Vec3f& p) { return p[0]; });
   Options options = shapes::evenLight(16, 16, 4);
-  const Picture flat = traceRadiance(surface, {}, options, shapes::unitView());
+  const Picture flat = shapes::traceRadiance(surface, {}, options, shapes::unitView());
   options.bump = {"other", 8.0};
-  CHECK((traceRadiance(surface, {}, options, shapes::unitView()).rgb == flat.rgb));
+  CHECK((shapes::traceRadiance(surface, {}, options, shapes::unitView()).rgb == flat.rgb));
 }

@@ -1,6 +1,7 @@
 // Closed forms as meshes, and a scene with nothing but even light.
 #pragma once
 
+#include "render/path_tracer.h"
 #include "render/render.h"
 
 #include <cmath>
@@ -77,6 +78,16 @@ inline View unitView() {
   View view;
   view.domainSize = Vec3d(1.0);
   return view;
+}
+
+// All light, as it was traced.
+inline Picture traceRadiance(const texture::TexturedSurface& surface, const std::vector<Solid>& solids,
+                             const Options& options, const View& view) {
+  const Layers layers = traceLayers(surface, solids, options, view);
+  Picture picture{layers.width, layers.height, {}};
+  for (const Vec3f& value : layers.radiance)
+    picture.rgb.insert(picture.rgb.end(), {value[0], value[1], value[2]});
+  return picture;
 }
 
 inline Vec3f pixel(const Picture& picture, int x, int y) {

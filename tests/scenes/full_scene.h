@@ -229,6 +229,8 @@ horizon_color = [0.4, 0.5, 0.6]
 [render]
 size = [320, 180]
 samples = 2
+noise = 0.01
+smooth = false
 bounces = 1
 gloss = 0.5
 roughness = 0.25
@@ -237,6 +239,15 @@ ground = false
 ground_color = [0.1, 0.1, 0.1]
 tank = false
 tank_color = [0.2, 0.2, 0.2]
+[render.material]
+kind = "lava"
+index = 1.4
+absorption = [3, 2, 1]
+cover = 0.5
+heat = "bumps"
+coldest = 700
+hottest = 1500
+glow = 2
 [render.bump]
 map = "bumps"
 height = 2.5

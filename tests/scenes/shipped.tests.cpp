@@ -9,8 +9,9 @@ namespace fluidtex::scenes {
 
 TEST_CASE("shipped scenes: are read in every quality, with files that are there", "[scenes]") {
   for (const std::string file :
-       {"river", "pour", "drops", "ripples", "crust", "melt", "flows/deformation", "flows/stretch",
-        "flows/source_sink", "flows/slot", "flows/lock", "flows/vortex", "flows/sphere", "flows/torus"}) {
+       {"river", "river_leaves", "river_waves", "river_rocks", "river_strokes", "pour", "drops", "ripples",
+        "crust", "melt", "flows/deformation", "flows/stretch", "flows/source_sink", "flows/slot",
+        "flows/lock", "flows/vortex", "flows/sphere", "flows/torus"}) {
     const std::string name = file.substr(file.find('/') + 1);
     for (const Quality quality : {Quality::preview, Quality::standard, Quality::final}) {
       Overrides overrides;

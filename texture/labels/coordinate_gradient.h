@@ -1,7 +1,7 @@
 // Gradients of the exemplar coordinate, estimated from the coordinates themselves.
 #pragma once
 
-#include "texture/orientation/tangent.h"
+#include "texture/mesh/vertex_graph.h"
 #include "texture/surface.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 // Connected components of a masked surface.
 #pragma once
 
-#include "texture/orientation/tangent.h"
+#include "texture/mesh/vertex_graph.h"
 
 #include <cstdint>
 #include <vector>

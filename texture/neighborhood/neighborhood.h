@@ -7,6 +7,7 @@
 // triangles, so functions linear in the local coordinates are exact in both kinds.
 #pragma once
 
+#include "texture/mesh/vertex_graph.h"
 #include "texture/orientation/tangent.h"
 
 #include <array>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "texture/loops/parallel.h"
-#include "texture/orientation/tangent.h"
+#include "texture/mesh/vertex_graph.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "texture/orientation/curvature.h"
 
 #include "texture/loops/parallel.h"
-#include "texture/orientation/tangent.h"
+#include "texture/mesh/vertex_graph.h"
 
 namespace fluidtex::texture {
 namespace {

@@ -1,6 +1,7 @@
 // Orientation field: one unit tangent vector per vertex, smooth over the surface [Kwatra07 sec. IV, Zhang04].
 #pragma once
 
+#include "texture/mesh/vertex_graph.h"
 #include "texture/orientation/tangent.h"
 #include "texture/surface.h"
 

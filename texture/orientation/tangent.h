@@ -3,10 +3,10 @@
 // = d x n.
 #pragma once
 
+#include "texture/mesh/vertex_graph.h"
 #include "texture/surface.h"
 
 #include <complex>
-#include <span>
 
 namespace fluidtex::texture {
 
@@ -28,19 +28,6 @@ inline Vec3f turnedTangent(const Vec3f& x, const Vec3f& from, const Vec3f& to) {
 // Of the rotations of x by multiples of 360 / symmetry degrees about n, the nearest to `to`. x is tangent at
 // n.
 Vec3f nearestTurn(const Vec3f& x, const Vec3f& n, const Vec3f& to, int symmetry);
-
-// One-rings in compressed rows: neighbours of v are neighbor[first[v]] .. neighbor[first[v+1]-1],
-// counter-clockwise seen from outside (the angle in (d, b) falls).
-struct VertexGraph {
-  std::vector<std::uint32_t> first;     // #V + 1
-  std::vector<std::uint32_t> neighbor;  // #H, directed edges
-  std::span<const std::uint32_t> around(std::uint32_t v) const {
-    return {neighbor.data() + first[v], neighbor.data() + first[v + 1]};
-  }
-};
-
-// Throws std::invalid_argument if the mesh is not closed and manifold.
-VertexGraph buildVertexGraph(const SurfaceMesh& mesh);
 
 // For each half-edge v -> u of the graph: the position of u in v's tangent plane, and the rotation between
 // their planes.

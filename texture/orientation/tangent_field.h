@@ -4,6 +4,7 @@
 // Globally Optimal Direction Fields, 2013).
 #pragma once
 
+#include "texture/mesh/vertex_graph.h"
 #include "texture/orientation/tangent.h"
 
 namespace fluidtex::texture {

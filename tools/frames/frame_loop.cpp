@@ -307,7 +307,8 @@ class FrameLoop {
         m_detail = detailOfFrame(m_options.out, frame, m_scene.texture.exemplar.toroidal);
       picture = render::render(surface, m_solids.at(time), m_scene.render,
                                {m_scene.sim.size, progress, frame, colorBetween(m_detail, surface, joints),
-                                m_detail && m_detail->seeThrough, m_scene.domainOrigin},
+                                m_detail && m_detail->seeThrough, m_scene.domainOrigin,
+                                m_scene.texture.synthesis.method != texture::Method::none},
                                reporter("render"));
     }
     pipeline::Stopwatch watch(seconds.write);

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace fluidtex::testing {
 
@@ -149,6 +150,18 @@ inline SurfaceMesh together(SurfaceMesh a, const SurfaceMesh& b) {
   a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
   for (const Vec3I& t : b.triangles) a.triangles.emplace_back(t[0] + base, t[1] + base, t[2] + base);
   return a;
+}
+
+struct NamedMesh {
+  const char* name;
+  SurfaceMesh mesh;
+};
+
+// A sphere, a torus and a box.
+inline std::vector<NamedMesh> closedMeshes() {
+  return {{"sphere", sphereMesh(8)},
+          {"torus", torusMesh(40, 20)},
+          {"box", boxMesh({0, 0, 0}, {1, 2, 1.5}, {5, 10, 7})}};
 }
 
 }  // namespace fluidtex::testing
