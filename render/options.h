@@ -54,7 +54,7 @@ struct LiquidMaterial {
   MaterialKind kind = MaterialKind::coated;
   double index = 1.333;               // water: of refraction
   Vec3d absorption{1.2, 0.35, 0.25};  // water: share of red, green, blue lost a metre, exp(-absorption x)
-  double cover = 1.0;  // water: how far the texture hides it where its alpha is 1
+  double cover = 1.0;                 // water: how far the texture hides it where its alpha is 1
   std::string heat;  // lava: the map, 0..1, that says how hot the texture is; empty: all of it
   double coldest = 800, hottest = 1450;  // lava: kelvin where that map is 0 and 1; glows as a black body
   double glow = 3.0;                     // lava: radiance of the hottest, as luminance
@@ -62,11 +62,12 @@ struct LiquidMaterial {
 
 struct Options {
   int width = 960, height = 540;
-  int samples = 16;    // paths per pixel at most; powers of two are distributed best
-  double noise = 0.0;  // standard error of what is displayed, 0..1, at which a part of it is done; 0: never
-  bool smooth = true;  // takes the grain out of the light on matt surfaces
-  int bounces = 2;     // of light between surfaces; 0: direct light only
-  double gloss = 1.0;  // strength of the clear coat that makes liquid look wet, 0..1
+  int samples = 32;  // paths per pixel at most; powers of two are distributed best
+  // Standard error of what is displayed, 0..1, at which a part of the picture is done; 0: never.
+  double noise = 0.01;
+  bool smooth = true;       // takes the grain out of the light on matt surfaces
+  int bounces = 2;          // of light between surfaces; 0: direct light only
+  double gloss = 1.0;       // strength of the clear coat that makes liquid look wet, 0..1
   double roughness = 0.05;  // of the coat, GGX alpha
   LiquidMaterial material;
   Bump bump;

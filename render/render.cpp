@@ -4,11 +4,13 @@
 #include "render/path_tracer.h"
 #include "render/smooth_light.h"
 
+#include <utility>
+
 namespace fluidtex::render {
 namespace {
 
-Picture pictureOf(const Layers& layers, const std::vector<Vec3f>& radiance) {
-  Picture picture{layers.width, layers.height, {}};
+Picture pictureOf(int width, int height, const std::vector<Vec3f>& radiance) {
+  Picture picture{width, height, {}};
   picture.rgb.reserve(3 * radiance.size());
   for (const Vec3f& value : radiance) picture.rgb.insert(picture.rgb.end(), {value[0], value[1], value[2]});
   return picture;
@@ -22,8 +24,10 @@ void develop(Picture& picture, double exposure) {
 
 Picture render(const texture::TexturedSurface& surface, const std::vector<Solid>& solids,
                const Options& options, const View& view, const std::function<void(double)>& progress) {
-  const Layers layers = traceLayers(surface, solids, options, view, progress);
-  Picture picture = pictureOf(layers, options.smooth ? smoothedRadiance(layers) : layers.radiance);
+  Layers layers = traceLayers(surface, solids, options, view, progress);
+  Picture picture =
+      pictureOf(options.width, options.height,
+                options.smooth ? smoothedRadiance(std::move(layers)) : std::move(layers.radiance));
   develop(picture, options.exposure);
   return picture;
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace fluidtex::render {
 namespace {
@@ -49,13 +50,15 @@ float footprintAt(const Guides& guides, int x, int y) {
   return nearest;
 }
 
-Guides guidesOf(const Layers& layers) {
-  const std::size_t pixels = layers.normal.size();
-  Guides guides{layers.width, layers.height, std::vector<Vec3f>(pixels, Vec3f(0.0f)), layers.position,
-                std::vector<float>(pixels)};
-  for (std::size_t i = 0; i < pixels; ++i)
-    if (luminance(layers.albedo[i]) >= kLeastAlbedo && layers.normal[i].length() >= kLeastNormal)
-      guides.normal[i] = normalized(layers.normal[i]);
+// Takes normals and positions out of the layers.
+Guides guidesOf(Layers& layers) {
+  Guides guides{layers.width, layers.height, std::move(layers.normal), std::move(layers.position),
+                std::vector<float>(layers.albedo.size())};
+  for (std::size_t i = 0; i < guides.normal.size(); ++i) {
+    Vec3f& normal = guides.normal[i];
+    const bool clear = luminance(layers.albedo[i]) >= kLeastAlbedo && normal.length() >= kLeastNormal;
+    normal = clear ? normalized(normal) : Vec3f(0.0f);
+  }
   forEachRow(layers.height, [&](int y) {
     for (int x = 0; x < layers.width; ++x)
       guides.footprint[static_cast<std::size_t>(y) * layers.width + x] = footprintAt(guides, x, y);
@@ -85,14 +88,23 @@ struct Estimate {
   std::vector<float> variance;
 };
 
-Estimate withoutAlbedo(const MattLight& matt, const Layers& layers, const Guides& guides) {
-  Estimate light{std::vector<Vec3f>(matt.radiance.size(), Vec3f(0.0f)),
-                 std::vector<float>(matt.radiance.size(), 0.0f)};
-  for (std::size_t i = 0; i < matt.radiance.size(); ++i) {
-    if (!(lengthSquared(guides.normal[i]) > 0.0f)) continue;
-    for (int k = 0; k < 3; ++k)
-      light.value[i][k] = matt.radiance[i][k] / std::max(layers.albedo[i][k], kLeastAlbedo);
-    const float deviation = matt.deviation[i] / luminance(layers.albedo[i]);
+// What the light on a pixel is multiplied by to be its radiance.
+Vec3f divisorOf(const Vec3f& albedo) {
+  return Vec3f(std::max(albedo[0], kLeastAlbedo), std::max(albedo[1], kLeastAlbedo),
+               std::max(albedo[2], kLeastAlbedo));
+}
+
+// 0 where a pixel is left alone.
+Estimate withoutAlbedo(MattLight matt, const std::vector<Vec3f>& albedo, const Guides& guides) {
+  Estimate light{std::move(matt.radiance), std::move(matt.deviation)};
+  for (std::size_t i = 0; i < light.value.size(); ++i) {
+    if (!(lengthSquared(guides.normal[i]) > 0.0f)) {
+      light.value[i] = Vec3f(0.0f);
+      light.variance[i] = 0.0f;
+      continue;
+    }
+    light.value[i] /= divisorOf(albedo[i]);
+    const float deviation = light.variance[i] / luminance(albedo[i]);
     light.variance[i] = deviation * deviation;
   }
   return light;
@@ -175,18 +187,20 @@ Lights averaged(const Lights& lights, const Guides& guides, int step) {
 
 }  // namespace
 
-std::vector<Vec3f> smoothedRadiance(const Layers& layers) {
+std::vector<Vec3f> smoothedRadiance(Layers layers) {
   const Guides guides = guidesOf(layers);
-  const Lights before{withoutAlbedo(layers.sun, layers, guides), withoutAlbedo(layers.rest, layers, guides)};
-  Lights lights = before;
+  std::vector<Vec3f> result = std::move(layers.radiance);
+  Lights lights{withoutAlbedo(std::move(layers.sun), layers.albedo, guides),
+                withoutAlbedo(std::move(layers.rest), layers.albedo, guides)};
+  const auto add = [&](float sign) {
+    for (const Estimate& light : lights)
+      for (std::size_t i = 0; i < result.size(); ++i)
+        result[i] += light.value[i] * divisorOf(layers.albedo[i]) * sign;
+  };
+  add(-1.0f);
   for (Estimate& light : lights) light.variance = steadied(light.variance, guides);
   for (int level = 0; level < kLevels; ++level) lights = averaged(lights, guides, 1 << level);
-  std::vector<Vec3f> result = layers.radiance;
-  for (std::size_t i = 0; i < result.size(); ++i)
-    for (int k = 0; k < kLights; ++k)
-      for (int color = 0; color < 3; ++color)
-        result[i][color] += (lights[k].value[i][color] - before[k].value[i][color]) *
-                            std::max(layers.albedo[i][color], kLeastAlbedo);
+  add(1.0f);
   return result;
 }
 

@@ -11,6 +11,6 @@ namespace fluidtex::render {
 // an edge-avoiding a-trous wavelet of five levels, 5 x 5 pixels each [Dammertz et al. 2010], weighted by
 // normal, distance from the tangent plane and luminance against its error [Schied et al., Spatiotemporal
 // variance-guided filtering, 2017].
-std::vector<Vec3f> smoothedRadiance(const Layers& layers);
+std::vector<Vec3f> smoothedRadiance(Layers layers);
 
 }  // namespace fluidtex::render

@@ -173,8 +173,9 @@ void printPlan(const scenes::Scene& scene, const CheckOptions& options) {
   if (detail)
     print("between   the points, a picture of {} x {} pixels is looked up\n", detail->color.width,
           detail->color.height);
-  print("pictures  {} x {}, {} paths a pixel\n", scene.render.width, scene.render.height,
-        scene.render.samples);
+  print("pictures  {} x {}, {} paths a pixel{}\n", scene.render.width, scene.render.height,
+        scene.render.samples,
+        scene.render.noise > 0.0 ? fmt::format(" or a noise of {}", scene.render.noise) : "");
   const double memory =
       plannedMemory(scene, liquid, points, parseFormats(options.formats), jointsAs(options));
   print("memory    about {} GB", twoDigits(memory / 1e9));

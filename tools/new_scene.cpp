@@ -86,7 +86,7 @@ at = [0.5, 0.5, 0.3]
 
 [render]
 size = [960, 540]
-samples = 16            # paths a pixel: more are slower and less noisy
+samples = 32            # paths a pixel, at most: more are slower and less noisy
 #gloss = 1.0
 #ground = true
 #tank = true
@@ -102,7 +102,8 @@ render.samples = 4
 domain.resolution = 128
 texture.points = 160000
 render.size = [1920, 1080]
-render.samples = 64
+render.samples = 128
+render.noise = 0.005
 )";
 
 struct NewScene {

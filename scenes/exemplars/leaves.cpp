@@ -46,7 +46,7 @@ class Foliage {
     for (int b = j - 2; b <= j + 2; ++b)
       for (int a = i - 2; a <= i + 2; ++a) {
         const double height = drawn(a, b, 9);
-        if (height <= highest || drawn(a, b, 8) > 0.72) continue;
+        if (height <= highest || drawn(a, b, 8) > 0.58) continue;
         const Leaf leaf = leafAt(a, b);
         const Place place = placeOn(leaf, x, y);
         if (!covers(leaf, place)) continue;

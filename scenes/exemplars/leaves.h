@@ -8,7 +8,7 @@ namespace fluidtex::exemplars {
 
 struct Leaves {
   int size = 512;   // pixels, width and height
-  int across = 15;  // places for a leaf, across
+  int across = 22;  // places for a leaf, across
   int samples = 3;  // a pixel's side, for anti-aliasing
   std::uint64_t seed = 41;
 };

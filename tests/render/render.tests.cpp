@@ -24,6 +24,7 @@ Options smallPicture(int width, int height, int samples) {
   options.width = width;
   options.height = height;
   options.samples = samples;
+  options.noise = 0.0;
   return options;
 }
 

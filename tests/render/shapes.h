@@ -67,6 +67,7 @@ inline Options evenLight(int width, int height, int samples) {
   options.width = width;
   options.height = height;
   options.samples = samples;
+  options.noise = 0.0;
   options.gloss = 0.0;
   options.light.sunColor = Vec3d(0.0);
   options.light.skyColor = options.light.horizonColor = Vec3d(1.0);

@@ -24,6 +24,7 @@ struct Scene {
     options.width = 120;
     options.height = 68;
     options.samples = samples;
+    options.noise = 0.0;
     options.surroundings.ground = options.surroundings.tank = false;
   }
 

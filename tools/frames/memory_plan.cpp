@@ -12,7 +12,7 @@ constexpr double kBytesProgram = 250e6;
 // with all four then.
 constexpr double kBytesPerCutPoint = 100.0, kBytesPerBlendedPoint = 400.0;
 // Three floats, three bytes, and those again packed.
-constexpr double kRenderBytesPerPixel = 18.0;
+constexpr double kRenderBytesPerPixel = 130.0;
 
 double exportBytesPerPoint(const std::vector<Format>& formats, JointsAs joints) {
   bool cut = false, blended = false;

@@ -16,6 +16,7 @@ constexpr double kFirst = 68e-6, kFirstWay = 7.6e-6;  // a point
 constexpr double kLater = 22e-6, kLaterWay = 8.3e-6;  // a point, half of them renewed
 constexpr double kTable = 11e-6;                      // a pixel of the exemplar and way
 constexpr double kPath = 0.47e-6;                     // with two bounces
+constexpr double kSmooth = 2e-6;                      // a pixel
 // Of what more threads could save.
 constexpr double kUsed = 0.8;
 // Liquid that has fallen from the top of the domain, and its splash.
@@ -25,6 +26,14 @@ constexpr double kMuchLonger = 1.5;
 
 int waysOf(const texture::OrientationOptions& orientation) {
   return orientation.symmetry * (orientation.mirrored ? 2 : 1);
+}
+
+// Of a pixel: shipped scenes took that many before their noise was below its bound.
+double pathsOf(const render::Options& render) {
+  constexpr double kFirst = 16.0, kAtNoiseOne = 8e-4;
+  const double enough =
+      render.noise > 0.0 ? kFirst + kAtNoiseOne / (render.noise * render.noise) : double(render.samples);
+  return std::min(double(render.samples), enough);
 }
 
 // As many as the fastest cell crossed needs.
@@ -48,7 +57,8 @@ PlannedTime plannedTime(const scenes::Scene& scene, const pipeline::LiquidPlan& 
   plan.texture = share * points * (kPoint + (textured ? kLater + kLaterWay * ways : 0.0));
   plan.firstTexture = share * (points * (kPoint + (textured ? kFirst + kFirstWay * ways : 0.0)) +
                                (textured ? kTable * ways * pixels : 0.0));
-  plan.render = share * kPath * scene.render.width * scene.render.height * scene.render.samples;
+  plan.render = share * scene.render.width * scene.render.height *
+                (kPath * pathsOf(scene.render) + (scene.render.smooth ? kSmooth : 0.0));
   return plan;
 }
 

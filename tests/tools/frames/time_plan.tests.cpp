@@ -15,8 +15,13 @@ TEST_CASE("time plan: grows with cells, points, ways and paths, and shrinks with
   CHECK(plannedTime(scene, liquid, 80000, 65536, 1).texture == Approx(2.0 * one.texture));
   CHECK(plannedTime(scene, liquid, 40000, 65536, 8).frame() < one.frame() / 4.0);
   scenes::Scene other = scene;
+  other.render.noise = 0.0;
+  other.render.smooth = false;
+  const double all = plannedTime(other, liquid, 40000, 65536, 1).render;
   other.render.samples *= 4;
-  CHECK(plannedTime(other, liquid, 40000, 65536, 1).render == Approx(4.0 * one.render));
+  CHECK(plannedTime(other, liquid, 40000, 65536, 1).render == Approx(4.0 * all));
+  other.render.noise = 0.01;
+  CHECK(plannedTime(other, liquid, 40000, 65536, 1).render == Approx(0.75 * all));  // 24 of 32 paths
   other = scene;
   other.sim.resolution *= 2;  // twice the substeps, of as many cells
   CHECK(plannedTime(other, liquid, 40000, 65536, 1).simulate == Approx(2.0 * one.simulate));
