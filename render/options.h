@@ -52,13 +52,16 @@ enum class MaterialKind {
 
 struct LiquidMaterial {
   MaterialKind kind = MaterialKind::coated;
-  double index = 1.333;               // water: of refraction
-  Vec3d absorption{1.2, 0.35, 0.25};  // water: share of red, green, blue lost a metre, exp(-absorption x)
-  double cover = 1.0;                 // water: how far the texture hides it where its alpha is 1
-  std::string heat;  // lava: the map, 0..1, that says how hot the texture is; empty: all of it
-  double coldest = 800, hottest = 1450;  // lava: kelvin where that map is 0 and 1; glows as a black body
-  double glow = 3.0;                     // lava: radiance of the hottest, as luminance
-};
+  double index = 1.333;  // water: of refraction
+  Vec3d absorption{1.2, 0.35, 0.25 bool glows() const {return kind == MaterialKind::lava && glow > 0.0;
+}
+};                   // namespace fluidtex::render
+double cover = 1.0;  // water: how far the texture hides it where its alpha is 1
+std::string heat;    // lava: the map, 0..1, that says how hot the texture is; empty: all of it
+double coldest = 800, hottest = 1450;  // lava: kelvin where that map is 0 and 1; glows as a black body
+double glow = 3.0;                     // lava: radiance of the hottest, as luminance
+}
+;
 
 struct Options {
   int width = 960, height = 540;
@@ -70,6 +73,7 @@ struct Options {
   double gloss = 1.0;       // strength of the clear coat that makes liquid look wet, 0..1
   double roughness = 0.05;  // of the coat, GGX alpha
   LiquidMaterial material;
+  Bump displacement;  // of values alone, see render/displace.h
   Bump bump;
   double exposure = 1.0;  // picture value = exposure * radiance, compressed above 0.8 to below 1
   Camera camera;

@@ -5,6 +5,7 @@
 #include "render/black_body.h"
 #include "render/bump.h"
 #include "render/develop.h"
+#include "render/displace.h"
 #include "render/surroundings.h"
 #include "render/tile_tracer.h"
 
@@ -63,8 +64,11 @@ std::vector<Vec3f> glowOf(const texture::TexturedSurface& surface, const LiquidM
   return glow;
 }
 
-void buildWorld(World& world, const texture::TexturedSurface& surface, const std::vector<Solid>& solids,
+void buildWorld(World& world, const texture::TexturedSurface& original, const std::vector<Solid>& solids,
                 const Options& options, const View& view) {
+  const bool moves = options.displacement.any() && original.maps.contains(options.displacement.map);
+  if (moves) world.displaced = displaced(original, options.displacement);
+  const texture::TexturedSurface& surface = moves ? world.displaced : original;
   world.options = options;
   world.frame = static_cast<std::uint32_t>(view.frame);
   world.sky = makeSky(options.light);
@@ -90,8 +94,7 @@ void buildWorld(World& world, const texture::TexturedSurface& surface, const std
     stage.index = static_cast<float>(options.material.index);
     stage.absorption = Vec3f(options.material.absorption);
   }
-  if (options.material.kind == MaterialKind::lava && options.material.glow > 0.0)
-    stage.emission = glowOf(surface, options.material);
+  if (options.material.glows()) stage.emission = glowOf(surface, options.material);
   stage.seeThrough = view.seeThrough || std::any_of(surface.color.begin(), surface.color.end(),
                                                     [](const Vec4f& color) { return color[3] < 1.0f; });
 

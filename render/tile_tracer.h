@@ -17,6 +17,7 @@
 namespace fluidtex::render {
 
 struct World {
+  texture::TexturedSurface displaced;  // the liquid, where it is
   Stage stage;
   EmbreeScene scene;
   Sky sky;

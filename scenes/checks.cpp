@@ -29,18 +29,26 @@ bool namesMap(const Scene& scene, const std::string& name, const std::string& ke
   return false;
 }
 
-void checkBump(const Scene& scene, Reader& reader) {
-  const render::Bump& bump = scene.render.bump;
-  const std::string path = "render.bump", key = path + ".map";
+// key: of the relief's table. A relief that moves the surface needs values.
+void checkRelief(const Scene& scene, const render::Bump& relief, const std::string& path, bool moves,
+                 Reader& reader) {
+  const std::string key = path + ".map";
   if (!reader.clean(key) || !reader.clean(path + ".height") || !reader.clean("texture.map")) return;
-  if (bump.map.empty() && reader.given(path + ".height") && bump.height != 0.0)
+  if (relief.map.empty() && reader.given(path + ".height") && relief.height != 0.0)
     reader.fault(
         path + ".height", "is of no use without a map",
-        "give map = \"height\", or whatever the [[texture.map]] is named that holds heights or normals");
-  if (!bump.any()) return;
-  namesMap(
-      scene, bump.map, key, [](texture::MapHolds holds) { return holds != texture::MapHolds::directions; },
-      "directions, which make no relief", "values or of normals", reader);
+        std::string("give map = \"height\", or whatever the [[texture.map]] is named that holds heights") +
+            (moves ? "" : " or normals"));
+  if (!relief.any()) return;
+  if (moves)
+    namesMap(
+        scene, relief.map, key, [](texture::MapHolds holds) { return holds == texture::MapHolds::values; },
+        "vectors, which move nothing", "values", reader);
+  else
+    namesMap(
+        scene, relief.map, key,
+        [](texture::MapHolds holds) { return holds != texture::MapHolds::directions; },
+        "directions, which make no relief", "values or of normals", reader);
 }
 
 void checkMaterial(const Scene& scene, Reader& reader) {
@@ -89,7 +97,8 @@ void checkPicture(const Scene& scene, Reader& reader) {
                    "give even numbers, as the video needs, for example " + std::to_string(side + 1));
     }
   }
-  checkBump(scene, reader);
+  checkRelief(scene, render.displacement, "render.displacement", true, reader);
+  checkRelief(scene, render.bump, "render.bump", false, reader);
   checkMaterial(scene, reader);
 }
 

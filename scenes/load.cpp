@@ -86,7 +86,9 @@ std::vector<Node> readOverrides(const Overrides& overrides, Faults& faults) {
     layers.insert(layers.begin(), layer("animation", byTime.value));
     const Node flat{Table{{"height", Node{0.0, origin}}}, origin};
     const Node cold{Table{{"glow", Node{0.0, origin}}}, origin};
-    const Node plain{Table{{"bump", Node{flat.value, origin}}, {"material", Node{cold.value, origin}}},
+    const Node plain{Table{{"bump", Node{flat.value, origin}},
+                           {"displacement", Node{flat.value, origin}},
+                           {"material", Node{cold.value, origin}}},
                      origin};
     layers.insert(layers.begin(), Node{Table{{"render", Node{plain.value, origin}}}, origin});
   }

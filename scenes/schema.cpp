@@ -329,10 +329,14 @@ void describePicture(Visitor& visitor, render::Options& render) {
       visitor.number("hottest", render.material.hottest, {.low = 300.0, .high = 1e4});
       visitor.number("glow", render.material.glow, kNotNegative);
     });
-    visitor.table("bump", [&] {
-      visitor.text("map", render.bump.map);
-      visitor.number("height", render.bump.height, kAny);
-    });
+    const auto relief = [&](const char* key, render::Bump& relief) {
+      visitor.table(key, [&] {
+        visitor.text("map", relief.map);
+        visitor.number("height", relief.height, kAny);
+      });
+    };
+    relief("displacement", render.displacement);
+    relief("bump", render.bump);
     visitor.number("exposure", render.exposure, kPositive);
     visitor.flag("ground", render.surroundings.ground);
     visitor.vector("ground_color", render.surroundings.groundColor, kShare);

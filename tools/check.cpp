@@ -13,7 +13,7 @@
 #include "tools/base/work.h"
 #include "tools/check_cache.h"
 #include "tools/common_options.h"
-#include "tools/frames/check_relief.h"
+#include "tools/frames/check_drawn_maps.h"
 #include "tools/frames/color_between.h"
 #include "tools/frames/disk_plan.h"
 #include "tools/frames/exemplar_fit.h"
@@ -106,7 +106,7 @@ void printPlan(const scenes::Scene& scene, const CheckOptions& options) {
   const texture::Exemplar exemplar =
       texture::loadExemplar(scene.texture.exemplar, scene.texture.synthesis, scene.texture.surface.levels);
   const std::optional<texture::Detail> detail = detailOf(scene.texture);
-  checkRelief(scene.render.bump, exemplar);
+  checkDrawnMaps(scene.render, exemplar);
   if (options.quiet) return;
   std::vector<ComparedFrames> compared;
   if (scene.motion.flow == sim::MotionKind::files)

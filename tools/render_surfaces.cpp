@@ -144,14 +144,9 @@ class Drawing {
       nowAt(kOnPicture, frame);
       if (detail && moves) detail = detailOfFrame(from, frame, detail->toroidal);
       texture::TexturedSurface surface = readPly(surfaceOf(from, frame), width, height);
-      if (m_scene.render.bump.any() && !surface.empty()) {
-        if (!hasMap(surface, m_scene.render.bump))
-          throw UsageError(
-              fmt::format("{0}: has no {1} of one number or of normals, which render.bump.map names; "
-                          "fluidtex apply {2} {1}=IMAGE adds it from a grey picture",
-                          surfaceOf(from, frame).string(), m_scene.render.bump.map, from.string()));
+      if (!surface.empty()) checkMaps(from, surfaceOf(from, frame), surface);
+      if ((m_scene.render.bump.any() || m_scene.render.displacement.any()) && !surface.empty())
         surface.spacing = spacingOf(from, surface, frame);
-      }
       texture::Joints joints;
       if (detail && !surface.empty()) {
         if (lacksGradients(surface)) {
@@ -160,13 +155,28 @@ class Drawing {
         }
         joints = texture::findJoints(surface, detail->toroidal);
       }
-      const double turned = m_scene.frames > 1 ? double(frame - 1) / (m_scene.frames - 1) : 0.0;
       take(frame, render::render(surface, solids.at((frame - 1) / m_scene.sim.frameRate), m_scene.render,
-                                 {m_scene.sim.size, turned, frame, colorBetween(detail, surface, joints),
-                                  detail && detail->seeThrough, m_scene.domainOrigin,
-                                  m_scene.texture.synthesis.method != texture::Method::none},
+                                 viewOf(m_scene, frame, detail, surface, joints),
                                  [&](double part) { show(frame, part); }));
     }
+  }
+
+  // The surface has the maps that it is drawn by.
+  void checkMaps(const fs::path& from, const fs::path& file, const texture::TexturedSurface& surface) const {
+    const render::Options& render = m_scene.render;
+    const auto lacks = [&](const char* key, const std::string& map, const char* kind) {
+      throw UsageError(
+          fmt::format("{0}: has no {1} of {2}, which {3} names; fluidtex apply {4} {1}=IMAGE adds "
+                      "it from a grey picture",
+                      file.string(), map, kind, key, from.string()));
+    };
+    if (render.bump.any() && !hasMap(surface, render.bump))
+      lacks("render.bump.map", render.bump.map, "one number or of normals");
+    if (render.displacement.any() && !surface.maps.contains(render.displacement.map))
+      lacks("render.displacement.map", render.displacement.map, "one number");
+    if (render.material.glows() && !render.material.heat.empty() &&
+        !surface.maps.contains(render.material.heat))
+      lacks("render.material.heat", render.material.heat, "one number");
   }
 
   void drawInBlender() {

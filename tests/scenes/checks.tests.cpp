@@ -155,6 +155,12 @@ TEST_CASE("scene faults: settings that do not go together", "[scenes]") {
        "s.toml:8:1: error: render.material.hottest: the hottest, 500 K, is not above the coldest, 800 K; "
        "give "
        "hottest a larger number"},
+      {"[render.displacement]\nheight = 2",
+       "s.toml:7:1: error: render.displacement.height: is of no use without a map; give map = \"height\", or "
+       "whatever the [[texture.map]] is named that holds heights"},
+      {"[[texture.map]]\nname = 'a'\nfile = 'e.png'\nholds = 'normals'\n[render.displacement]\nmap = 'a'",
+       "s.toml:11:1: error: render.displacement.map: \"a\" holds vectors, which move nothing; give a map of "
+       "values"},
       {"[render.bump]\nheight = 2",
        "s.toml:7:1: error: render.bump.height: is of no use without a map; give map = \"height\", or "
        "whatever the "

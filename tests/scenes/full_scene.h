@@ -248,6 +248,9 @@ heat = "bumps"
 coldest = 700
 hottest = 1500
 glow = 2
+[render.displacement]
+map = "bumps"
+height = 1.5
 [render.bump]
 map = "bumps"
 height = 2.5

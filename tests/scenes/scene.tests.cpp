@@ -209,6 +209,8 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(render.material.coldest == 700.0);
   CHECK(render.material.hottest == 1500.0);
   CHECK(render.material.glow == 2.0);
+  CHECK(render.displacement.map == "bumps");
+  CHECK(render.displacement.height == 1.5);
   CHECK(render.bump.map == "bumps");
   CHECK(render.bump.height == 2.5);
   CHECK(render.exposure == 1.25);

@@ -80,6 +80,7 @@ TEST_CASE("scene: the resolved scene is the same wherever the file is named from
                   "texture.map=[{ name = 'height', file = '../e.png', holds = 'normals' }, "
                   "{ name = 'bumps', file = '../e.png', weight = 0.5 }]",
                   "render.bump.height=2.5",
+                  "render.displacement.height=1.5",
                   "render.material.glow=2"};
   const std::string relative = loadScene("../s.toml").resolved,
                     chosen = loadScene("../s.toml", exemplar).resolved;

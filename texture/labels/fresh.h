@@ -1,8 +1,8 @@
 // Fresh surface, whose transported texture has low trust, and droplets, too small to be textured.
 #pragma once
 
-#include "texture/options.h"
 #include "texture/mesh/vertex_graph.h"
+#include "texture/options.h"
 #include "texture/surface.h"
 
 #include <cstdint>

@@ -50,6 +50,10 @@ def set_up(asked):
     if liquid.fluidtex.problem:
         print(f"warning: {liquid.fluidtex.problem}", flush=True)
 
+    kind = render.get("material", {}).get("kind", "coated")
+    if kind != "coated":
+        print(f'warning: Cycles draws the liquid coated, not as render.material.kind = "{kind}"', flush=True)
+
     current.render.engine, current.cycles.device = "CYCLES", "CPU"
     current.cycles.samples = render["samples"]
     current.cycles.use_denoising = False

@@ -46,4 +46,17 @@ render::ColorBetween colorBetween(const std::optional<texture::Detail>& detail,
   };
 }
 
+render::View viewOf(const scenes::Scene& scene, int frame, const std::optional<texture::Detail>& detail,
+                    const texture::TexturedSurface& surface, const texture::Joints& joints) {
+  render::View view;
+  view.domainSize = scene.sim.size;
+  view.domainOrigin = scene.domainOrigin;
+  view.progress = scene.frames > 1 ? double(frame - 1) / (scene.frames - 1) : 0.0;
+  view.frame = frame;
+  view.colorBetween = colorBetween(detail, surface, joints);
+  view.seeThrough = detail && detail->seeThrough;
+  view.textured = scene.texture.synthesis.method != texture::Method::none;
+  return view;
+}
+
 }  // namespace fluidtex::tools

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/render.h"
+#include "scenes/scene.h"
 #include "texture/shown/color_between.h"
 
 #include <filesystem>
@@ -24,5 +25,9 @@ texture::Detail detailOfFrame(const std::filesystem::path& out, int frame, bool 
 // result.
 render::ColorBetween colorBetween(const std::optional<texture::Detail>& detail,
                                   const texture::TexturedSurface& surface, const texture::Joints& joints);
+
+// What is in view in a frame of a scene; colours between the points as colorBetween().
+render::View viewOf(const scenes::Scene& scene, int frame, const std::optional<texture::Detail>& detail,
+                    const texture::TexturedSurface& surface, const texture::Joints& joints);
 
 }  // namespace fluidtex::tools

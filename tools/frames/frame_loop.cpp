@@ -14,7 +14,7 @@
 #include "tools/formats/exemplar_picture.h"
 #include "tools/formats/ply.h"
 #include "tools/formats/read_ply.h"
-#include "tools/frames/check_relief.h"
+#include "tools/frames/check_drawn_maps.h"
 #include "tools/frames/color_between.h"
 #include "tools/frames/disk_plan.h"
 #include "tools/frames/earlier_exports.h"
@@ -85,7 +85,7 @@ class FrameLoop {
         m_texturing(pipeline::makeTexturing(scene, kept())),
         m_solids(scene.sim),
         m_reportFile(options.out) {
-    if (options.render) checkRelief(scene.render.bump, m_texturing.synthesizer.exemplar);
+    if (options.render) checkDrawnMaps(scene.render, m_texturing.synthesizer.exemplar);
     m_surface.spacing = scene.texture.spacing;
     m_report.scene = Json::parse(scene.resolved);
     m_report.seed = scene.seed;
@@ -302,14 +302,10 @@ class FrameLoop {
           readPly(surfaceFile, m_surface.exemplarWidth, m_surface.exemplarHeight);
       surface.spacing = m_surface.spacing;
       const texture::Joints joints = jointsOf(m_scene.texture, surface);
-      const double progress = m_scene.frames > 1 ? double(frame - 1) / (m_scene.frames - 1) : 0.0;
       if (m_detail && scenes::showsMovingPicture(m_scene))
         m_detail = detailOfFrame(m_options.out, frame, m_scene.texture.exemplar.toroidal);
       picture = render::render(surface, m_solids.at(time), m_scene.render,
-                               {m_scene.sim.size, progress, frame, colorBetween(m_detail, surface, joints),
-                                m_detail && m_detail->seeThrough, m_scene.domainOrigin,
-                                m_scene.texture.synthesis.method != texture::Method::none},
-                               reporter("render"));
+                               viewOf(m_scene, frame, m_detail, surface, joints), reporter("render"));
     }
     pipeline::Stopwatch watch(seconds.write);
     writeAtomically(m_options.out / "frames" / (render::frameName(frame) + ".png"),
