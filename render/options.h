@@ -52,16 +52,15 @@ enum class MaterialKind {
 
 struct LiquidMaterial {
   MaterialKind kind = MaterialKind::coated;
-  double index = 1.333;  // water: of refraction
-  Vec3d absorption{1.2, 0.35, 0.25 bool glows() const {return kind == MaterialKind::lava && glow > 0.0;
-}
-};                   // namespace fluidtex::render
-double cover = 1.0;  // water: how far the texture hides it where its alpha is 1
-std::string heat;    // lava: the map, 0..1, that says how hot the texture is; empty: all of it
-double coldest = 800, hottest = 1450;  // lava: kelvin where that map is 0 and 1; glows as a black body
-double glow = 3.0;                     // lava: radiance of the hottest, as luminance
-}
-;
+  double index = 1.333;               // water: of refraction
+  Vec3d absorption{1.2, 0.35, 0.25};  // water: 1/m, exp(-absorption x) of red, green, blue is left after x
+  double cover = 1.0;                 // water: how far the texture hides it where its alpha is 1
+  std::string heat;                   // lava: the map, 0..1, that says how hot it is; empty: all of it is
+  double coldest = 800.0;             // lava: kelvin where that map is 0; it glows as a black body
+  double hottest = 1450.0;            // lava: where it is 1
+  double glow = 3.0;                  // lava: radiance of the hottest, as luminance
+  bool glows() const { return kind == MaterialKind::lava && glow > 0.0; }
+};
 
 struct Options {
   int width = 960, height = 540;

@@ -156,7 +156,7 @@ class Drawing {
         joints = texture::findJoints(surface, detail->toroidal);
       }
       take(frame, render::render(surface, solids.at((frame - 1) / m_scene.sim.frameRate), m_scene.render,
-                                 viewOf(m_scene, frame, detail, surface, joints),
+                                 viewOfFrame(m_scene, frame, detail, surface, joints),
                                  [&](double part) { show(frame, part); }));
     }
   }

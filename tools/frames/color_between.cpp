@@ -46,8 +46,8 @@ render::ColorBetween colorBetween(const std::optional<texture::Detail>& detail,
   };
 }
 
-render::View viewOf(const scenes::Scene& scene, int frame, const std::optional<texture::Detail>& detail,
-                    const texture::TexturedSurface& surface, const texture::Joints& joints) {
+render::View viewOfFrame(const scenes::Scene& scene, int frame, const std::optional<texture::Detail>& detail,
+                         const texture::TexturedSurface& surface, const texture::Joints& joints) {
   render::View view;
   view.domainSize = scene.sim.size;
   view.domainOrigin = scene.domainOrigin;

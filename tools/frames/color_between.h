@@ -27,7 +27,7 @@ render::ColorBetween colorBetween(const std::optional<texture::Detail>& detail,
                                   const texture::TexturedSurface& surface, const texture::Joints& joints);
 
 // What is in view in a frame of a scene; colours between the points as colorBetween().
-render::View viewOf(const scenes::Scene& scene, int frame, const std::optional<texture::Detail>& detail,
-                    const texture::TexturedSurface& surface, const texture::Joints& joints);
+render::View viewOfFrame(const scenes::Scene& scene, int frame, const std::optional<texture::Detail>& detail,
+                         const texture::TexturedSurface& surface, const texture::Joints& joints);
 
 }  // namespace fluidtex::tools

@@ -305,7 +305,7 @@ class FrameLoop {
       if (m_detail && scenes::showsMovingPicture(m_scene))
         m_detail = detailOfFrame(m_options.out, frame, m_scene.texture.exemplar.toroidal);
       picture = render::render(surface, m_solids.at(time), m_scene.render,
-                               viewOf(m_scene, frame, m_detail, surface, joints), reporter("render"));
+                               viewOfFrame(m_scene, frame, m_detail, surface, joints), reporter("render"));
     }
     pipeline::Stopwatch watch(seconds.write);
     writeAtomically(m_options.out / "frames" / (render::frameName(frame) + ".png"),

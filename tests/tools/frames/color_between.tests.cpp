@@ -167,6 +167,7 @@ TEST_CASE("color between: the picture's colour at the place in the triangle that
   CHECK(colorBetween(detail, surface, {})(0, {1.0f, 0.0f, 0.0f}) == Vec4f(0.0f, 0.0f, 0.0f, 1.0f));
   CHECK(colorBetween(detail, surface, {})(0, {0.0f, 1.0f, 0.0f}) == Vec4f(1.0f, 1.0f, 1.0f, 1.0f));
 }
+
 TEST_CASE("view: of the frame, and bare where nothing is textured", "[tools]") {
   scenes::Scene scene;
   scene.sim.size = {2, 1, 3};
@@ -174,7 +175,7 @@ TEST_CASE("view: of the frame, and bare where nothing is textured", "[tools]") {
   scene.frames = 5;
   const texture::TexturedSurface surface;
   const texture::Joints joints;
-  const render::View view = tools::viewOf(scene, 2, std::nullopt, surface, joints);
+  const render::View view = tools::viewOfFrame(scene, 2, std::nullopt, surface, joints);
   CHECK(view.domainSize == render::Vec3d(2, 1, 3));
   CHECK(view.domainOrigin == render::Vec3d(-1, 0, 0));
   CHECK(view.progress == 0.25);
@@ -184,6 +185,6 @@ TEST_CASE("view: of the frame, and bare where nothing is textured", "[tools]") {
   CHECK(view.textured);
   scene.texture.synthesis.method = texture::Method::none;
   scene.frames = 1;
-  CHECK_FALSE(tools::viewOf(scene, 1, std::nullopt, surface, joints).textured);
-  CHECK(tools::viewOf(scene, 1, std::nullopt, surface, joints).progress == 0.0);
+  CHECK_FALSE(tools::viewOfFrame(scene, 1, std::nullopt, surface, joints).textured);
+  CHECK(tools::viewOfFrame(scene, 1, std::nullopt, surface, joints).progress == 0.0);
 }
