@@ -2,6 +2,7 @@
 
 #include "tests/texture/exemplar/test_images.h"
 #include "tests/texture/measure/sheet.h"
+#include "texture/orientation/tangent.h"
 
 #include <catch2/catch.hpp>
 

@@ -132,7 +132,7 @@ TEST_CASE("connection: turning the axes turns the edges the other way and nothin
 TEST_CASE("connection: curvature sums to the Euler characteristic", "[texture]") {
   // The angle by which a vector is turned on its way around each triangle, summed over the closed surface, is
   // 2 pi chi; the sign is that of the angle in (d, b), which runs clockwise seen from outside.
-  const std::vector<std::pair<Named, int>> cases{{{"sphere", sphereMesh(10)}, 2},
+  const std::vector<std::pair<NamedMesh, int>> cases{{{"sphere", sphereMesh(10)}, 2},
                                                  {{"box", boxMesh({0, 0, 0}, {1, 1, 1}, {4, 4, 4})}, 2},
                                                  {{"torus", torusMesh(40, 20)}, 0}};
   for (const auto& [named, chi] : cases) {
