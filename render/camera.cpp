@@ -9,6 +9,15 @@ Vec3f CameraRays::direction(float x, float y) const {
   return normalized(forward + right * (x - center[0]) + down * (y - center[1]));
 }
 
+CameraRays::FromLens CameraRays::fromLens(float x, float y, const Vec2f& place) const {
+  const Vec3f straight = direction(x, y);
+  if (lensRadius <= 0.0f) return {origin, straight};
+  const Vec3f sharp = origin + straight * (focus / straight.dot(forward));
+  const Vec3f start =
+      origin + normalized(right) * (lensRadius * place[0]) + normalized(down) * (lensRadius * place[1]);
+  return {start, normalized(sharp - start)};
+}
+
 CameraRays makeCamera(const Camera& camera, int width, int height, double progress) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   if (!(camera.fov > 0.0 && camera.fov < 180.0))
@@ -32,6 +41,8 @@ CameraRays makeCamera(const Camera& camera, int width, int height, double progre
   rays.forward = Vec3f(forward);
   rays.right = Vec3f(right * step);
   rays.down = Vec3f(down * step);
+  rays.lensRadius = 0.5f * static_cast<float>(camera.aperture);
+  rays.focus = static_cast<float>(camera.focus > 0.0 ? camera.focus : distance);
   rays.center = Vec2f(0.5f * static_cast<float>(width), 0.5f * static_cast<float>(height));
   return rays;
 }

@@ -18,6 +18,7 @@ texture::TexturedSurface displaced(const texture::TexturedSurface& surface, cons
   result.triangles = surface.triangles;
   result.color = surface.color;
   result.contact = surface.contact;
+  result.velocity = surface.velocity;
   result.maps = surface.maps;
   result.vectors = surface.vectors;
   result.normals = bumpedNormals(surface, displacement);

@@ -6,6 +6,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <array>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -49,6 +50,7 @@ RTCRay makeRay(const Ray& ray) {
   r.org_x = ray.origin[0], r.org_y = ray.origin[1], r.org_z = ray.origin[2];
   r.dir_x = ray.direction[0], r.dir_y = ray.direction[1], r.dir_z = ray.direction[2];
   r.tfar = std::numeric_limits<float>::infinity();
+  r.time = ray.time;
   r.mask = 0xffffffffu;
   return r;
 }
@@ -62,7 +64,7 @@ void fillRay(RTCRay8& packet, std::size_t lane, const Ray& ray) {
   packet.dir_z[lane] = ray.direction[2];
   packet.tnear[lane] = 0.0f;
   packet.tfar[lane] = std::numeric_limits<float>::infinity();
-  packet.time[lane] = 0.0f;
+  packet.time[lane] = ray.time;
   packet.mask[lane] = 0xffffffffu;
   packet.id[lane] = 0;
   packet.flags[lane] = 0;
@@ -97,16 +99,34 @@ EmbreeScene::~EmbreeScene() = default;
 
 std::uint32_t EmbreeScene::add(const std::vector<Vec3f>& positions,
                                const std::vector<texture::Vec3I>& triangles) {
+  return add(std::array{&positions}, triangles);
+}
+
+std::uint32_t EmbreeScene::addMoving(const std::vector<Vec3f>& from, const std::vector<Vec3f>& to,
+                                     const std::vector<texture::Vec3I>& triangles) {
+  return add(std::array{&from, &to}, triangles);
+}
+
+std::uint32_t EmbreeScene::add(std::span<const std::vector<Vec3f>* const> moments,
+                               const std::vector<texture::Vec3I>& triangles) {
   const std::uint32_t number = m_handles->added++;
   if (triangles.empty()) return number;
   RTCDevice device = m_handles->device;
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  void* vertexBuffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                               sizeof(Vec3f), positions.size());
+  rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(moments.size()));
+  bool complete = true;
+  for (std::size_t moment = 0; moment < moments.size(); ++moment) {
+    const std::vector<Vec3f>& positions = *moments[moment];
+    void* buffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(moment),
+                                           RTC_FORMAT_FLOAT3, sizeof(Vec3f), positions.size());
+    if (buffer)
+      std::memcpy(buffer, positions.data(), positions.size() * sizeof(Vec3f));
+    else
+      complete = false;
+  }
   void* indexBuffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                               sizeof(texture::Vec3I), triangles.size());
-  if (vertexBuffer && indexBuffer) {
-    std::memcpy(vertexBuffer, positions.data(), positions.size() * sizeof(Vec3f));
+  if (complete && indexBuffer) {
     std::memcpy(indexBuffer, triangles.data(), triangles.size() * sizeof(texture::Vec3I));
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(m_handles->scene, geometry, number);

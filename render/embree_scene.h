@@ -18,6 +18,7 @@ struct Ray {
   std::uint32_t geometry = kNothing;  // in the order of addition, or kNothing
   std::uint32_t triangle = kNothing;
   float u = 0.0f, v = 0.0f;  // barycentric weights of the triangle's second and third corner
+  float time = 0.0f;         // 0..1, of the way that moving meshes go
 
   bool hit() const { return geometry != kNothing; }
 };
@@ -36,6 +37,10 @@ class EmbreeScene {
   // std::runtime_error for other errors of Embree; so do the constructor and commit().
   std::uint32_t add(const std::vector<Vec3f>& positions, const std::vector<texture::Vec3I>& triangles);
 
+  // The same of a mesh whose vertices go straight from one place, at time 0, to another, at time 1.
+  std::uint32_t addMoving(const std::vector<Vec3f>& from, const std::vector<Vec3f>& to,
+                          const std::vector<texture::Vec3I>& triangles);
+
   // Builds the structure, on all threads; to be called once after the last add(). The result does not depend
   // on the number of threads.
   void commit();
@@ -48,6 +53,8 @@ class EmbreeScene {
 
  private:
   struct Handles;
+  std::uint32_t add(std::span<const std::vector<Vec3f>* const> moments,
+                    const std::vector<texture::Vec3I>& triangles);
   std::unique_ptr<Handles> m_handles;
 };
 

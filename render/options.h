@@ -17,6 +17,9 @@ struct Camera {
   // Degrees the camera turns over the whole animation, counter-clockwise seen from above, around the vertical
   // axis through `at`.
   double turn = 0.0;
+  double aperture = 0.0;  // metres across the lens; 0: all is sharp
+  double focus = 0.0;     // metres from the lens to what is sharp; 0: as far as `at`
+  double shutter = 0.0;   // how much of a frame it is open, around the frame's moment; 0: nothing is blurred
 };
 
 // With these defaults a white matt surface that faces the sun under the open sky has radiance 1: at exposure

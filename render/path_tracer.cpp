@@ -98,7 +98,17 @@ void buildWorld(World& world, const texture::TexturedSurface& original, const st
   stage.seeThrough = view.seeThrough || std::any_of(surface.color.begin(), surface.color.end(),
                                                     [](const Vec4f& color) { return color[3] < 1.0f; });
 
-  world.scene.add(surface.positions, surface.triangles);
+  if (options.camera.shutter > 0.0 && surface.velocity.size() == surface.positions.size()) {
+    stage.shutter = static_cast<float>(options.camera.shutter / view.frameRate);
+    std::vector<Vec3f> before = surface.positions, after = surface.positions;
+    for (std::size_t v = 0; v < before.size(); ++v) {
+      before[v] -= surface.velocity[v] * (0.5f * stage.shutter);
+      after[v] += surface.velocity[v] * (0.5f * stage.shutter);
+    }
+    world.scene.addMoving(before, after, surface.triangles);
+  } else {
+    world.scene.add(surface.positions, surface.triangles);
+  }
   for (const Mesh& mesh : stage.meshes) world.scene.add(mesh.positions, mesh.triangles);
   world.scene.commit();
 }

@@ -36,6 +36,7 @@ struct View {
   ColorBetween colorBetween;  // empty: the vertices' colours, interpolated
   bool seeThrough = false;    // colorBetween may give alpha below 1
   Vec3d domainOrigin{0.0};    // the domain's lowest corner
+  double frameRate = 24.0;    // frames a second, by which the shutter counts
   bool textured = true;       // else its colours are none, and clear liquid is seen through everywhere
 };
 

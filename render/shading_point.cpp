@@ -13,6 +13,11 @@ constexpr float kStartOff = 2e-5f;
 // Colour of a liquid that carries no texture.
 constexpr float kPlain[3] = {0.25f, 0.42f, 0.55f};
 
+// Seconds from the frame's own moment.
+float awayAt(float shutter, float time) {
+  return shutter * (time - 0.5f);
+}
+
 struct Corners {
   Vec3f p[3];
   Vec3f weights;
@@ -27,6 +32,9 @@ Corners cornersOf(const Stage& stage, const Ray& ray) {
   const texture::Vec3I& triangle = triangles[ray.triangle];
   Corners c;
   for (int k = 0; k < 3; ++k) c.p[k] = positions[triangle[k]];
+  if (liquid && stage.shutter > 0.0f)
+    for (int k = 0; k < 3; ++k)
+      c.p[k] += stage.liquid->velocity[triangle[k]] * awayAt(stage.shutter, ray.time);
   c.weights = Vec3f(1.0f - ray.u - ray.v, ray.u, ray.v);
   c.position = c.p[0] * c.weights[0] + c.p[1] * c.weights[1] + c.p[2] * c.weights[2];
   c.faceNormal = normalized((c.p[1] - c.p[0]).cross(c.p[2] - c.p[0]));

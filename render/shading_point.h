@@ -13,6 +13,7 @@ struct Stage {
   const texture::TexturedSurface* liquid = nullptr;
   std::vector<Mesh> meshes;
   Vec3f domainSize{1.0f}, domainOrigin{0.0f};
+  float shutter = 0.0f;                   // seconds, in which the liquid moves by its velocity; 0: it stands
   float gloss = 1.0f, roughness = 0.05f;  // of the liquid's coat
   bool clear = false;                     // the liquid is: its texture lies on it as far as its alpha says
   float cover = 1.0f;                     // how far it hides the clear liquid where its alpha is 1

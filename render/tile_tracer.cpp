@@ -15,13 +15,28 @@ constexpr int kMostLayers = 32;  // of see-through liquid along one path
 // errors.
 constexpr float kMostGap = 0.03f, kLeastGap = 2e-4f;
 
-// Dimensions of the sample points: the pixel filter, then four a path vertex.
-enum Dimension { kFilter = 0, kChance = 1, kBase = 2, kCoat = 3, kSun = 4, kPerVertex = 4 };
+// Dimensions of the sample points: the pixel filter, the lens, the shutter, then four a path vertex.
+enum Dimension {
+  kFilter = 0,
+  kLens = 1,
+  kShutter = 2,
+  kChance = 3,
+  kBase = 4,
+  kCoat = 5,
+  kSun = 6,
+  kPerVertex = 4
+};
 
 // Weight of a sample drawn with density `pdf` where the other way of sampling would have drawn it with
 // density `other`.
 float powerWeight(float pdf, float other) {
   return pdf > 0.0f ? pdf * pdf / (pdf * pdf + other * other) : 0.0f;
+}
+
+Ray rayAt(float time, const Vec3f& origin, const Vec3f& direction) {
+  Ray ray{origin, direction};
+  ray.time = time;
+  return ray;
 }
 
 // A direction that the smooth normal allows but that runs into the flat triangle is bent to just above it.
@@ -73,8 +88,12 @@ void TileTracer::startPaths(int first, int last) {
     const float y = static_cast<float>(m_tile.y0 + row) + 0.5f;
     for (int sample = first; sample < last; ++sample) {
       const Vec2f offset = tentOffset(m_points[pixel].point(sample, kFilter), kFilterRadius);
-      m_paths.add({m_world.camera.origin, m_world.camera.direction(x + offset[0], y + offset[1])},
-                  {.pixel = static_cast<std::uint16_t>(pixel), .sample = static_cast<std::uint16_t>(sample)});
+      const Vec2f onLens = uniformDisc(m_points[pixel].point(sample, kLens));
+      const auto [origin, direction] = m_world.camera.fromLens(x + offset[0], y + offset[1], onLens);
+      const float time = m_points[pixel].point(sample, kShutter)[0];
+      m_paths.add(rayAt(time, origin, direction), {.time = time,
+                                                   .pixel = static_cast<std::uint16_t>(pixel),
+                                                   .sample = static_cast<std::uint16_t>(sample)});
     }
   }
 }
@@ -138,7 +157,7 @@ bool TileTracer::onWetSolid(Ray& ray, const Vec3f& from) const {
                                                     : std::numeric_limits<float>::max();
   };
   const float diagonal = m_world.stage.domainSize.length();
-  Ray behind{originBehind(m_world.stage, ray), ray.direction};
+  Ray behind = rayAt(ray.time, originBehind(m_world.stage, ray), ray.direction);
   m_world.scene.intersect({&behind, 1}, Coherence::scattered);
   if (!(distanceTo(behind) < kMostGap * diagonal)) {
     behind.direction = -ray.direction;
@@ -164,7 +183,7 @@ bool TileTracer::passClear(Ray& ray, Path& path) const {
     // Between a liquid and what it wets there is no surface that refracts.
     if (touches && !hit.inside && path.inLiquid) {
       ++path.layers;
-      ray = {originBehind(stage, ray), ray.direction};
+      ray = rayAt(ray.time, originBehind(stage, ray), ray.direction);
       continue;
     }
     if (touches && hit.inside && onWetSolid(ray, hit.position)) return true;
@@ -180,10 +199,10 @@ bool TileTracer::passClear(Ray& ray, Path& path) const {
     path.pdf = 0.0f;
     if (chance < opacity + (1.0f - opacity) * boundary.reflected) {
       const Vec3f mirrored = ray.direction - at.normal * (2.0f * ray.direction.dot(at.normal));
-      ray = {at.origin, above(mirrored, at.faceNormal)};
+      ray = rayAt(ray.time, at.origin, above(mirrored, at.faceNormal));
     } else {
       const Vec3f direction = refracted(ray.direction, at.normal, ratio, boundary);
-      ray = {originBehind(stage, ray), above(direction, -at.faceNormal)};
+      ray = rayAt(ray.time, originBehind(stage, ray), above(direction, -at.faceNormal));
       path.inLiquid = !hit.inside;
     }
   }
@@ -249,9 +268,9 @@ void TileTracer::enterLiquid(const Ray& ray, const ShadingPoint& point, Path pat
 void TileTracer::goOn(const Vec3f& origin, const Vec3f& direction, const Path& path) {
   if (!(largest(path.throughput) > 0.0f)) return;
   if (path.depth <= m_world.options.bounces)
-    m_next.add({origin, direction}, path);
+    m_next.add(rayAt(path.time, origin, direction), path);
   else
-    m_skyLight.add({origin, direction}, escaped(direction, path));
+    m_skyLight.add(rayAt(path.time, origin, direction), escaped(direction, path));
 }
 
 void TileTracer::lightFromSun(const ShadingPoint& point, const Axes& axes, const Vec3f& wo,
@@ -266,7 +285,7 @@ void TileTracer::lightFromSun(const ShadingPoint& point, const Axes& axes, const
   const Vec3f light = base + from(evaluateCoat(point.material, wo, wi));
   if (!(largest(light) > 0.0f)) return;
   const Vec3f matt = path.untouched || path.matt ? base : Vec3f(0.0f);
-  m_sunLight.add({point.origin, direction},
+  m_sunLight.add(rayAt(path.time, point.origin, direction),
                  {light, matt, path.untouched ? &PixelSum::sun : &PixelSum::rest, path.pixel, path.inLiquid});
 }
 

@@ -54,7 +54,8 @@ class TileTracer {
  private:
   struct Path {
     Vec3f throughput{1.0f};
-    float pdf = 0.0f;  // with which its direction was drawn; 0: it was mirrored or refracted, or has none
+    float time = 0.0f;  // of its rays
+    float pdf = 0.0f;   // with which its direction was drawn; 0: it was mirrored or refracted, or has none
     std::uint16_t pixel = 0, sample = 0;
     std::uint8_t depth = 0;   // surfaces that have scattered it
     std::uint8_t layers = 0;  // see-through ones that it has met

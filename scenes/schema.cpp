@@ -303,6 +303,9 @@ void describePicture(Visitor& visitor, render::Options& render) {
     visitor.vector("at", render.camera.at, kAny);
     visitor.number("fov", render.camera.fov, {.low = 1.0, .high = 170.0});
     visitor.number("turn", render.camera.turn, kAny);
+    visitor.number("aperture", render.camera.aperture, kNotNegative);
+    visitor.number("focus", render.camera.focus, kNotNegative);
+    visitor.number("shutter", render.camera.shutter, {.low = 0.0, .high = 10.0});
   });
   visitor.table("light", [&] {
     visitor.vector("sun_direction", render.light.sunDirection, kAny);

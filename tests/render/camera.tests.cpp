@@ -80,3 +80,31 @@ TEST_CASE("camera: impossible ones are refused", "[render]") {
     REQUIRE_THROWS_AS(makeCamera(camera, 10, 10, 0.0), std::invalid_argument);
   }
 }
+
+TEST_CASE("camera: what lies in the plane of focus is sharp, whatever place of the lens sees it",
+          "[render]") {
+  Camera camera;
+  camera.from = Vec3d(0.0, -3.0, 1.0);
+  camera.at = Vec3d(0.0, 0.0, 1.0);
+  camera.aperture = 0.2;
+  for (const double focus : {0.0, 1.5}) {
+    camera.focus = focus;
+    const CameraRays rays = makeCamera(camera, 64, 36, 0.0);
+    const float sharp = focus > 0.0 ? 1.5f : 3.0f;
+    for (const Vec2f& place : {Vec2f(0.0f, 0.0f), Vec2f(1.0f, 0.0f), Vec2f(-0.5f, 0.7f)}) {
+      const auto [origin, direction] = rays.fromLens(50.0f, 9.0f, place);
+      CHECK((origin - rays.origin).length() == Approx(0.1f * place.length()).margin(1e-6));
+      CHECK((origin - rays.origin).dot(rays.forward) == Approx(0.0f).margin(1e-6));
+      const Vec3f straight = rays.direction(50.0f, 9.0f);
+      const Vec3f meets = rays.origin + straight * (sharp / straight.dot(rays.forward));
+      CHECK(((meets - origin) - direction * (meets - origin).dot(direction)).length() < 1e-5f);
+    }
+  }
+}
+
+TEST_CASE("camera: a pinhole sees the same from all of its lens", "[render]") {
+  const CameraRays rays = makeCamera(Camera(), 64, 36, 0.0);
+  const auto [origin, direction] = rays.fromLens(10.0f, 20.0f, Vec2f(0.3f, 0.9f));
+  CHECK(origin == rays.origin);
+  CHECK(direction == rays.direction(10.0f, 20.0f));
+}

@@ -95,6 +95,28 @@ TEST_CASE("embree scene: an empty scene blocks nothing", "[render]") {
   for (const Ray& ray : rays) REQUIRE_FALSE(ray.hit());
 }
 
+TEST_CASE("embree: a moving mesh is where it is at the ray's time, others stand", "[render]") {
+  const std::vector<Vec3f> low{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, high{{-1, -1, 4}, {1, -1, 4}, {0, 1, 4}};
+  const std::vector<Vec3f> wall{{5, -1, -9}, {5, 1, -9}, {5, 0, 9}};
+  const std::vector<texture::Vec3I> triangle{{0, 1, 2}};
+  EmbreeScene scene;
+  const std::uint32_t moving = scene.addMoving(low, high, triangle), standing = scene.add(wall, triangle);
+  scene.commit();
+  for (const float time : {0.0f, 0.25f, 0.9f})
+    for (const Coherence coherence : {Coherence::alike, Coherence::scattered}) {
+      // Along x just below and just above where the triangle is: only from above to below it is met.
+      Ray down{Vec3f(0.0f, 0.0f, 4.0f * time + 0.1f), Vec3f(0.0f, 0.0f, -1.0f)};
+      Ray below{Vec3f(0.0f, 0.0f, 4.0f * time - 0.1f), Vec3f(0.0f, 0.0f, -1.0f)};
+      Ray aside{Vec3f(0.0f), Vec3f(1.0f, 0.0f, 0.0f)};
+      std::vector<Ray> rays{down, below, aside};
+      for (Ray& ray : rays) ray.time = time;
+      scene.intersect(rays, coherence);
+      CHECK(rays[0].geometry == moving);
+      CHECK_FALSE(rays[1].hit());
+      CHECK(rays[2].geometry == standing);
+    }
+}
+
 TEST_CASE(
     "embree scene: which triangle is met on a common edge or corner is the same on any number of threads",
     "[render]") {

@@ -157,3 +157,26 @@ TEST_CASE("lava: glows as its map says, and lights what is near", "[render]") {
   const Picture dark = traceRadiance(ball, {}, options, unitView());
   CHECK(meanOf(dark) == 0.0);
 }
+
+TEST_CASE("shutter: liquid that moves is blurred along its way, and shows as much", "[render]") {
+  // A black ball of radius 0.1 that moves by 0.4 m while the shutter is open, in a white sky.
+  auto ball = sphere(Vec3f(0.5f, 0.5f, 0.5f), 0.1f, 3, Vec4f(0.0f, 0.0f, 0.0f, 1.0f));
+  ball.velocity.assign(ball.positions.size(), Vec3f(8.0f, 0.0f, 0.0f));
+  Options options = evenLight(64, 64, 256);
+  options.camera.from = Vec3d(0.5, -20.0, 0.5);
+  options.camera.at = Vec3d(0.5);
+  options.camera.fov = 2.0 * std::atan(0.5 / 20.5) * 180.0 / 3.14159265358979;
+  const double still = 1.0 - meanOf(traceRadiance(ball, {}, options, unitView()));
+  options.camera.shutter = 0.5;
+  View view = unitView();
+  view.frameRate = 10.0;
+  const Picture moved = traceRadiance(ball, {}, options, view);
+  CHECK(1.0 - meanOf(moved) == Approx(still).epsilon(0.02));
+  // In the middle it stands before the sky for a chord of 0.2 m of the way of 0.4 m, at 0.25 m off for a
+  // quarter.
+  CHECK(pixel(moved, 32, 32)[0] == Approx(0.5f).margin(0.06));
+  CHECK(pixel(moved, 32 + 13, 32)[0] == Approx(0.75f).margin(0.08));
+  CHECK(pixel(moved, 32 + 22, 32)[0] == 1.0f);
+  ball.velocity.clear();
+  CHECK(1.0 - meanOf(traceRadiance(ball, {}, options, view)) == Approx(still).epsilon(0.01));
+}

@@ -188,6 +188,9 @@ TEST_CASE("scene: every key arrives where it belongs", "[scenes]") {
   CHECK(render.camera.at == sim::Vec3d(1, 2, 3));
   CHECK(render.camera.fov == 50.0);
   CHECK(render.camera.turn == -90.0);
+  CHECK(render.camera.aperture == 0.01);
+  CHECK(render.camera.focus == 2.0);
+  CHECK(render.camera.shutter == 0.5);
   CHECK(render.light.sunDirection == sim::Vec3d(0, 0, 1));
   CHECK(render.light.sunColor == sim::Vec3d(1, 2, 3));
   CHECK(render.light.sunSize == 1.0);

@@ -53,6 +53,7 @@ render::View viewOfFrame(const scenes::Scene& scene, int frame, const std::optio
   view.domainOrigin = scene.domainOrigin;
   view.progress = scene.frames > 1 ? double(frame - 1) / (scene.frames - 1) : 0.0;
   view.frame = frame;
+  view.frameRate = scene.sim.frameRate;
   view.colorBetween = colorBetween(detail, surface, joints);
   view.seeThrough = detail && detail->seeThrough;
   view.textured = scene.texture.synthesis.method != texture::Method::none;
