@@ -99,16 +99,16 @@ EmbreeScene::~EmbreeScene() = default;
 
 std::uint32_t EmbreeScene::add(const std::vector<Vec3f>& positions,
                                const std::vector<texture::Vec3I>& triangles) {
-  return add(std::array{&positions}, triangles);
+  return addMoments(std::array{&positions}, triangles);
 }
 
 std::uint32_t EmbreeScene::addMoving(const std::vector<Vec3f>& from, const std::vector<Vec3f>& to,
                                      const std::vector<texture::Vec3I>& triangles) {
-  return add(std::array{&from, &to}, triangles);
+  return addMoments(std::array{&from, &to}, triangles);
 }
 
-std::uint32_t EmbreeScene::add(std::span<const std::vector<Vec3f>* const> moments,
-                               const std::vector<texture::Vec3I>& triangles) {
+std::uint32_t EmbreeScene::addMoments(std::span<const std::vector<Vec3f>* const> moments,
+                                      const std::vector<texture::Vec3I>& triangles) {
   const std::uint32_t number = m_handles->added++;
   if (triangles.empty()) return number;
   RTCDevice device = m_handles->device;

@@ -53,8 +53,8 @@ class EmbreeScene {
 
  private:
   struct Handles;
-  std::uint32_t add(std::span<const std::vector<Vec3f>* const> moments,
-                    const std::vector<texture::Vec3I>& triangles);
+  std::uint32_t addMoments(std::span<const std::vector<Vec3f>* const> moments,
+                           const std::vector<texture::Vec3I>& triangles);
   std::unique_ptr<Handles> m_handles;
 };
 

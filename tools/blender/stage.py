@@ -35,9 +35,13 @@ def add_camera(scene):
     data = bpy.data.cameras.new("camera")
     data.sensor_fit, data.angle = "VERTICAL", math.radians(own["fov"])
     data.clip_start, data.clip_end = 1e-3, 1e4
+    at, arm = Vector(own["at"]), Vector(own["from"]) - Vector(own["at"])
+    if own.get("aperture"):
+        data.dof.use_dof = True
+        data.dof.focus_distance = own["focus"] or arm.length
+        data.dof.aperture_fstop = 1e-3 * data.lens / own["aperture"]
     camera = _link("camera", data)
     bpy.context.scene.camera = camera
-    at, arm = Vector(own["at"]), Vector(own["from"]) - Vector(own["at"])
     camera.rotation_mode = "QUATERNION"
     for frame in range(1, frames + 1) if own["turn"] else (1,):
         progress = (frame - 1) / (frames - 1) if frames > 1 else 0.0
