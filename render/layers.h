@@ -15,7 +15,8 @@ struct MattLight {
   std::vector<float> deviation;  // height x width: estimated standard error of the radiance's luminance
 };
 
-// Arrays are height x width, rows from the top, means over a pixel's filter.
+// Arrays are height x width, rows from the top, means over a pixel's filter; positions over the paths that
+// met a surface.
 struct Layers {
   int width = 0, height = 0;
   std::vector<Vec3f> radiance;  // all light, the two below included

@@ -53,6 +53,7 @@ Vec3f visibleNormal(const Vec3f& wo, float alpha, const Vec2f& u) {
 }  // namespace
 
 float coatFresnel(const Material& material, float cosine) {
+  if (material.clear) return boundaryAt(cosine, 1.0f / material.index).reflected;
   return material.gloss > 0.0f ? material.gloss * fresnel(straightOn(material), cosine) : 0.0f;
 }
 

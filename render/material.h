@@ -3,11 +3,11 @@
 //
 //   f(wo, wi) = coat(wo, wi) + (1 - F(wo)) (1 - F(wi)) / (1 - Fmean) * base / pi
 //
-// coat: microfacet reflection, GGX, Fresnel factor F by Schlick's approximation, both times `gloss`. The base
-// loses what the coat reflects, on the way in and on the way out. Fmean, the hemispherical mean of F, lets a
-// white base under a smooth coat reflect exactly all light, so energy is conserved. Directions are in the
-// local axes of the shading normal (+z) and point away from the surface. Base and coat are sampled each by
-// itself.
+// coat: microfacet reflection, GGX, Fresnel factor F by Schlick's approximation, both times `gloss`; of a
+// clear liquid F is exact, and gloss 1. The base loses what the coat reflects, on the way in and on the way
+// out. Fmean, the hemispherical mean of F, lets a white base under a smooth coat reflect exactly all light,
+// so energy is conserved. Directions are in the local axes of the shading normal (+z) and point away from the
+// surface. Base and coat are sampled each by itself.
 #pragma once
 
 #include "render/vec.h"
@@ -42,7 +42,7 @@ struct LobeSample {
 LobeSample sampleBase(const Material& material, const Vec3f& wo, const Vec2f& u);
 LobeSample sampleCoat(const Material& material, const Vec3f& wo, const Vec2f& u);
 
-// Share of light that the coat reflects at this cosine, 0..1, `gloss` included.
+// Share of light that the coat reflects at this cosine, 0..1: F times gloss.
 float coatFresnel(const Material& material, float cosine);
 
 // A smooth boundary between two clear media, hit by light at `cosine`, 0..1, to its normal. `ratio`: index of

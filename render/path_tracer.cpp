@@ -36,6 +36,10 @@ void checkInput(const texture::TexturedSurface& surface, const std::vector<Solid
     throw std::invalid_argument("the surface's colours do not match its vertices");
   if (!surface.normals.empty() && surface.normals.size() != vertices)
     throw std::invalid_argument("the surface's normals do not match its vertices");
+  if (!surface.contact.empty() && surface.contact.size() != vertices)
+    throw std::invalid_argument("what the surface touches does not match its vertices");
+  if (!surface.velocity.empty() && surface.velocity.size() != vertices)
+    throw std::invalid_argument("the surface's velocities do not match its vertices");
   const auto checkCorners = [](const std::vector<texture::Vec3I>& triangles, std::size_t count) {
     for (const texture::Vec3I& t : triangles)
       if (t[0] >= count || t[1] >= count || t[2] >= count)
@@ -62,6 +66,19 @@ std::vector<Vec3f> glowOf(const texture::TexturedSurface& surface, const LiquidM
   for (std::size_t v = 0; v < count; ++v)
     glow[v] = table[static_cast<int>(std::lround(std::clamp(map->second[v], 0.0f, 1.0f) * kSteps))];
   return glow;
+}
+
+// Whether the first surface of the liquid above a place is seen from inside.
+bool isInLiquid(const World& world, const Vec3f& place) {
+  Ray up{place, Vec3f(0.0f, 0.0f, 1.0f)};
+  constexpr int kMostSolids = 64;
+  for (int n = 0; n < kMostSolids; ++n) {
+    world.scene.intersect({&up, 1}, Coherence::scattered);
+    if (!up.hit()) return false;
+    if (up.geometry == kLiquid) return hitOf(world.stage, up).inside;
+    up.origin = originBehind(world.stage, up);
+  }
+  return false;
 }
 
 void buildWorld(World& world, const texture::TexturedSurface& original, const std::vector<Solid>& solids,
@@ -98,7 +115,7 @@ void buildWorld(World& world, const texture::TexturedSurface& original, const st
   stage.seeThrough = view.seeThrough || std::any_of(surface.color.begin(), surface.color.end(),
                                                     [](const Vec4f& color) { return color[3] < 1.0f; });
 
-  if (options.camera.shutter > 0.0 && surface.velocity.size() == surface.positions.size()) {
+  if (options.camera.shutter > 0.0 && !surface.velocity.empty()) {
     stage.shutter = static_cast<float>(options.camera.shutter / view.frameRate);
     std::vector<Vec3f> before = surface.positions, after = surface.positions;
     for (std::size_t v = 0; v < before.size(); ++v) {
@@ -111,6 +128,7 @@ void buildWorld(World& world, const texture::TexturedSurface& original, const st
   }
   for (const Mesh& mesh : stage.meshes) world.scene.add(mesh.positions, mesh.triangles);
   world.scene.commit();
+  world.cameraInLiquid = stage.clear && isInLiquid(world, world.camera.origin);
 }
 
 // Sums of two parts of a tile's paths, which are independent or nearly so, and how many paths they are of.
@@ -195,7 +213,7 @@ void store(const Halves& halves, const Tile& tile, Layers& layers) {
     layers.rest.deviation[at] = deviationOf(halves, a.rest, b.rest);
     layers.albedo[at] = all.albedo * scale;
     layers.normal[at] = all.normal * scale;
-    layers.position[at] = all.position * scale;
+    layers.position[at] = all.met > 0.0f ? all.position * (1.0f / all.met) : Vec3f(0.0f);
   }
 }
 

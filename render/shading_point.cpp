@@ -107,6 +107,7 @@ ShadingPoint shadingPoint(const Stage& stage, const Ray& ray, bool covered) {
     point.material.roughness = stage.roughness;
     point.material.index = stage.index;
     point.material.clear = stage.clear && !covered;
+    if (point.material.clear) point.material.gloss = 1.0f;
     if (!stage.emission.empty()) {
       const texture::Vec3I& corner = liquid.triangles[ray.triangle];
       for (int k = 0; k < 3; ++k) point.material.emission += stage.emission[corner[k]] * c.weights[k];

@@ -56,9 +56,10 @@ Hit hitOf(const Stage& stage, const Ray& ray);
 // Whether the liquid touches a solid in the triangle that the ray has hit.
 bool touchesSolid(const Stage& stage, const Ray& ray);
 
-// Precondition: `ray` has hit something. A clear liquid is covered by its texture or not at all, as `covered`
-// says. `origin` lies on the smooth surface that the vertex normals suggest,
-// where that is in front of the flat triangle [Hanika21], so that facets cast no shadow on themselves.
+// Precondition: `ray` has hit something. covered: whether a clear liquid is covered by its texture there.
+//
+// `origin` lies on the smooth surface that the vertex normals suggest, where that is in front of the flat
+// triangle [Hanika21], so that facets cast no shadow on themselves.
 ShadingPoint shadingPoint(const Stage& stage, const Ray& ray, bool covered = true);
 
 // Start of the ray that continues behind the surface.

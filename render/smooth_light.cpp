@@ -35,7 +35,7 @@ void forEachRow(int height, const Body& body) {
   });
 }
 
-// The nearer of the neighbours right and below: across an edge they are far.
+// The nearest of the four neighbours: across an edge they are far.
 float footprintAt(const Guides& guides, int x, int y) {
   const std::size_t at = static_cast<std::size_t>(y) * guides.width + x;
   float nearest = std::numeric_limits<float>::max();

@@ -9,7 +9,7 @@ namespace fluidtex::render {
 namespace {
 
 constexpr float kFilterRadius = 0.8f;
-constexpr int kMostLayers = 32;  // of see-through liquid along one path
+constexpr int kMostLayers = 32;  // of see-through liquid from one scattering to the next
 
 // Between the liquid and a solid that it touches, in diagonals of the domain: nothing but the two meshes' own
 // errors.
@@ -55,6 +55,7 @@ PixelSum& PixelSum::operator+=(const PixelSum& other) {
   albedo += other.albedo;
   normal += other.normal;
   position += other.position;
+  met += other.met;
   return *this;
 }
 
@@ -93,7 +94,8 @@ void TileTracer::startPaths(int first, int last) {
       const float time = m_points[pixel].point(sample, kShutter)[0];
       m_paths.add(rayAt(time, origin, direction), {.time = time,
                                                    .pixel = static_cast<std::uint16_t>(pixel),
-                                                   .sample = static_cast<std::uint16_t>(sample)});
+                                                   .sample = static_cast<std::uint16_t>(sample),
+                                                   .inLiquid = m_world.cameraInLiquid});
     }
   }
 }
@@ -150,7 +152,8 @@ Vec3f TileTracer::absorbed(const Vec3f& from, const Vec3f& to) const {
 }
 
 // Takes a ray that leaves the liquid to the solid which the liquid touches there, if one is drawn. The two
-// meshes cross each other: the solid may also be in front by less than what rays start off a surface.
+// meshes cross each other: the solid may also lie between the liquid's surface and the place just behind it
+// where the next ray starts.
 bool TileTracer::onWetSolid(Ray& ray, const Vec3f& from) const {
   const auto distanceTo = [&](const Ray& there) {
     return there.hit() && there.geometry != kLiquid ? (hitOf(m_world.stage, there).position - from).length()
@@ -228,6 +231,7 @@ void TileTracer::scatter(const Ray& ray, Path path, bool covered) {
     sum.albedo += point.material.base * path.throughput;
     sum.normal += point.normal;
     sum.position += point.position;
+    sum.met += 1.0f;
   }
 
   const Axes axes(point.normal);
@@ -278,8 +282,10 @@ void TileTracer::lightFromSun(const ShadingPoint& point, const Axes& axes, const
   const Sky& sky = m_world.sky;
   const Vec3f direction = Axes(sky.sunDirection).world(uniformCone(spread(path, kSun), sky.sunCosine));
   const Vec3f wi = axes.local(direction), arrives = sky.sunColor * path.throughput;
+  // Paths that are refracted on their way to the sun do not count it, so that this way counts whole.
   const auto from = [&](const Lobe& lobe) {
-    return arrives * lobe.value * (lobe.pdf > 0.0f ? powerWeight(sky.sunPdf, lobe.pdf) : 0.0f);
+    if (!(lobe.pdf > 0.0f)) return Vec3f(0.0f);
+    return arrives * lobe.value * (path.inLiquid ? 1.0f : powerWeight(sky.sunPdf, lobe.pdf));
   };
   const Vec3f base = from(evaluateBase(point.material, wo, wi));
   const Vec3f light = base + from(evaluateCoat(point.material, wo, wi));
@@ -303,18 +309,21 @@ TileTracer::PixelLight TileTracer::escaped(const Vec3f& direction, const Path& p
 // clear liquid: what it would gather into caustics is spread evenly.
 Vec3f TileTracer::transmitted(Ray ray, bool inLiquid) const {
   const Stage& stage = m_world.stage;
-  Vec3f share(1.0f);
+  // Radiance inside counts by the square of the index, which paths leave out since they come out again: what
+  // comes in from outside along a straight ray is spread over all directions inside.
+  Vec3f share(inLiquid ? 1.0f / (stage.index * stage.index) : 1.0f);
   for (int layer = 0; layer < kMostLayers; ++layer) {
     m_world.scene.intersect({&ray, 1}, Coherence::scattered);
     if (!ray.hit()) return share;
+    // Between a clear liquid and what it wets there is neither a surface nor texture.
+    const bool wet = stage.clear && touchesSolid(stage, ray);
     if (stage.clear && ray.geometry == kLiquid) {
       const Hit hit = hitOf(stage, ray);
       if (inLiquid) share *= absorbed(ray.origin, hit.position);
-      if (!touchesSolid(stage, ray))
-        share *= 1.0f - boundaryAt(-ray.direction.dot(hit.faceNormal), 1.0f / stage.index).reflected;
+      if (!wet) share *= 1.0f - boundaryAt(-ray.direction.dot(hit.faceNormal), 1.0f / stage.index).reflected;
       inLiquid = !hit.inside;
     }
-    share *= 1.0f - std::clamp(liquidOpacity(stage, ray), 0.0f, 1.0f);
+    if (!wet) share *= 1.0f - std::clamp(liquidOpacity(stage, ray), 0.0f, 1.0f);
     if (!(largest(share) > 0.0f)) return Vec3f(0.0f);
     ray.origin = originBehind(stage, ray);
   }

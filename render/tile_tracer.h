@@ -24,6 +24,7 @@ struct World {
   CameraRays camera;
   Options options;
   std::uint32_t frame;
+  bool cameraInLiquid = false;  // in clear liquid
 };
 
 // Pixels x0 <= x < x1, y0 <= y < y1.
@@ -37,6 +38,7 @@ struct Tile {
 struct PixelSum {
   Vec3f radiance{0.0f}, sun{0.0f}, rest{0.0f};
   Vec3f albedo{0.0f}, normal{0.0f}, position{0.0f};
+  float met = 0.0f;  // paths that have met a matt surface first, of which position and normal are
 
   PixelSum& operator+=(const PixelSum& other);
 };

@@ -47,7 +47,7 @@ Json asked(const scenes::Scene& scene, const fs::path& run, const CyclesOptions&
           {"origin", {origin.x(), origin.y(), origin.z()}},
           {"frames", Json::array()},
           {"pictures", nullptr},
-          {"shutter", options.shutter},
+          {"shutter", options.shutter.value_or(scene.render.camera.shutter)},
           {"shader", options.shader},
           {"maps", maps},
           {"height", options.height ? Json(*options.height) : Json(nullptr)},

@@ -15,7 +15,8 @@ namespace fluidtex::tools {
 
 // What Cycles has and our own renderer has not.
 struct CyclesOptions {
-  double shutter = 0.0;         // how long it is open, frames, around the frame; 0: no motion blur
+  // How long it is open, frames, around the frame; 0: no motion blur; nothing: as the scene says.
+  std::optional<double> shutter;
   std::string shader = "coat";  // as render() has it, or "principled"
   // Pictures over the exemplar, of any size, by what they say: kMapsOfCycles.
   std::map<std::string, std::filesystem::path> maps;

@@ -252,7 +252,8 @@ std::vector<Option> cyclesOptions(RenderOptions& options) {
       {"--shutter",
        &options.cycles.shutter,
        "FRAMES",
-       "With --cycles: how many frames the shutter is open, for motion blur (default: 0, none)",
+       "With --cycles: how many frames the shutter is open, for motion blur (default: camera.shutter of the "
+       "scene)",
        {.least = 0.0, .most = 1000.0, .with = with}},
       {"--shader",
        &options.cycles.shader,

@@ -13,7 +13,7 @@ struct Waves {
   std::uint64_t seed = 3;
 };
 
-// Waves whose crests lie along the rows, more or less, and lean to the lower side. Toroidal.
+// Waves whose crests lie along the rows, more or less. Toroidal.
 struct WaveImages {
   std::vector<std::uint8_t> pixels;  // size x size x 3, sRGB: lit from above, for matching
   std::vector<std::uint8_t>

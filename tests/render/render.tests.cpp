@@ -33,8 +33,15 @@ Options smallPicture(int width, int height, int samples) {
 TEST_CASE("render: the same bytes on any number of threads", "[render]") {
   const std::vector<Solid> solids{square(0.1f, 0.4f, 0.2f, Vec3d(0.3, 0.2, 0.1))};
   for (const float alpha : {1.0f, 0.6f}) {
-    const auto ball = spottedBall(alpha);
-    const Options options = smallPicture(97, 55, 4);
+    auto ball = spottedBall(alpha);
+    Options options = smallPicture(97, 55, 40);
+    options.noise = 0.05;
+    if (alpha < 1.0f) {
+      options.material.kind = MaterialKind::water;
+      options.camera.shutter = 0.5;
+      options.camera.aperture = 0.02;
+      ball.velocity.assign(ball.positions.size(), Vec3f(0.5f, 0.2f, 0.0f));
+    }
     std::vector<Picture> pictures;
     for (const int threads : {1, 2, 5, 5}) {
       onThreads(threads,

@@ -107,9 +107,6 @@ time = 0.5
 time = 1.5
 move = [0, 0, 1]
 turn = 720
-aperture = 0.01
-focus = 2
-shutter = 0.5
 [[solid]]
 mesh_sequence = { files = "m_%d.obj", first = 0, last = 2, frame_rate = 12, start = 0.5, up = "y", rotate = [1, 2, 3], scale = 3, translate = [1, 0, 2] }
 [[source]]
@@ -223,6 +220,9 @@ from = [9, 8, 7]
 at = [1, 2, 3]
 fov = 50
 turn = -90
+aperture = 0.01
+focus = 2
+shutter = 0.5
 [light]
 sun_direction = [0, 0, 1]
 sun_color = [1, 2, 3]

@@ -6,7 +6,7 @@
 #   origin   lowest corner of the domain
 #   frames   to draw, in this order
 #   pictures folder for them: NNNN.light, rows from the top, of pixels of three floats, linear
-#   shutter  how long it is open, frames; 0: as the scene says
+#   shutter  how long it is open, frames
 #   shader   "coat", as in the run's own pictures, or "principled"
 #   maps     over the exemplar: files by "color", "roughness", "normal", "bump", "displacement", "alpha"
 #   height   of white above black in bump and displacement, m; or null
@@ -53,6 +53,8 @@ def set_up(asked):
     kind = render.get("material", {}).get("kind", "coated")
     if kind != "coated":
         print(f'warning: Cycles draws the liquid coated, not as render.material.kind = "{kind}"', flush=True)
+    if render.get("displacement", {}).get("map"):
+        print("warning: Cycles leaves render.displacement out; give --map displacement=IMAGE", flush=True)
 
     current.render.engine, current.cycles.device = "CYCLES", "CPU"
     current.cycles.samples = render["samples"]
@@ -63,9 +65,8 @@ def set_up(asked):
     ]
     current.cycles.caustics_reflective = current.cycles.caustics_refractive = False
     current.cycles.transparent_max_bounces = 32
-    shutter = asked["shutter"] or scene["camera"].get("shutter", 0)
-    current.render.use_motion_blur = shutter > 0
-    current.render.motion_blur_shutter = shutter or 0.5
+    current.render.use_motion_blur = asked["shutter"] > 0
+    current.render.motion_blur_shutter = asked["shutter"] or 0.5
     current.cycles.motion_blur_position = "CENTER"
     current.view_settings.view_transform = "Standard"
 

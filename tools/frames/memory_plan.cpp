@@ -11,7 +11,7 @@ constexpr double kBytesProgram = 250e6;
 // (tools/formats): measured at 200,000 points, 10 MB with glb, 75 with glb and usda whose joints blend, 113
 // with all four then.
 constexpr double kBytesPerCutPoint = 100.0, kBytesPerBlendedPoint = 400.0;
-// Three floats, three bytes, and those again packed.
+// Light in its parts, what each pixel shows, and a level of the wavelet beside them.
 constexpr double kRenderBytesPerPixel = 130.0;
 
 double exportBytesPerPoint(const std::vector<Format>& formats, JointsAs joints) {
