@@ -133,8 +133,8 @@ TEST_CASE("connection: curvature sums to the Euler characteristic", "[texture]")
   // The angle by which a vector is turned on its way around each triangle, summed over the closed surface, is
   // 2 pi chi; the sign is that of the angle in (d, b), which runs clockwise seen from outside.
   const std::vector<std::pair<NamedMesh, int>> cases{{{"sphere", sphereMesh(10)}, 2},
-                                                 {{"box", boxMesh({0, 0, 0}, {1, 1, 1}, {4, 4, 4})}, 2},
-                                                 {{"torus", torusMesh(40, 20)}, 0}};
+                                                     {{"box", boxMesh({0, 0, 0}, {1, 1, 1}, {4, 4, 4})}, 2},
+                                                     {{"torus", torusMesh(40, 20)}, 0}};
   for (const auto& [named, chi] : cases) {
     INFO(named.name);
     const SurfaceMesh& mesh = named.mesh;
