@@ -15,10 +15,10 @@ TEST_CASE("scene faults: wrong type", "[scenes]") {
       {"[render]\nsamples = 4.0",
        "s.toml:7:1: error: render.samples: wrong type, a decimal number where a whole number is wanted; "
        "write for example "
-       "samples = 16"},
+       "samples = 32"},
       {"[render]\nsamples = true",
        "s.toml:7:1: error: render.samples: wrong type, true where a whole number is wanted; write for "
-       "example samples = 16"},
+       "example samples = 32"},
       {"[render]\nground = 1",
        "s.toml:7:1: error: render.ground: wrong type, a whole number where true or false is wanted; write "
        "for example "
