@@ -154,11 +154,9 @@ void VelocitySampler::fill(Component& component) {
               leaf ? leaf->valueMask().getWord<std::uint64_t>(std::uint32_t(x - x0)) : 0;
           for (int y = yFirst; y < yEnd; ++y, row += alongY) {
             const int local = y - y0;
-            store8(
-                row,
-                leaf ? select8(unsigned(active >> (kSide * local)) & 0xffu,
-                                        load8(from + kSide * (kSide * (x - x0) + local)), unknown)
-                     : Float8{} + tile);
+            store8(row, leaf ? select8(unsigned(active >> (kSide * local)) & 0xffu,
+                                       load8(from + kSide * (kSide * (x - x0) + local)), unknown)
+                             : Float8{} + tile);
           }
         }
       }
