@@ -139,8 +139,7 @@ struct Halves {
   int paths() const { return firstPaths + secondPaths; }
 
   // The standard error of the mean of all, from a value's means in both halves.
-  template <class Value>
-  Value errorOf(const Value& meanOfFirst, const Value& meanOfSecond) const {
+  float errorOf(float meanOfFirst, float meanOfSecond) const {
     const float weight = std::sqrt(static_cast<float>(firstPaths) * static_cast<float>(secondPaths)) /
                          static_cast<float>(paths());
     return (meanOfFirst - meanOfSecond) * weight;

@@ -30,7 +30,7 @@ enum Dimension {
 // Weight of a sample drawn with density `pdf` where the other way of sampling would have drawn it with
 // density `other`.
 float powerWeight(float pdf, float other) {
-  return pdf > 0.0f ? pdf * pdf / (pdf * pdf + other * other) : 0.0f;
+  return pdf * pdf / (pdf * pdf + other * other);
 }
 
 Ray rayAt(float time, const Vec3f& origin, const Vec3f& direction) {

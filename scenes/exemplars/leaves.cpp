@@ -58,8 +58,7 @@ class Foliage {
 
  private:
   double drawn(int i, int j, std::uint64_t what) const {
-    const int n = m_options.across;
-    return random(m_options.seed, what, std::uint64_t(wrapped(i, n)), std::uint64_t(wrapped(j, n)));
+    return randomAt(m_options.seed, what, i, j, m_options.across);
   }
 
   Leaf leafAt(int i, int j) const {

@@ -30,13 +30,15 @@ int wrapped(int i, int n) {
   return ((i % n) + n) % n;
 }
 
+double randomAt(std::uint64_t seed, std::uint64_t what, int i, int j, int cells) {
+  return random(seed, what, std::uint64_t(wrapped(i, cells)), std::uint64_t(wrapped(j, cells)));
+}
+
 double noise(std::uint64_t seed, std::uint64_t stream, double x, double y, int cells) {
   const double u = x * cells, v = y * cells;
   const int i = int(std::floor(u)), j = int(std::floor(v));
   const double s = smooth(0.0, 1.0, u - i), t = smooth(0.0, 1.0, v - j);
-  const auto at = [&](int di, int dj) {
-    return random(seed, stream, std::uint64_t(wrapped(i + di, cells)), std::uint64_t(wrapped(j + dj, cells)));
-  };
+  const auto at = [&](int di, int dj) { return randomAt(seed, stream, i + di, j + dj, cells); };
   return mixed(mixed(at(0, 0), at(1, 0), s), mixed(at(0, 1), at(1, 1), s), t);
 }
 

@@ -13,6 +13,9 @@ using Color = std::array<double, 3>;  // linear RGB
 // 0..1, another one for each set of arguments.
 double random(std::uint64_t seed, std::uint64_t a, std::uint64_t b, std::uint64_t c);
 
+// The same for a place of the unit square's `cells` x `cells`, which goes on over its edges.
+double randomAt(std::uint64_t seed, std::uint64_t what, int i, int j, int cells);
+
 // 0 below `low`, 1 above `high`, smooth between.
 double smooth(double low, double high, double x);
 

@@ -39,9 +39,7 @@ class Painting {
 
  private:
   double drawn(int coat, int i, int j, std::uint64_t what) const {
-    const int n = m_options.across;
-    return random(m_options.seed + std::uint64_t(coat), what, std::uint64_t(wrapped(i, n)),
-                  std::uint64_t(wrapped(j, n)));
+    return randomAt(m_options.seed + std::uint64_t(coat), what, i, j, m_options.across);
   }
 
   // Whether the stroke of that place has paint at (x, y), and which.
